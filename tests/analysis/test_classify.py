@@ -342,8 +342,11 @@ def test_a_decaying_transient_does_not_lie_on_the_curve_on_which_it_ends() -> No
 @pytest.mark.parametrize("outside", [1, 2, 17])
 def test_a_motion_has_settled_from_the_first_point_after_the_last_one_outside(outside: int) -> None:
     """Points on a circle, after some far from it."""
-    angle = 2 * np.pi * GOLDEN * np.arange(400)
-    points = np.column_stack([np.cos(angle), np.sin(angle)])
+    turn = 2 * np.pi * GOLDEN
+    angle = turn * np.arange(400)
+    x = np.cos(angle)
+    y = np.sin(angle)
+    points = np.column_stack([x, y])
     points[:outside] += 1.0
     assert classify.first_settled(points) == outside
     assert classify.first_settled(points, start=outside + 5) == outside + 5
@@ -390,3 +393,11 @@ def test_a_motion_has_settled_since_the_part_of_the_record_that_shows_it() -> No
     assert later.answer is Settled.SETTLED
     # parts begin 7 % of the rest apart
     assert 150 <= later.since < 150 + 0.08 * 900
+
+
+def test_points_have_settled_on_the_later_half_of_those_from_the_start() -> None:
+    """Two places, each for some time: before the start of the search the first one counts for nothing."""
+    points = np.zeros((80, 2))
+    points[70:] = 1.0
+    points[1::2] += 0.5
+    assert classify.first_settled(points, start=60) == 70

@@ -116,6 +116,9 @@ def test_coverage_tells_lines_from_noise() -> None:
     noise = np.random.default_rng(0).normal(size=TIME.size)
     assert spectra.coverage(TIME, signal(KNOWN), 10, 300) < 0.06
     assert spectra.coverage(TIME, noise, 10, 300) > 0.95
+    # the skirt of a line beside the band is no line of the band
+    beside = np.sin(2 * np.pi * 9.5 * TIME)
+    assert spectra.coverage(TIME, beside, 10, 300) == 0.0
 
 
 SKIRTS = {

@@ -14,6 +14,7 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.data.variables import PHASES, flag_names
+from disc_model.figures import stages
 from disc_model.figures.drawing import PHASE_COLOURS, save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
@@ -162,6 +163,17 @@ def test_no_point_is_on_the_way_where_none_is_shown_to_be(size: np.ndarray) -> N
     assert np.isnan(found.final_since)
     assert not found.masks["later on the way"].any()
     assert not found.masks["separated on the way"].any()
+
+
+@pytest.mark.parametrize(("of_disc", "since"), [(250.0, 250.0), (np.inf, np.nan)])
+def test_a_motion_has_settled_when_both_its_sections_have(
+    monkeypatch: pytest.MonkeyPatch, of_disc: float, since: float
+) -> None:
+    times = {"psi": 3.0, "w_point": of_disc}
+    monkeypatch.setattr(stages, "_since", lambda samples, window, name: times[name])
+    circles = section_of(np.ones(600))
+    found = stages.settled_since(xr.DataTree(), circles)
+    assert found == pytest.approx(since, nan_ok=True)
 
 
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:

@@ -20,6 +20,7 @@ from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOST
+from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
@@ -484,3 +485,10 @@ def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
     assert len({*map(str, LOST)}) == len(LOAD_COLOURS), "also lines at which contact is lost"
     shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
     assert min(np.diff(shades)) > 0.2
+
+
+@pytest.mark.parametrize(
+    ("share", "text"), [(0.0, "0 %"), (0.004, "< 1 %"), (0.006, "1 %"), (0.52, "52 %")]
+)
+def test_a_share_that_rounds_to_nothing_is_told_from_none(share: float, text: str) -> None:
+    assert percent(share) == text.replace(" ", "\u00a0")

@@ -176,6 +176,15 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
 
 
+def test_a_special_point_of_a_stiffness_is_marked_in_kilonewtons() -> None:
+    branch = dm.continue_cycle(P.replace(Omega=15), "k_p", (1.9e4, 2.1e4))
+    (fold,) = [special for special in branch.special if special.kind == "fold"]
+    (ax,) = figure_of(branch.plot("growth_rate")).axes
+    mark = lines(ax)["fold at 20.027"]
+    assert mark.get_xdata() == pytest.approx([fold.values[0] / 1e3], rel=1e-12)
+    assert "kN/m" in ax.get_xlabel()
+
+
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     critical = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
     figure = figure_of(critical.plot())

@@ -320,8 +320,10 @@ def test_a_map_of_numbers_takes_other_colours_and_its_bar_too() -> None:
     study = xr.Dataset({"height": ([*axes], values, attrs)}, axes)
     ax = dm.plot_sweep(study, cmap="magma")
     [mesh] = ax.collections
-    assert mesh.get_cmap().name == "magma"
-    assert mesh.colorbar.cmap.name == "magma"
+    of_map = mesh.get_cmap()
+    of_bar = mesh.colorbar.cmap
+    assert of_map.name == "magma"
+    assert of_bar.name == "magma"
     with pytest.raises(dm.ParameterError, match="cmap='magma': is for maps of numbers"):
         dm.plot_sweep(outcomes(), "outcome", cmap="magma")
     with pytest.raises(dm.ParameterError, match="cmap='magmas': must be a colour map"):

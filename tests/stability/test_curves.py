@@ -7,6 +7,7 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.analysis.spectra import Resonance
+from disc_model.errors import ParameterError
 from disc_model.stability import curves
 from disc_model.stability.return_map import ReturnMap
 
@@ -79,3 +80,18 @@ def test_the_nearest_place_on_a_curve_lies_between_its_points(
     found, period_there = curves._nearest_on(curve, np.array(point), np.array(span))
     assert found == pytest.approx(distance, rel=1e-12)
     assert period_there == pytest.approx(period, rel=1e-12)
+
+
+def test_a_curve_that_cannot_be_followed_is_told_with_both_its_values(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(*_args: object, **_named: object) -> None:
+        raise ParameterError("no cycle there")
+
+    monkeypatch.setattr(curves, "continue_border", refuse)
+    plane = {"Omega": (10.0, 20.0), "N": (100.0, 400.0)}
+    case = Parameters(N=300, Omega=15)
+    search = curves._CurveSearch(case, plane, 1e-12, curves.BORDER)
+    seed = SimpleNamespace(kind="fold", case=case, period=0.01, point=None, mu=1.0)
+    search._follow(seed)
+    assert search.failures == ["fold near Omega=15, N=300: no cycle there"]

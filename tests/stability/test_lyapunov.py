@@ -192,3 +192,16 @@ def test_the_exponent_along_the_motion_is_left_out_wherever_it_is(
     assert found.trivial_exponent == pytest.approx(trivial, nan_ok=True)
     assert found.duration == 16.0
     assert found.converged.tolist() == [True, True]
+
+
+@pytest.mark.parametrize("event", [columns.RELEASES, columns.STICKS, columns.SEPARATIONS])
+def test_a_motion_with_events_of_any_kind_has_an_exponent_along_it(event: int) -> None:
+    """Such as one that slips and separates, but never sticks."""
+    log = np.zeros(1 + max(columns.RELEASES, columns.STICKS, columns.SEPARATIONS))
+    log[event] = 3
+    logs = logs_of(0.01, -2.0)
+    end = static_start(STICK)
+    found = _averaged(Status.OK, logs, 0.5, 1, log, end, True)
+    assert found.trivial_exponent == pytest.approx(0.01)
+    [exponent] = found.exponents
+    assert exponent == pytest.approx(-2.0)

@@ -6,12 +6,11 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps, colors
 
 from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.cells import entries
+from disc_model.figures.cells import entries, is_colormap, recolour
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
@@ -52,7 +51,7 @@ def plot_sweep(  # noqa: PLR0913
         (isinstance(variable, str | None), "variable", variable, "must be a name"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
-        (_is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
+        (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
     varying, column = _along_pairs(whole, x)
@@ -62,28 +61,8 @@ def plot_sweep(  # noqa: PLR0913
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
         _draw(page, varying, drawn, log)
         if cmap is not None:
-            _recolour(page.ax, cmap)
+            recolour(page.ax, cmap)
     return page.ax
-
-
-def _is_colormap(cmap: Any) -> bool:
-    """Whether this is a colour map, its name, or nothing."""
-    if isinstance(cmap, str):
-        return cmap in colormaps
-    return cmap is None or isinstance(cmap, colors.Colormap)
-
-
-def _recolour(ax: Axes, cmap: Any) -> None:
-    """Give the numbers of a map other colours; raises `ParameterError` where there are none."""
-    of_numbers = []
-    for mesh in ax.collections:
-        array = mesh.get_array()
-        if array is not None and array.ndim == 2:
-            of_numbers.append(mesh)
-    rule = "is for maps of numbers: classes and lines have colours of their own"
-    require((bool(of_numbers), "cmap", cmap, rule))
-    for mesh in of_numbers:
-        mesh.set_cmap(cmap)
 
 
 # ---- What is drawn

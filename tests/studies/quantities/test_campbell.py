@@ -101,13 +101,20 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     raised = made_up(growth_rate=rate + 0.15, cycle_growth_rate=rate[:, None] + 0.15)
     assert effects(raised) == ["destabilises"]
     assert effects(made_up(growth_rate=np.full(401, -0.05))) == ["mode_rises"]
-    flat = made_up(growth_rate=np.full(401, -0.1), cycle_growth_rate=np.full((401, 1), -0.1))
+    level = np.full(401, -0.1)
+    flat = made_up(growth_rate=level, cycle_growth_rate=level[:, None])
     assert effects(flat) == ["no_rise"]
-    lost = np.abs(peak["Omega"].values - 10.05) < 0.01
-    assert effects(made_up(growth_rate=np.where(lost, np.nan, rate))) == ["no_cycle"]
-    assert effects(made_up(cycle_growth_rate=np.full((401, 1), np.nan))) == ["unresolved"]
-    assert effects(peak.isel(Omega=slice(0, 401, 20))) == ["unresolved"]
-    assert effects(peak.isel(Omega=slice(195, 401))) == ["unresolved"]
+    speeds = peak["Omega"].values
+    lost = np.abs(speeds - 10.05) < 0.01
+    broken = made_up(growth_rate=np.where(lost, np.nan, rate))
+    assert effects(broken) == ["no_cycle"]
+    unknown = np.full((401, 1), np.nan)
+    without = made_up(cycle_growth_rate=unknown)
+    assert effects(without) == ["unresolved"]
+    coarse = peak.isel(Omega=slice(0, 401, 20))
+    assert effects(coarse) == ["unresolved"]
+    half = peak.isel(Omega=slice(195, 401))
+    assert effects(half) == ["unresolved"]
 
 
 @pytest.mark.parametrize(
@@ -148,13 +155,26 @@ def found_crossings(cell: xr.Dataset) -> list[tuple[float, float, int, str, floa
 def test_modes_cross_multiples_and_halves_of_f_s_and_turns_up_to_their_diameters() -> None:
     """The mode has 100 Hz at all speeds; the frequencies that it meets are made up."""
     speeds = np.linspace(8, 12, 401)
-    half = found_crossings(made_up(stick_slip_frequency=20 * speeds))
-    assert [row[2:] for row in half] == [(1, "stick_slip", 0.5)]
-    assert half[0][:2] == pytest.approx((10.0, 100.0))
+    steep = made_up(stick_slip_frequency=20 * speeds)
+    [half] = found_crossings(steep)
+    speed, frequency, *line = half
+    assert line == [1, "stick_slip", 0.5]
+    assert speed == pytest.approx(10.0)
+    assert frequency == pytest.approx(100.0)
+
     # 2.5 f_s, and 3 f_s at the end of the axis
-    several = found_crossings(made_up(stick_slip_frequency=4 * speeds - 0.01))
-    assert [row[4] for row in several] == [3.0, 2.5]
-    assert [row[0] for row in several] == pytest.approx([(100 / 3 + 0.01) / 4, 10.0025])
+    gentle = made_up(stick_slip_frequency=4 * speeds - 0.01)
+    third, second = found_crossings(gentle)
+    assert third[4] == 3.0
+    assert second[4] == 2.5
+    assert third[0] == pytest.approx((100 / 3 + 0.01) / 4)
+    assert second[0] == pytest.approx(10.0025)
+
+    # all are counted, although the table has the first ones only
+    short = Campbell(max_crossings=1)
+    first = short.summarise(gentle)
+    assert first["n_crossings"] == 2
+    assert len(first["crossing_Omega"]) == 1
 
     turning = {"rotation_frequency": 5.02 * speeds, "stick_slip_frequency": np.full(401, np.nan)}
     assert Campbell().summarise(made_up(**turning))["n_crossings"] == 0  # of l = 1 only once
