@@ -45,6 +45,19 @@ def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:
 
 
 @pytest.mark.compiled
+def test_a_file_without_compression_holds_the_same(tree: xr.DataTree, tmp_path: Path) -> None:
+    small = tmp_path / "small.nc"
+    large = tmp_path / "large.nc"
+    save(tree, small)
+    save(tree, large, compressed=False)
+    assert load(large).identical(load(small))
+    for path in (small, large):
+        forces = load(path)["zoom/P"]
+        assert forces.encoding["fletcher32"]
+        assert forces.encoding["zlib"] == (path == small)
+
+
+@pytest.mark.compiled
 def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
     for name in ("a.nc", "b.nc"):
         case = run_case(spec_of())

@@ -366,14 +366,15 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     """Whether mean, spread and number of samples change in a record, by straight lines through their
     values in windows; arguments as in `settling`."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
-    parts = np.split(x, np.searchsorted(t, edges[1:-1]))
-    if min(part.size for part in parts) < LEAST_SAMPLES:
+    starts = np.concatenate([[0], np.searchsorted(t, edges[1:-1])])
+    counts = np.diff(starts, append=x.size)
+    if counts.min() < LEAST_SAMPLES:
         return Settling()
 
     # moments of each window, relative to the width of the motion
-    means = np.array([part.mean() for part in parts])
-    spreads = np.array([part.std() for part in parts])
-    counts = np.array([part.size for part in parts])
+    means = np.add.reduceat(x, starts) / counts
+    deviations = x - np.repeat(means, counts)
+    spreads = np.sqrt(np.add.reduceat(deviations**2, starts) / counts)
     width = max(2 * spreads.max(), still * float(np.abs(means).max()), np.finfo(float).tiny)
     moments = np.array([means / width, 2 * spreads / width, counts / counts.mean()])
 

@@ -27,10 +27,15 @@ NOT_COMPUTED = "not computed"
 VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_TESTED, NOT_COMPUTED)
 
 
+_LOADER = getattr(
+    yaml, "CSafeLoader", yaml.SafeLoader
+)  # in a tenth of the time, where there is one
+
+
 def read_texts(name: str) -> Any:
     """Return the content of a YAML file, by its path from the package on."""
     path = Path(__file__).parents[1] / name
-    return yaml.safe_load(path.read_text(encoding="utf-8"))
+    return yaml.load(path.read_text(encoding="utf-8"), _LOADER)
 
 
 @cache
