@@ -35,13 +35,13 @@ class _Motions(NamedTuple):
 
 def draw(plot: RangeLawPlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw the excess of the range over the pinned range, of all motions of the study: all of it
-    against the pinned range, and enlarged against the share of time apart; hollow where several
+    against the pinned range, and against the share of time apart; hollow where several
     frequencies share the motion."""
     motions = _motions_of(study, plot)
     figure, axes = drawing.row_of_panels(plot.inches, 2, 3.0, 2.8)
     _draw_all(axes[0], motions)
     _draw_enlarged(axes[1], motions)
-    drawing.letters(axes, ("all motions", "enlarged"))
+    drawing.letters(axes, ("all motions", "by the time apart"))
     _explain(figure, motions, plot.share)
     return figure
 
