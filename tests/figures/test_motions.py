@@ -14,7 +14,7 @@ from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
-from disc_model.figures.branches import LOWEST, Sweep
+from disc_model.figures.branches import LOWEST, Sweep, stable_segments
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
@@ -95,6 +95,25 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
     ]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(13, 14), (11, 10)]
     assert "jump" in labels(figure)
+
+
+@pytest.mark.parametrize(
+    ("growth", "stable"),
+    [
+        ([-1.0, -2.0, 1.0, 2.0], [True, False, False]),
+        ([-1.0, 0.0, 1.0], [True, False]),
+        ([1.0, 0.0, -1.0, 0.0], [False, True, True]),
+        ([1.0, 0.0, 0.0, 1.0], [False, True, False]),
+        ([-1.0, 0.0, 0.0, -1.0], [True, False, True]),
+        ([0.0, 0.0, -1.0], [False, True]),
+        ([-1.0, np.nan, -1.0], [False, False]),
+    ],
+)
+def test_a_branch_changes_stability_where_its_growth_rate_is_exactly_0(
+    growth: list[float], stable: list[bool]
+) -> None:
+    """Between two such points it is what it is not before them."""
+    assert stable_segments(np.array(growth)).tolist() == stable
 
 
 # ---- basins

@@ -176,6 +176,55 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
 
 
+@functools.cache
+def orthonormal_branch() -> Any:
+    case = dm.Parameters(N=385, Omega=14.9, normalization="orthonormal")
+    return dm.continue_cycle(case, "Omega", (10.9, 15.2))
+
+
+def thick_stretches(ax: Any) -> list[tuple[float, float]]:
+    """First and last place of each thick line."""
+    widest = max(line.get_linewidth() for line in ax.lines)
+    drawn = [line.get_xdata() for line in ax.lines if line.get_linewidth() == widest]
+    return [(places[0], places[-1]) for places in drawn]
+
+
+def test_a_branch_is_thick_up_to_its_bifurcations() -> None:
+    """It was thin from the last stable point computed, 12.48 rad/s, to the bifurcation at 12.83."""
+    (ax,) = figure_of(orthonormal_branch().plot("period")).axes
+    borders = np.array(thick_stretches(ax))
+    located = orthonormal_branch().changes
+    speeds = [special.values[0] for special in located if special.changes_stability]
+    # the lines are drawn to the located points themselves
+    assert borders.ravel() == pytest.approx(speeds, rel=1e-12)
+    named = [11.6371, 12.3311, 12.3291, 12.8303, 12.8363, 14.8274]
+    assert speeds == pytest.approx(named, abs=1e-4)  # rounded to four places
+    for low, high in borders:
+        for speed in (0.999 * low + 0.001 * high, 0.001 * low + 0.999 * high):
+            assert dm.floquet(P.replace(Omega=speed, normalization="orthonormal")).stable
+
+
+def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
+    """The fold is its last point, too, whose growth rate is rounding."""
+    branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2), stop_at="fold")
+    (ax,) = figure_of(branch.plot()).axes
+    fold = branch.folds[0, 0]
+    assert thick_stretches(ax) == [(14.8, fold)]
+
+
+def test_branches_on_the_same_axes_share_a_legend() -> None:
+    """It was that of the last one, without the marks of the others."""
+    fold = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    ax = branch().plot("period")
+    fold.plot("period", ax=ax, labels={"fold at 15.095": "limit"})
+    orthonormal_branch().plot("period", ax=ax)
+    expected = ["stable", "unstable", "limit", "2 folds", "4 Neimark-Sacker bifurcations"]
+    assert labels(ax) == expected
+    assert ax.figure.legends == []
+    ax = branch().plot("period", legend=False)
+    assert ax.figure.legends == []
+
+
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     critical = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
     figure = figure_of(critical.plot())

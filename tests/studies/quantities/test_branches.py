@@ -35,6 +35,7 @@ def test_the_quiet_branch_turns_at_the_fold(table: Table) -> None:
     assert table.arrays["separations"][0, 0] == 0
     assert np.nanmax(value) == pytest.approx(15.0949, abs=1e-3)  # points lie beside the fold
     last = int(np.nanargmax(value))
+    assert growth[last] == 0.0
     assert growth[last - 5] < 0 < growth[last + 5] or growth[last + 5] < 0 < growth[last - 5]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -31,6 +32,10 @@ LABELS: dict[str, str] = {
     "end": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
+CHANGES = ("fold", "period_doubling", "neimark_sacker")
+"""Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
+circle."""
+NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 VARIABLES: dict[str, Variable] = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
     "period": Variable("s", "period of the cycle"),
@@ -73,6 +78,13 @@ class SpecialPoint:
     def label(self) -> str:
         """Label of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR."""
         return LABELS[self.kind]
+
+    @property
+    def changes_stability(self) -> bool:
+        """Whether the cycle gains or loses stability here: no multiplier but the critical one is
+        on the unit circle or beyond it."""
+        neutral = abs(self.growth_rate * self.period) <= NEUTRAL
+        return self.kind in CHANGES and neutral
 
     @cached_property
     def point(self) -> Array:
@@ -228,6 +240,35 @@ class Branch:
             ranges.append(range_of_cycle(self.case_at(i), self.state(i), period))
         return np.array(ranges)
 
+    @property
+    def changes(self) -> list[SpecialPoint]:
+        """The special points at which a multiplier crosses the unit circle, in their order."""
+        return [special for special in self.special if special.kind in CHANGES]
+
+    def refined(self, name: str) -> Array:
+        """One of `variables`, or `values`, at the points of the branch and, in their places between
+        these, at its `changes`; shape (n_points + n_changes, ...), in SI units."""
+        own = np.asarray(getattr(self, name))
+        places = [special.after + 1 for special in self.changes]
+        if not places:
+            return own
+        located = [getattr(special, name) for special in self.changes]
+        return np.insert(own, places, located, axis=0)
+
+    def refined_growth_rate(self) -> Array:
+        """As `refined("growth_rate")`, 1/s, and exactly 0 where the cycle gains or loses stability."""
+        growth = self.refined("growth_rate").copy()
+        changing = [special.changes_stability for special in self.changes]
+        after = np.array([special.after for special in self.changes], dtype=int)
+        growth[(after + 1 + np.arange(len(after)))[changing]] = 0.0
+
+        # a branch that ends at a special point has it as one of its points, too
+        numbers = np.arange(len(self))
+        places = numbers + np.searchsorted(after, numbers)
+        periods = [special.period for special in self.changes if special.changes_stability]
+        growth[places[np.isin(self.period, periods)]] = 0.0
+        return growth
+
     def _number(self, i: int) -> int:
         """A number of a cycle, checked, counted from the first one."""
         number: Any
@@ -239,12 +280,23 @@ class Branch:
         require((isinstance(number, int), "i", i, rule))  # a slice gives several
         return int(number)
 
-    def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
+    def plot(
+        self,
+        y: str = "growth_rate",
+        *,
+        ax: Axes | None = None,
+        legend: bool | Mapping[str, Any] = True,
+        labels: Mapping[str, str] | None = None,
+        title: str | None = None,
+    ) -> Axes:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
         parameter, thick where the cycle is stable, and the special points.
 
-        A branch in two parameters is drawn as the second over the first. Returns the axes; raises
-        `ParameterError` if `y` is another name, or `ax` no axes.
+        Stability changes at special points, which are located to rounding. A branch in two
+        parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
+        as in `Result.plot`; the legend of axes with several branches has the entries of all.
+        Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
+        understood.
 
         Examples
         --------
@@ -252,4 +304,4 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        return draw("plot_branch", self, y, ax=ax)
+        return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)
