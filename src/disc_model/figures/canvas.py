@@ -205,7 +205,10 @@ def _joined(ax: Axes, handles: Sequence[Artist]) -> list[Artist]:
     """The entries of the legend that axes have, or that their figure has of them alone, and those
     of some others whose words are not among these; the legend is removed."""
     figure: Any = ax.get_figure()
-    former = [ax.get_legend()] if ax.get_legend() else []
+    former: list[Any] = []
+    own = ax.get_legend()
+    if own is not None:
+        former.append(own)
     if figure.axes == [ax]:
         former += figure.legends
     entries: dict[str, Artist] = {}

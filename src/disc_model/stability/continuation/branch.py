@@ -126,6 +126,7 @@ class Branch:
     ended : reason for which the branch ends; of both ends if they differ, that of the first point first
     case : whose cycle is followed; its own values of the free parameters do not count
     special : the special points in their order along the branch; `special_points` is their table
+    not_reached : those of the `values` asked for at which the branch has no cycle, in SI units
     """
 
     parameters: tuple[str, ...]
@@ -141,6 +142,7 @@ class Branch:
     ended: str
     case: Parameters = field(repr=False)
     special: tuple[SpecialPoint, ...] = ()
+    not_reached: Array = field(default_factory=lambda: np.zeros(0))
     _make_map: MapFactory = ReturnMap
     variables: ClassVar = VARIABLES
 
@@ -153,7 +155,15 @@ class Branch:
         for name, values in zip(self.parameters, reached.T, strict=True):
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
         folds = counted(len(self.folds), "fold")
-        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended})"
+        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; {self._end_text()})"
+
+    def _end_text(self) -> str:
+        """Why the branch ends, and which of the values asked for it has not reached."""
+        text = f"ended: {self.ended}"
+        if not len(self.not_reached):
+            return text
+        missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
+        return f"{text}; not reached: {self.parameters[0]} = {missed}"
 
     def _repr_html_(self) -> str:
         """The special points in a notebook, and why the branch ends."""
@@ -165,7 +175,7 @@ class Branch:
             values = [f"{value:.9g}" for value in special.values]
             rates = (number_text(special.growth_rate), number_text(special.period))
             rows.append((special.kind, special.label, *values, *rates))
-        rows.append((f"{len(self)} cycles", "", f"ended: {self.ended}"))
+        rows.append((f"{len(self)} cycles", "", self._end_text()))
         return html_table(("kind", "label", *head, "growth rate (1/s)", "period (s)"), rows)
 
     @property

@@ -1,6 +1,7 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -76,7 +77,8 @@ def continue_cycle(  # noqa: PLR0913
     guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
         begins there is followed, one way
     steps : length and number of the steps
-    values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
+    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
+        those that it never passes are its `not_reached`
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
@@ -123,8 +125,16 @@ def continue_cycle(  # noqa: PLR0913
     start = case.numbers[name]
     slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
-    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"
-    require((within, name, start, rule))
+    unit = case.unit(name).removeprefix("1")
+    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
+    outside = []
+    for given, value in zip(values, wanted, strict=True):
+        if not span[0] - slack <= value <= span[1] + slack:
+            outside.append(given)
+    require(
+        (within, name, start, f"{rule}, to start from there"),
+        (not outside, "values", next(iter(outside), None), rule),
+    )
 
     scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
@@ -133,7 +143,9 @@ def continue_cycle(  # noqa: PLR0913
     search = Search(problem, steps, span, stop_at)
     course = search.follow(problem.start(cycle, rising), int(direction))
     course = search.with_values(course, wanted)
-    return branch_of(problem, course, (*span, start, *wanted))
+    branch = branch_of(problem, course, (*span, start, *wanted))
+    missed = [value for value in wanted if np.abs(branch.values - value).min() > slack]
+    return replace(branch, not_reached=np.array(missed, dtype=float))
 
 
 def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
