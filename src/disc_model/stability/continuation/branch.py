@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices
-from disc_model.data.variables import Variable
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
+from disc_model.stability.continuation.data import VARIABLES, dataset_of
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.segments import range_of_cycle
 
 if TYPE_CHECKING:
     import pandas as pd
+    import xarray as xr
     from matplotlib.axes import Axes
 
 LABELS: dict[str, str] = {
@@ -36,13 +37,6 @@ CHANGES = ("fold", "period_doubling", "neimark_sacker")
 """Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
 circle."""
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
-VARIABLES: dict[str, Variable] = {
-    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
-    "period": Variable("s", "period of the cycle"),
-    "stick_fraction": Variable("1", "share of the period spent sticking"),
-    "range": Variable("m", "range of the slider's height over a period"),
-}
-"""What is known of each cycle of a branch, and of each special point."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -211,6 +205,31 @@ class Branch:
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
         return pd.DataFrame(columns)
+
+    def to_dataset(self) -> xr.Dataset:
+        """The whole branch as a dataset, to save, or to handle by xarray and pandas.
+
+        Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
+        `stick_fraction`, `range` (m, for which each cycle is simulated for a period),
+        `largest_multiplier` (modulus), `stable`, `separations`, `diameters`, `multipliers`, and the
+        cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along
+        `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
+        `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
+        `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
+        the case's `parameters` in JSON, and `not_reached` if there are such values.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+        >>> data = branch.to_dataset()
+        >>> data["special_kind"].values.tolist(), data["period"].attrs["units"]
+        (['end', 'fold', 'end'], 's')
+        >>> dm.save(data, "branch.nc")
+        >>> dm.load("branch.nc").identical(data)
+        True
+        """
+        return dataset_of(self)
 
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle: the case followed with this cycle's values of the free
