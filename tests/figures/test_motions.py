@@ -100,20 +100,24 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
 @pytest.mark.parametrize(
     ("growth", "stable"),
     [
-        ([-1.0, -2.0, 1.0, 2.0], [True, False, False]),
-        ([-1.0, 0.0, 1.0], [True, False]),
-        ([1.0, 0.0, -1.0, 0.0], [False, True, True]),
-        ([1.0, 0.0, 0.0, 1.0], [False, True, False]),
-        ([-1.0, 0.0, 0.0, -1.0], [True, False, True]),
-        ([0.0, 0.0, -1.0], [False, True]),
-        ([-1.0, np.nan, -1.0], [False, False]),
+        ("- - + +", "yes no no"),
+        ("- 0 +", "yes no"),
+        ("+ 0 - 0", "no yes yes"),
+        ("+ 0 0 +", "no yes no"),
+        ("- 0 0 -", "yes no yes"),
+        ("0 0 -", "no yes"),
+        ("- nan -", "no no"),
     ],
 )
 def test_a_branch_changes_stability_where_its_growth_rate_is_exactly_0(
-    growth: list[float], stable: list[bool]
+    growth: str, stable: str
 ) -> None:
     """Between two such points it is what it is not before them."""
-    assert stable_segments(np.array(growth)).tolist() == stable
+    numbers = {"-": -1.0, "0": 0.0, "+": 1.0, "nan": np.nan}
+    rates = [numbers[sign] for sign in growth.split()]
+    found = stable_segments(np.array(rates))
+    words = np.where(found, "yes", "no")
+    assert " ".join(words) == stable
 
 
 # ---- basins

@@ -176,53 +176,80 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
 
 
+ORTHONORMAL = dm.Parameters(N=385, Omega=14.9, normalization="orthonormal")
+QUIET = P.replace(Omega=14.9)
+
+
 @functools.cache
 def orthonormal_branch() -> Any:
-    case = dm.Parameters(N=385, Omega=14.9, normalization="orthonormal")
-    return dm.continue_cycle(case, "Omega", (10.9, 15.2))
+    bounds = (10.9, 15.2)
+    return dm.continue_cycle(ORTHONORMAL, "Omega", bounds)
 
 
-def thick_stretches(ax: Any) -> list[tuple[float, float]]:
-    """First and last place of each thick line."""
-    widest = max(line.get_linewidth() for line in ax.lines)
-    drawn = [line.get_xdata() for line in ax.lines if line.get_linewidth() == widest]
-    return [(places[0], places[-1]) for places in drawn]
+def thick_ends(ax: Any) -> list[float]:
+    """First and last place of each thick line, one after the other."""
+    widths = [line.get_linewidth() for line in ax.lines]
+    widest = max(widths)
+    ends = []
+    for line in ax.lines:
+        places = line.get_xdata()
+        if line.get_linewidth() == widest:
+            ends += [places[0], places[-1]]
+    return ends
 
 
 def test_a_branch_is_thick_up_to_its_bifurcations() -> None:
     """It was thin from the last stable point computed, 12.48 rad/s, to the bifurcation at 12.83."""
-    (ax,) = figure_of(orthonormal_branch().plot("period")).axes
-    borders = np.array(thick_stretches(ax))
-    located = orthonormal_branch().changes
-    speeds = [special.values[0] for special in located if special.changes_stability]
-    # the lines are drawn to the located points themselves
-    assert borders.ravel() == pytest.approx(speeds, rel=1e-12)
-    named = [11.6371, 12.3311, 12.3291, 12.8303, 12.8363, 14.8274]
-    assert speeds == pytest.approx(named, abs=1e-4)  # rounded to four places
-    for low, high in borders:
-        for speed in (0.999 * low + 0.001 * high, 0.001 * low + 0.999 * high):
-            assert dm.floquet(P.replace(Omega=speed, normalization="orthonormal")).stable
+    branch = orthonormal_branch()
+    ax = branch.plot("period")
+    ends = thick_ends(ax)
+    located = []
+    for special in branch.changes:
+        if special.changes_stability:
+            located.append(special.values[0])
+    assert ends == pytest.approx(located, rel=1e-12)  # the located points themselves
+    assert located == pytest.approx(
+        [11.6371, 12.3311, 12.3291, 12.8303, 12.8363, 14.8274],
+        abs=1e-4,  # as they are written here
+    )
+
+
+@pytest.mark.parametrize(
+    ("speed", "stable"),
+    [
+        (12.8303, True),
+        (12.8304, False),
+        (12.8363, False),
+        (12.8364, True),
+        (14.8273, True),
+        (14.8274, False),
+    ],
+)
+def test_the_ends_of_thick_lines_are_those_of_stable_cycles(speed: float, stable: bool) -> None:
+    """By the cycle at that speed alone, next to the places above."""
+    case = ORTHONORMAL.replace(Omega=speed)
+    cycle = dm.floquet(case)
+    assert cycle.stable == stable
 
 
 def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
     """The fold is its last point, too, whose growth rate is rounding."""
-    branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2), stop_at="fold")
-    (ax,) = figure_of(branch.plot()).axes
+    branch = dm.continue_cycle(QUIET, "Omega", (14.8, 15.2), stop_at="fold")
+    ax = branch.plot()
     fold = branch.folds[0, 0]
-    assert thick_stretches(ax) == [(14.8, fold)]
+    assert thick_ends(ax) == [14.8, fold]
 
 
 def test_branches_on_the_same_axes_share_a_legend() -> None:
     """It was that of the last one, without the marks of the others."""
-    fold = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
+    bounds = (14.8, 15.2)
+    folded = dm.continue_cycle(QUIET, "Omega", bounds)
     ax = branch().plot("period")
-    fold.plot("period", ax=ax, labels={"fold at 15.095": "limit"})
+    other = {"fold at 15.095": "limit"}
+    folded.plot("period", ax=ax, labels=other)
     orthonormal_branch().plot("period", ax=ax)
-    expected = ["stable", "unstable", "limit", "2 folds", "4 Neimark-Sacker bifurcations"]
-    assert labels(ax) == expected
-    assert ax.figure.legends == []
-    ax = branch().plot("period", legend=False)
-    assert ax.figure.legends == []
+    assert labels(ax) == ["stable", "unstable", "limit", "2 folds", "4 Neimark-Sacker bifurcations"]
+    assert not ax.figure.legends
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -21,7 +20,6 @@ from disc_model.stability.segments import range_of_cycle
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-    from matplotlib.axes import Axes
 
 LABELS: dict[str, str] = {
     "fold": "LP",
@@ -313,11 +311,11 @@ class Branch:
         self,
         y: str = "growth_rate",
         *,
-        ax: Axes | None = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
+        ax: Any = None,
+        legend: bool | dict[str, Any] = True,
+        labels: dict[str, str] | None = None,
         title: str | None = None,
-    ) -> Axes:
+    ) -> Any:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
         parameter, thick where the cycle is stable, and the special points.
 

@@ -1,7 +1,6 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
+ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
 STOPS = (special.FOLD, special.PERIOD_DOUBLING, special.NEIMARK_SACKER)
 
 
@@ -123,7 +123,7 @@ def continue_cycle(  # noqa: PLR0913
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
-    slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
+    slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
     unit = case.unit(name).removeprefix("1")
     rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
@@ -143,17 +143,17 @@ def continue_cycle(  # noqa: PLR0913
     search = Search(problem, steps, span, stop_at)
     course = search.follow(problem.start(cycle, rising), int(direction))
     course = search.with_values(course, wanted)
-    branch = branch_of(problem, course, (*span, start, *wanted))
-    missed = [value for value in wanted if np.abs(branch.values - value).min() > slack]
-    return replace(branch, not_reached=np.array(missed, dtype=float))
+    return branch_of(problem, course, (*span, start), wanted)
 
 
-def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
+def branch_of(
+    problem: CycleProblem, course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()
+) -> Branch:
     """The branch of a course, in SI units. Values of the parameter that scaling has moved by its
-    rounding from one of some `exact` ones are these."""
+    rounding from one of some `exact` or `wanted` ones are these."""
     points = course.points
     values = np.array([point.z[problem.n :] * problem.scales for point in points])
-    for value in exact:
+    for value in (*exact, *wanted):
         values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
     every = [multipliers(point.jacobian) for point in points]
     period = np.array([point.orbit.period for point in points])
@@ -161,6 +161,8 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
     growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
     rows = _special_points(problem, course)
     folds = [row.values for row in rows if row.kind == special.FOLD]
+    nearest = [np.abs(values - value).min() for value in wanted]
+    missed = np.array(nearest) > ROUNDING * problem.scales[0]
     reasons = [end.text for end in (course.first, course.last) if end is not None]
     return Branch(
         parameters=problem.names,
@@ -176,6 +178,7 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
         ended="; ".join(dict.fromkeys(reasons)),
         case=problem.base,
         special=rows,
+        not_reached=np.array(wanted, dtype=float)[missed],
         _make_map=problem.make_map,
     )
 
