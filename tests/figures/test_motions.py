@@ -68,7 +68,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "separations": [0, 2],
         "value": [[10.0, 12.0, 13.0, 12.0], [11.0, 14.0]],
         "range": [[1e-5, 2e-5, 3e-5, 1e-4], [2e-2, 3e-2]],
-        "growth_rate": [[-0.1, -0.1, -0.01, 0.2], [-0.1, -0.1]],
+        "growth_rate": [[-0.1, -0.1, 0.0, 0.2], [-0.1, -0.1]],
         "sweep_range": np.array([[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2e-2, 3e-2]]),
         "sweep_separation_rate": np.array([[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
         "sweep_settled": np.full((2, 5), 2),
