@@ -52,7 +52,7 @@ def _quantity(
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         for fault in error.faults:
-            faults.append(Fault(_argument(fault.path), fault.value, fault.rule))
+            faults.append(_of_argument(fault, options))
     faults += violations(
         (isinstance(progress, bool), "progress", progress, "must be True or False")
     )
@@ -73,6 +73,17 @@ def _quantity(
         words = flag_names(dataset[flag])
         dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
     return dataset
+
+
+def _of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:
+    """A fault of an option of a quantity as that of the argument of a function; of a whole scan it is
+    one of the bounds."""
+    if fault.path != ("scan",):
+        return Fault(_argument(fault.path), fault.value, fault.rule)
+    scan = options["scan"]
+    bounds = (scan["start"], scan["stop"])
+    rule = fault.rule.replace("stop - start", "their difference in rad/s")
+    return Fault.of(("bounds",), bounds, rule)
 
 
 def _argument(path: tuple[str, ...]) -> tuple[str, ...]:
