@@ -101,7 +101,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (RUN.plot_poincare, {}, PICTURE | {"window": "None"}),
     *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
-    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, {"ax": "None"}),
+    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, PICTURE),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
     (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),

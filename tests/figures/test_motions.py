@@ -14,7 +14,7 @@ from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
-from disc_model.figures.branches import LOWEST, Sweep
+from disc_model.figures.branches import LOWEST, Sweep, stable_segments
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
@@ -69,7 +69,7 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
         "separations": [0, 2],
         "value": [[10.0, 12.0, 13.0, 12.0], [11.0, 14.0]],
         "range": [[1e-5, 2e-5, 3e-5, 1e-4], [2e-2, 3e-2]],
-        "growth_rate": [[-0.1, -0.1, -0.01, 0.2], [-0.1, -0.1]],
+        "growth_rate": [[-0.1, -0.1, 0.0, 0.2], [-0.1, -0.1]],
         "sweep_range": np.array([[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2e-2, 3e-2]]),
         "sweep_separation_rate": np.array([[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
         "sweep_settled": np.full((2, 5), 2),
@@ -96,6 +96,29 @@ def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.Mo
     ]
     assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(13, 14), (11, 10)]
     assert "jump" in labels(figure)
+
+
+@pytest.mark.parametrize(
+    ("growth", "stable"),
+    [
+        ("- - + +", "yes no no"),
+        ("- 0 +", "yes no"),
+        ("+ 0 - 0", "no yes yes"),
+        ("+ 0 0 +", "no yes no"),
+        ("- 0 0 -", "yes no yes"),
+        ("0 0 -", "no yes"),
+        ("- nan -", "no no"),
+    ],
+)
+def test_a_branch_changes_stability_where_its_growth_rate_is_exactly_0(
+    growth: str, stable: str
+) -> None:
+    """Between two such points it is what it is not before them."""
+    numbers = {"-": -1.0, "0": 0.0, "+": 1.0, "nan": np.nan}
+    rates = [numbers[sign] for sign in growth.split()]
+    found = stable_segments(np.array(rates))
+    words = np.where(found, "yes", "no")
+    assert " ".join(words) == stable
 
 
 # ---- basins

@@ -185,6 +185,82 @@ def test_a_special_point_of_a_stiffness_is_marked_in_kilonewtons() -> None:
     assert "kN/m" in ax.get_xlabel()
 
 
+ORTHONORMAL = dm.Parameters(N=385, Omega=14.9, normalization="orthonormal")
+QUIET = P.replace(Omega=14.9)
+
+
+@functools.cache
+def orthonormal_branch() -> Any:
+    bounds = (10.9, 15.2)
+    return dm.continue_cycle(ORTHONORMAL, "Omega", bounds)
+
+
+def thick_ends(ax: Any) -> list[float]:
+    """First and last place of each thick line, one after the other."""
+    widths = [line.get_linewidth() for line in ax.lines]
+    widest = max(widths)
+    ends = []
+    for line in ax.lines:
+        places = line.get_xdata()
+        if line.get_linewidth() == widest:
+            ends += [places[0], places[-1]]
+    return ends
+
+
+def test_a_branch_is_thick_up_to_its_bifurcations() -> None:
+    """It was thin from the last stable point computed, 12.48 rad/s, to the bifurcation at 12.83."""
+    branch = orthonormal_branch()
+    ax = branch.plot("period")
+    ends = thick_ends(ax)
+    located = []
+    for special in branch.changes:
+        if special.changes_stability:
+            located.append(special.values[0])
+    assert ends == pytest.approx(located, rel=1e-12)  # the located points themselves
+    assert located == pytest.approx(
+        [11.6371, 12.3311, 12.3291, 12.8303, 12.8363, 14.8274],
+        abs=1e-4,  # as they are written here
+    )
+
+
+@pytest.mark.parametrize(
+    ("speed", "stable"),
+    [
+        (12.8303, True),
+        (12.8304, False),
+        (12.8363, False),
+        (12.8364, True),
+        (14.8273, True),
+        (14.8274, False),
+    ],
+)
+def test_the_ends_of_thick_lines_are_those_of_stable_cycles(speed: float, stable: bool) -> None:
+    """By the cycle at that speed alone, next to the places above."""
+    case = ORTHONORMAL.replace(Omega=speed)
+    cycle = dm.floquet(case)
+    assert cycle.stable == stable
+
+
+def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
+    """The fold is its last point, too, whose growth rate is rounding."""
+    branch = dm.continue_cycle(QUIET, "Omega", (14.8, 15.2), stop_at="fold")
+    ax = branch.plot()
+    fold = branch.folds[0, 0]
+    assert thick_ends(ax) == [14.8, fold]
+
+
+def test_branches_on_the_same_axes_share_a_legend() -> None:
+    """It was that of the last one, without the marks of the others."""
+    bounds = (14.8, 15.2)
+    folded = dm.continue_cycle(QUIET, "Omega", bounds)
+    ax = branch().plot("period")
+    other = {"fold at 15.095": "limit"}
+    folded.plot("period", ax=ax, labels=other)
+    orthonormal_branch().plot("period", ax=ax)
+    assert labels(ax) == ["stable", "unstable", "limit", "2 folds", "4 Neimark-Sacker bifurcations"]
+    assert not ax.figure.legends
+
+
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
     critical = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
     figure = figure_of(critical.plot())

@@ -35,6 +35,11 @@ def exponents() -> Any:
     return dm.lyapunov_exponents(CASE, 0.5, count=2)
 
 
+@functools.cache
+def branch() -> Any:
+    return dm.continue_cycle(CASE, "Omega", (14.5, 15.5))
+
+
 DRAWN: dict[str, Draw] = {
     "run": lambda **wishes: run().plot("late", variables=["P"], **wishes),
     "portrait": lambda **wishes: run().plot_phase_portrait("late", **wishes),
@@ -42,12 +47,13 @@ DRAWN: dict[str, Draw] = {
     "multipliers": lambda **wishes: dm.floquet(CASE).plot(**wishes),
     "eigenvalues": lambda **wishes: dm.steady_sliding(CASE).plot(**wishes),
     "exponents": lambda **wishes: exponents().plot(**wishes),
+    "branch": lambda **wishes: branch().plot("period", **wishes),
     "line": lambda **wishes: dm.plot_sweep(growth().sel(N=385), **wishes),
     "map": lambda **wishes: dm.plot_sweep(growth(), **wishes),
     "words": lambda **wishes: dm.plot_sweep(growth(), "stable", **wishes),
 }
 """Pictures of one panel."""
-WITH_LEGEND = ("portrait", "multipliers", "eigenvalues", "map", "words")
+WITH_LEGEND = ("portrait", "multipliers", "eigenvalues", "branch", "map", "words")
 
 
 @pytest.fixture(autouse=True)

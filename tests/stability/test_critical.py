@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves
+from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves, sweep
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.stability import critical
 from disc_model.stability.continuation import spectrum
@@ -91,6 +91,36 @@ def test_crossings_are_the_upper_ends_of_their_intervals(monkeypatch: pytest.Mon
     assert begins.unstable[0, 0] == 0.0
     # and nowhere, as far as was seen
     assert math.isnan(scan_of([(0.41, 0.49)], monkeypatch, points=11).value)
+
+
+@pytest.mark.parametrize(
+    ("stretch", "message"),
+    [
+        ((-1.0, 0.2), "already unstable at the lower bound, c = 0 N s/m"),
+        ((0.2, 0.7), ""),
+        ((0.41, 0.49), "stable at all 11 values computed"),
+    ],
+)
+def test_a_value_that_is_no_border_is_said_to_be_none(
+    stretch: tuple[float, float], message: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The lower bound was given as the critical value in silence, 15 times of 40 in a sweep."""
+    found = scan_of([stretch], monkeypatch, points=11)
+    assert found.message == message
+    assert message in repr(found)
+    assert message in found._repr_html_()
+
+
+@pytest.mark.compiled
+def test_a_sweep_keeps_what_is_said_of_a_critical_value() -> None:
+    case = Parameters(N=385, Omega=15)
+    found = sweep(
+        critical.critical, case, N=[385.0, 400.0], name="Omega", bounds=(15.2, 16), points=3
+    )
+    said = found["message"].values
+    expected = "already unstable at the lower bound, Omega = 15.2 rad/s"
+    assert said[0] == expected
+    assert found["value"][0] == 15.2
 
 
 @pytest.mark.compiled

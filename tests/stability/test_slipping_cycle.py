@@ -144,7 +144,9 @@ def test_wrong_requests_are_named(options, fault) -> None:
 
 
 def test_a_branch_needs_a_cycle_to_begin_with() -> None:
-    with pytest.raises(dm.ParameterError, match="must have a cycle that slips all the time, but"):
+    with pytest.raises(
+        dm.ParameterError, match="case: must have a cycle that slips all the time, but"
+    ):
         dm.continue_cycle(RIG.replace(Omega=2.5), "Omega", (1, 3), kind="slipping")
 
 

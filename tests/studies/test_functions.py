@@ -214,7 +214,21 @@ def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str
         dm.basins(P, progress="yes")  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])
+SCANNING = pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])
+
+
+@SCANNING
+def test_a_step_that_does_not_divide_the_bounds_names_them(function: Any) -> None:
+    """The message named scan, which is no argument."""
+    bounds = ("14 rad/s", 15.5)
+    rule = "highest - lowest must be a multiple of step=0.4"
+    with pytest.raises(dm.ParameterError) as raised:
+        function(P, bounds, 100, step=0.4)
+    message = str(raised.value)
+    assert message == f"bounds={bounds}: {rule}"
+
+
+@SCANNING
 def test_speeds_of_a_scan_are_bounds_as_in_continuation(function: Any) -> None:
     with pytest.raises(dm.ParameterError, match=r"^scan=\(14, 15\): is called bounds$"):
         function(P, scan=(14, 15))

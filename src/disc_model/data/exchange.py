@@ -29,6 +29,8 @@ DISCS = "json_of_disc"
 def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
     """Write a dataset, such as `sweep` and `run_study` return, to a file, which `disc_model.load` reads back.
 
+    A branch of `continue_cycle` becomes a dataset by its method `to_dataset`.
+
     Parameters
     ----------
     data : of numbers and words; discs along a dimension are written as text, in JSON
@@ -57,6 +59,8 @@ def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
     True
     """
     rule = "must be an xarray.Dataset or xarray.DataTree"
+    if hasattr(data, "to_dataset"):
+        rule = f"{rule}, such as its method to_dataset() returns"
     require((isinstance(data, xr.Dataset | xr.DataTree), "data", data, rule))
     file = check_suffix(regular_file(path))
     tree = xr.DataTree(data) if isinstance(data, xr.Dataset) else data

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
-from disc_model.figures.branches import STABLE, THIN, draw_branch
+from disc_model.figures.branches import STABLE, THIN, draw_branch, stable_segments
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, SEPARATED, mark, sample, wide
@@ -53,8 +53,11 @@ def plot_branch(
     case = stated(branch.case, *branch.parameters)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
-        stable = branch.growth_rate < 0
-        draw_branch(axes, x, values, stable, BLACK)
+        # the stability changes at special points, which lie between the others
+        stable = stable_segments(branch.refined_growth_rate())
+        refined_x = branch.refined("values")[:, 0] * factor
+        refined_values = _refined_upward(branch, y) * upward
+        draw_branch(axes, refined_x, refined_values, stable, BLACK)
         axes.plot(
             x, values, ".", color=BLACK, markersize=mark(3)
         )  # what lies between is not computed
@@ -73,6 +76,7 @@ def plot_branch(
         axes.set_xlabel(across)
         axes.set_ylabel(label)
         page.explain(handles)
+        page.joins = True
     return page.ax
 
 
@@ -96,6 +100,13 @@ def _upward(of: Branch | SpecialPoint, branch: Branch, y: str) -> np.ndarray:
     if len(branch.parameters) > 1:
         return np.asarray(of.values[..., 1])
     return np.asarray(getattr(of, y))
+
+
+def _refined_upward(branch: Branch, y: str) -> np.ndarray:
+    """As `_upward` of all cycles, with those of the special points at which stability may change."""
+    if len(branch.parameters) > 1:
+        return branch.refined("values")[:, 1]
+    return branch.refined(y)
 
 
 def _mark_special_points(

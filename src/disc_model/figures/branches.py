@@ -53,7 +53,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         branch = study.isel(branch=i)
         colour = SEPARATED if branch["separations"] > 0 else BLACK
         values = branch["value"].values * factor
-        stable = branch["growth_rate"].values < 0
+        stable = stable_segments(branch["growth_rate"].values)
         draw_branch(ax, values, 1e3 * branch["range"].values, stable, colour, BENDS)
     _draw_sliding(ax, study, along)
     jumps = [_draw_sweep(ax, sweep) for sweep in sweeps_of(study, along)]
@@ -71,18 +71,36 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
 def draw_branch(
     ax: Axes, x: Array, y: Array, stable: Mask, color: str, factor: float = np.inf
 ) -> None:
-    """Draw a line along a branch, thick where it is stable, with gaps where its height jumps by
-    more than a factor."""
+    """Draw a line along a branch, with gaps where its height jumps by more than a factor.
+
+    x, y : (n,), points; those behind the last one are nan
+    stable : (n - 1,), whether the branch is stable, and its line thick, between each point and the
+        next one
+    """
     known = np.isfinite(x)
     x = x[known]
     y = y[known]
-    stable = stable[known]
+    stable = stable[known[1:]]
     height = np.log(y) if factor < np.inf else None
     ax.plot(*broken(x, y, np.log(factor), height), color=color, linewidth=wide(THIN))
-    # a segment is stable where both its ends are
-    for first, last in stretches(stable[:-1] & stable[1:]):
+    for first, last in stretches(stable):
         part = slice(first, last + 1)
         ax.plot(x[part], y[part], color=color, linewidth=wide(STABLE), solid_capstyle="butt")
+
+
+def stable_segments(growth: Array) -> Mask:
+    """Whether a branch is stable between each point and the next one, (n - 1,), from growth rates
+    at n points, which are exactly 0 where stability changes."""
+    stable = np.maximum(growth[:-1], growth[1:]) <= 0
+    between_changes = (growth[:-1] == 0) & (growth[1:] == 0)
+    for i in np.flatnonzero(between_changes):
+        stable[i] = i > 0 and not stable[i - 1]
+    return stable
+
+
+def between(stable: Mask) -> Mask:
+    """Whether both ends of each segment are stable, (n - 1,), from the stability of n points."""
+    return stable[:-1] & stable[1:]
 
 
 def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
@@ -93,7 +111,7 @@ def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
         phrase = "unstable"
     elif not unstable.any():
         phrase = "stable"
-    draw_branch(ax, along, np.full(along.size, LOWEST), ~unstable, GREY)
+    draw_branch(ax, along, np.full(along.size, LOWEST), between(~unstable), GREY)
     place = (along[-1], LOWEST)
     look: dict[str, Any] = {"fontsize": large(7), "color": GREY, "path_effects": halo(2.5)}
     say(ax, f"steady sliding: {phrase}", place, (-4, -3), **look)

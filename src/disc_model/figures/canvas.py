@@ -74,6 +74,7 @@ class Page:
     beside : where the legend stands on a reader's axes; below them if it would cover something
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
+    joins : whether the entries of a legend that the axes have are kept
     """
 
     axes: list[Axes]
@@ -82,6 +83,7 @@ class Page:
     beside: Place = "inside"
     heading: str = ""
     note: str = ""
+    joins: bool = False
 
     @property
     def ax(self) -> Axes:
@@ -207,12 +209,35 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
         handle.set_label(labels.get(usual, usual))
 
 
+def _joined(ax: Axes, handles: Sequence[Artist]) -> list[Artist]:
+    """The entries of the legend that axes have, or that their figure has of them alone, and those
+    of some others whose words are not among these; the legend is removed."""
+    figure: Any = ax.get_figure()
+    former: list[Any] = []
+    own = ax.get_legend()
+    if own is not None:
+        former.append(own)
+    if figure.axes == [ax]:
+        former += figure.legends
+    entries: dict[str, Artist] = {}
+    for legend in former:
+        for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
+            handle.set_label(text.get_text())
+            entries.setdefault(text.get_text(), handle)
+        legend.remove()
+    for handle in handles:
+        entries.setdefault(str(handle.get_label()), handle)
+    return [*entries.values()]
+
+
 def _write_legend(page: Page, wishes: Wishes) -> None:
     """Write the legend, if there is one: in the place that the reader's options give, below a new
     figure, or inside a reader's axes or below them."""
     legend = wishes.legend
     if not page.handles or legend is False:
         return
+    if page.joins and not page.own:
+        page.handles = _joined(page.ax, page.handles)
     if isinstance(legend, Mapping):
         try:
             page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})

@@ -65,6 +65,8 @@ def plot_critical(
             )
         if critical.value > critical.values[0]:
             page.note = f"unstable from {critical.value * factor:.5g} {unit}".strip()
+        elif critical.value == critical.values[0]:
+            page.note = "already unstable at the lower bound"
         axes.set_xlabel(label)
         axes.set_ylabel("Growth rate of the cycle (1/s)")
         axes.set_xlim((x[0], x[-1]))

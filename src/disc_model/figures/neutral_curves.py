@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import axis_of, typeset
-from disc_model.figures.branches import STABLE, draw_branch
+from disc_model.figures.branches import STABLE, between, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, wide
 from disc_model.figures.names import Names
@@ -49,7 +49,8 @@ def plot_neutral_curves(
         lines = [curve.values * factors for curve in curves]
         for curve, line in zip(curves, lines, strict=True):
             colour, _ = KINDS[curve.kind]
-            draw_branch(axes, line[:, 0], line[:, 1], curve.adjoins_stable_cycle, colour)
+            stable = between(curve.adjoins_stable_cycle)
+            draw_branch(axes, line[:, 0], line[:, 1], stable, colour)
         if lines:
             _name_curves(axes, curves.curves, lines)
         present = {curve.kind for curve in curves}

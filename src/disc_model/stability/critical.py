@@ -14,6 +14,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
+from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
@@ -45,7 +46,9 @@ class Critical(Drawn):
     ----------
     parameters, name : the case, and the parameter
     value : the least value computed at which the motion near the static start is unstable; if there is a lower one,
-        it is stable there, less than `precision` away; nan if there is none
+        it is stable there, less than `precision` away; nan if there is none. The lower bound, where that motion is
+        unstable there already: it may be so below, too
+    message : says so if `value` is the lower bound or nan; else ""
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
@@ -65,7 +68,7 @@ class Critical(Drawn):
     resolution: float
 
     def __repr__(self) -> str:
-        first = f"unstable from {self.value:.6g}" if math.isfinite(self.value) else "stable"
+        first = self.message or f"unstable from {self.value:.6g}"
         crossings = counted(len(self.crossings), "crossing")
         seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
         return f"Critical({self.name}: {first}, {crossings}, {seen})"
@@ -79,9 +82,20 @@ class Critical(Drawn):
         for low, high in pairwise(edges):
             stability = "unstable" if low in unstable else "stable"
             rows.append((f"{low:.9g}", f"{high:.9g}", stability))
+        if self.message:
+            rows.append((self.message, "", ""))
         rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
         upper = f"to ({unit})" if unit else "to"
         return html_table((f"{self.name} from", upper, "motion near the static start"), rows)
+
+    @property
+    def message(self) -> str:
+        """Why `value` is no value at which stability is lost, in words; "" where it is one."""
+        if math.isnan(self.value):
+            return f"stable at all {len(self.values)} values computed"
+        if self.value > self.values[0]:
+            return ""
+        return f"already unstable at the lower bound, {value_text(self.name, self.value)}"
 
     @property
     def unstable(self) -> Array:
@@ -126,7 +140,8 @@ def critical(
     Returns
     -------
     Critical
-        `value`, `crossings`, and `resolution`, beyond which nothing can have been overlooked.
+        `value`, `crossings`, and `resolution`, beyond which nothing can have been overlooked; a
+        `message` where the motion is unstable at the lower bound already, or nowhere.
 
     Raises
     ------
@@ -138,7 +153,7 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s: unstable from 0.3, 1 crossing, ... values, steps of at most ...)
+    Critical(mu_s: already unstable at the lower bound, mu_s = 0.3, 1 crossing, ... values, steps of at most ...)
     """
     ends = interval_in_si(name, bounds)
     counts = is_whole(points) and 2 <= points <= MOST_POINTS

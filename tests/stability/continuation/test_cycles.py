@@ -296,3 +296,46 @@ def test_branches_of_random_cases_are_those_of_shorter_steps(seed: int) -> None:
     assert fine.ended == coarse.ended
     assert "no shorter step" not in coarse.ended
     assert "meets itself" not in coarse.ended
+
+
+FOLDED = Parameters(N=385, Omega=14.9)
+"""On the stable half of a branch that turns back at 15.09 rad/s."""
+
+
+def test_a_case_without_a_cycle_is_told_what_to_do() -> None:
+    """The message called the case p, which is no argument, and said nothing else."""
+    case = FOLDED.replace(Omega=15.1)
+    rule = "^case: must have a cycle of one release"
+    with pytest.raises(ParameterError, match=rule) as raised:
+        continue_cycle(case, "Omega", (14, 16))
+    advice = "; start from another value of Omega, or give a state near a cycle as guess"
+    assert str(raised.value).endswith(advice)
+
+
+@pytest.mark.parametrize(("value", "text"), [(17, "17"), ("13 rad/s", "'13 rad/s'")])
+def test_a_value_outside_the_bounds_is_refused(value: object, text: str) -> None:
+    """It was accepted in silence."""
+    bounds = (14, 16)
+    rule = "must lie within the bounds, 14 to 16 rad/s"
+    with pytest.raises(ParameterError) as raised:
+        continue_cycle(FOLDED, "Omega", bounds, values=[15, value])
+    message = str(raised.value)
+    assert message == f"values={text}: {rule}"
+
+
+def test_values_that_are_not_reached_are_said() -> None:
+    """One is beyond the fold; a bound and the start are reached."""
+    reached = [14.8, 14.9, 15.05]
+    bounds = (14.8, 16)
+    branch = continue_cycle(FOLDED, "Omega", bounds, values=[*reached, 15.5])
+    assert branch.not_reached == [15.5]
+    assert {*reached} < {*branch.values[:, 0]}
+    said = "; not reached: Omega = 15.5"
+    assert said in repr(branch)
+    assert said in branch._repr_html_()
+
+
+def test_nothing_is_said_of_values_that_are_all_reached() -> None:
+    bounds = (14.8, 15)
+    branch = continue_cycle(FOLDED, "Omega", bounds, values=[14.85])
+    assert "not reached" not in repr(branch)

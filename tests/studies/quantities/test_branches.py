@@ -8,6 +8,7 @@ import pytest
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival
+from disc_model.stability.floquet import floquet
 from disc_model.studies.quantities import branches
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantity import Point
@@ -35,7 +36,23 @@ def test_the_quiet_branch_turns_at_the_fold(table: Table) -> None:
     assert table.arrays["separations"][0, 0] == 0
     assert np.nanmax(value) == pytest.approx(15.0949, abs=1e-3)  # points lie beside the fold
     last = int(np.nanargmax(value))
+    assert growth[last] == 0.0
     assert growth[last - 5] < 0 < growth[last + 5] or growth[last + 5] < 0 < growth[last - 5]
+
+
+@pytest.mark.compiled
+def test_a_branch_has_a_point_where_it_loses_stability() -> None:
+    """Only folds were among its points, so that stable stretches seemed to end before."""
+    case = Parameters(N=385, Omega=12.7, normalization="orthonormal")
+    scan = {"start": 12.7, "stop": 12.9, "step": 0.1}
+    options = Branches.model_validate(OPTIONS | {"scan": scan})
+    cycle = floquet(case)
+    [row] = branches._branch(cycle, False, options)
+    growth = row["growth_rate"]
+    changes = row["value"][growth == 0]
+    located = [12.830348, 12.836321]
+    assert changes == pytest.approx(located, abs=1e-6)  # as they are written
+    assert len(growth) == len(row["range"])
 
 
 @pytest.mark.compiled

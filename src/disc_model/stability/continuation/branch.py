@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices
-from disc_model.data.variables import Variable
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
+from disc_model.stability.continuation.data import VARIABLES, dataset_of
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.segments import range_of_cycle
 
 if TYPE_CHECKING:
     import pandas as pd
-    from matplotlib.axes import Axes
+    import xarray as xr
 
 LABELS: dict[str, str] = {
     "fold": "LP",
@@ -31,13 +31,10 @@ LABELS: dict[str, str] = {
     "end": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
-VARIABLES: dict[str, Variable] = {
-    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
-    "period": Variable("s", "period of the cycle"),
-    "stick_fraction": Variable("1", "share of the period spent sticking"),
-    "range": Variable("m", "range of the slider's height over a period"),
-}
-"""What is known of each cycle of a branch, and of each special point."""
+CHANGES = ("fold", "period_doubling", "neimark_sacker")
+"""Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
+circle."""
+NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -73,6 +70,13 @@ class SpecialPoint:
     def label(self) -> str:
         """Label of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR."""
         return LABELS[self.kind]
+
+    @property
+    def changes_stability(self) -> bool:
+        """Whether the cycle gains or loses stability here: no multiplier but the critical one is
+        on the unit circle or beyond it."""
+        neutral = abs(self.growth_rate * self.period) <= NEUTRAL
+        return self.kind in CHANGES and neutral
 
     @cached_property
     def point(self) -> Array:
@@ -114,6 +118,7 @@ class Branch:
     ended : reason for which the branch ends; of both ends if they differ, that of the first point first
     case : whose cycle is followed; its own values of the free parameters do not count
     special : the special points in their order along the branch; `special_points` is their table
+    not_reached : those of the `values` asked for at which the branch has no cycle, in SI units
     """
 
     parameters: tuple[str, ...]
@@ -129,6 +134,7 @@ class Branch:
     ended: str
     case: Parameters = field(repr=False)
     special: tuple[SpecialPoint, ...] = ()
+    not_reached: Array = field(default_factory=lambda: np.zeros(0))
     _make_map: MapFactory = ReturnMap
     variables: ClassVar = VARIABLES
 
@@ -141,7 +147,15 @@ class Branch:
         for name, values in zip(self.parameters, reached.T, strict=True):
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
         folds = counted(len(self.folds), "fold")
-        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended})"
+        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; {self._end_text()})"
+
+    def _end_text(self) -> str:
+        """Why the branch ends, and which of the values asked for it has not reached."""
+        text = f"ended: {self.ended}"
+        if not len(self.not_reached):
+            return text
+        missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
+        return f"{text}; not reached: {self.parameters[0]} = {missed}"
 
     def _repr_html_(self) -> str:
         """The special points in a notebook, and why the branch ends."""
@@ -153,7 +167,7 @@ class Branch:
             values = [f"{value:.9g}" for value in special.values]
             rates = (number_text(special.growth_rate), number_text(special.period))
             rows.append((special.kind, special.label, *values, *rates))
-        rows.append((f"{len(self)} cycles", "", f"ended: {self.ended}"))
+        rows.append((f"{len(self)} cycles", "", self._end_text()))
         return html_table(("kind", "label", *head, "growth rate (1/s)", "period (s)"), rows)
 
     @property
@@ -189,6 +203,31 @@ class Branch:
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
         return pd.DataFrame(columns)
+
+    def to_dataset(self) -> xr.Dataset:
+        """The whole branch as a dataset, to save, or to handle by xarray and pandas.
+
+        Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
+        `stick_fraction`, `range` (m, for which each cycle is simulated for a period),
+        `largest_multiplier` (modulus), `stable`, `separations`, `diameters`, `multipliers`, and the
+        cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along
+        `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
+        `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
+        `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
+        the case's `parameters` in JSON, and `not_reached` if there are such values.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+        >>> data = branch.to_dataset()
+        >>> data["special_kind"].values.tolist(), data["period"].attrs["units"]
+        (['end', 'fold', 'end'], 's')
+        >>> dm.save(data, "branch.nc")
+        >>> dm.load("branch.nc").identical(data)
+        True
+        """
+        return dataset_of(self)
 
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle: the case followed with this cycle's values of the free
@@ -228,6 +267,35 @@ class Branch:
             ranges.append(range_of_cycle(self.case_at(i), self.state(i), period))
         return np.array(ranges)
 
+    @property
+    def changes(self) -> list[SpecialPoint]:
+        """The special points at which a multiplier crosses the unit circle, in their order."""
+        return [special for special in self.special if special.kind in CHANGES]
+
+    def refined(self, name: str) -> Array:
+        """One of `variables`, or `values`, at the points of the branch and, in their places between
+        these, at its `changes`; shape (n_points + n_changes, ...), in SI units."""
+        own = np.asarray(getattr(self, name))
+        places = [special.after + 1 for special in self.changes]
+        if not places:
+            return own
+        located = [getattr(special, name) for special in self.changes]
+        return np.insert(own, places, located, axis=0)
+
+    def refined_growth_rate(self) -> Array:
+        """As `refined("growth_rate")`, 1/s, and exactly 0 where the cycle gains or loses stability."""
+        growth = self.refined("growth_rate").copy()
+        changing = [special.changes_stability for special in self.changes]
+        after = np.array([special.after for special in self.changes], dtype=int)
+        growth[(after + 1 + np.arange(len(after)))[changing]] = 0.0
+
+        # a branch that ends at a special point has it as one of its points, too
+        numbers = np.arange(len(self))
+        places = numbers + np.searchsorted(after, numbers)
+        periods = [special.period for special in self.changes if special.changes_stability]
+        growth[places[np.isin(self.period, periods)]] = 0.0
+        return growth
+
     def _number(self, i: int) -> int:
         """A number of a cycle, checked, counted from the first one."""
         number: Any
@@ -239,12 +307,23 @@ class Branch:
         require((isinstance(number, int), "i", i, rule))  # a slice gives several
         return int(number)
 
-    def plot(self, y: str = "growth_rate", *, ax: Axes | None = None) -> Axes:
+    def plot(
+        self,
+        y: str = "growth_rate",
+        *,
+        ax: Any = None,
+        legend: bool | dict[str, Any] = True,
+        labels: dict[str, str] | None = None,
+        title: str | None = None,
+    ) -> Any:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
         parameter, thick where the cycle is stable, and the special points.
 
-        A branch in two parameters is drawn as the second over the first. Returns the axes; raises
-        `ParameterError` if `y` is another name, or `ax` no axes.
+        Stability changes at special points, which are located to rounding. A branch in two
+        parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
+        as in `Result.plot`; the legend of axes with several branches has the entries of all.
+        Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
+        understood.
 
         Examples
         --------
@@ -252,4 +331,4 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        return draw("plot_branch", self, y, ax=ax)
+        return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)

@@ -19,6 +19,7 @@ from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
+ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
 STOPS = (special.FOLD, special.PERIOD_DOUBLING, special.NEIMARK_SACKER)
 
 
@@ -76,7 +77,8 @@ def continue_cycle(  # noqa: PLR0913
     guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
         begins there is followed, one way
     steps : length and number of the steps
-    values : of the parameter; the branch has a cycle at exactly each of them, as often as it passes
+    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
+        those that it never passes are its `not_reached`
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
@@ -121,10 +123,18 @@ def continue_cycle(  # noqa: PLR0913
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
-    slack = 1e-9 * (span[1] - span[0])  # ratios are rounded
+    slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
     within = span[0] - slack <= start <= span[1] + slack
-    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g}, to start from there"
-    require((within, name, start, rule))
+    unit = case.unit(name).removeprefix("1")
+    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
+    outside = []
+    for given, value in zip(values, wanted, strict=True):
+        if not span[0] - slack <= value <= span[1] + slack:
+            outside.append(given)
+    require(
+        (within, name, start, f"{rule}, to start from there"),
+        (not outside, "values", next(iter(outside), None), rule),
+    )
 
     scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
@@ -133,15 +143,17 @@ def continue_cycle(  # noqa: PLR0913
     search = Search(problem, steps, span, stop_at)
     course = search.follow(problem.start(cycle, rising), int(direction))
     course = search.with_values(course, wanted)
-    return branch_of(problem, course, (*span, start, *wanted))
+    return branch_of(problem, course, (*span, start), wanted)
 
 
-def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
+def branch_of(
+    problem: CycleProblem, course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()
+) -> Branch:
     """The branch of a course, in SI units. Values of the parameter that scaling has moved by its
-    rounding from one of some `exact` ones are these."""
+    rounding from one of some `exact` or `wanted` ones are these."""
     points = course.points
     values = np.array([point.z[problem.n :] * problem.scales for point in points])
-    for value in exact:
+    for value in (*exact, *wanted):
         values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
     every = [multipliers(point.jacobian) for point in points]
     period = np.array([point.orbit.period for point in points])
@@ -149,6 +161,8 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
     growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
     rows = _special_points(problem, course)
     folds = [row.values for row in rows if row.kind == special.FOLD]
+    nearest = [np.abs(values - value).min() for value in wanted]
+    missed = np.array(nearest) > ROUNDING * problem.scales[0]
     reasons = [end.text for end in (course.first, course.last) if end is not None]
     return Branch(
         parameters=problem.names,
@@ -164,6 +178,7 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
         ended="; ".join(dict.fromkeys(reasons)),
         case=problem.base,
         special=rows,
+        not_reached=np.array(wanted, dtype=float)[missed],
         _make_map=problem.make_map,
     )
 

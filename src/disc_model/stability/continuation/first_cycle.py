@@ -1,9 +1,9 @@
 """The cycle from which a branch begins, and the problem whose zero it is, by the kind of cycle."""
 
-from disc_model.errors import ParameterError
+from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.problem import CycleProblem
+from disc_model.stability.continuation.problem import CycleProblem, another_start
 from disc_model.stability.cycle import SLIPPING, FloquetResult, find_cycle
 from disc_model.stability.return_map import Counts
 from disc_model.stability.slipping_cycle import find_slipping_cycle
@@ -28,8 +28,9 @@ def first_cycle(
     if kind == SLIPPING:
         slipping = find_slipping_cycle(p, tol, guess)
         if slipping.state is None:
-            rule = "p: must have a cycle that slips all the time"
-            raise ParameterError(f"{rule}, but the search ended with {slipping.message}")
+            rule = "must have a cycle that slips all the time"
+            found = f"but the search ended with {slipping.message}"
+            raise ParameterError(Fault(("case",), "", f"{rule}, {found}; {another_start(names)}"))
         return CycleProblem(p, names, scale, tol, make_map=SlippingMap), slipping
 
     cycle = find_cycle(p, tol, guess, releases)

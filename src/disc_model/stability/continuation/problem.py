@@ -9,10 +9,11 @@ Unknowns are z = (x / size, q / scales). The map is a `SectionMap`: that of stic
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
-from disc_model.errors import ModeError, ParameterError
+from disc_model.errors import Fault, ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
@@ -205,12 +206,13 @@ class CycleProblem:
 
     def place(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
-        one_release = "p: must have a cycle of one release"
-        rule = "guess: must lie near a cycle" if self.order else one_release
         if cycle.state is None or (cycle.releases > 1 and not self.order):
-            raise ParameterError(
-                f"{rule} that can be followed, but the search ended with {cycle.message}"
-            )
+            found = f"that can be followed, but the search ended with {cycle.message}"
+            rule = f"must have a cycle of one release {found}; {another_start(self.names)}"
+            fault = Fault(("case",), "", rule)
+            if self.order:
+                fault = Fault(("guess",), "", f"must lie near a cycle {found}")
+            raise ParameterError(fault)
         return self.place_at(self.reference.point(cycle.state))
 
     def place_at(self, x: Array) -> Array:
@@ -225,9 +227,9 @@ class CycleProblem:
         try:
             found = self.evaluate(z)
         except Rejected as lost:
-            raise ParameterError(
-                f"p: must have a cycle that can be followed, but at its state {lost}"
-            ) from None
+            rule = f"must have a cycle that can be followed, but at its state {lost}"
+            fault = Fault(("case",), "", f"{rule}; {another_start(self.names)}")
+            raise ParameterError(fault) from None
         left = np.append(found.residual, np.zeros(len(self.names)))
         rows = np.eye(len(z))[self.n :]
         return curve_point(z - newton_step(np.vstack([found.by, rows]), left), found, along)
@@ -242,6 +244,13 @@ class CycleProblem:
         leading = int(np.argmax(np.abs(spectrum.values)))
         energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
         return int(np.argmax(np.bincount(diameters, energy)))
+
+
+def another_start(names: Sequence[str]) -> str:
+    """What to do where a case has no cycle to start from, in the free parameters `names`."""
+    return (
+        f"start from another value of {' or '.join(names)}, or give a state near a cycle as guess"
+    )
 
 
 def growth_rate(multiplier: complex, period: float) -> float:

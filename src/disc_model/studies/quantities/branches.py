@@ -53,7 +53,7 @@ class Branches(Quantity):
     max_step: Positive = 0.05
     """arclength of the longest step along a branch"""
     max_points: Annotated[Count, Field(ge=2, le=10_000)] = 300
-    """most points of a branch, in each direction, folds included"""
+    """most points of a branch, in each direction, special points included"""
     max_branches: Annotated[Count, Field(ge=1, le=1000)] = 12
     """room for that many branches"""
     tol: Tolerance = 1e-10
@@ -78,7 +78,9 @@ class Branches(Quantity):
         "value": _each("", "parameter along the branch, SI units"),
         "period": _each("s", "period of the cycle"),
         "range": _each("m", "range of the slider's height over a period"),
-        "growth_rate": _each("s-1", "growth rate of disturbances of the cycle"),
+        "growth_rate": _each(
+            "s-1", "growth rate of disturbances of the cycle, 0 where stability changes"
+        ),
         "sweep_range": _swept(
             "m", "range of the slider's height at the end of the stay at a value"
         ),
@@ -185,8 +187,9 @@ class _Found:
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> list[dict[str, Any]]:
-    """The branch of a cycle, by continuation in both directions, with its folds among its points: a
-    row for each stretch with one number of separations in a period."""
+    """The branch of a cycle, by continuation in both directions, with the special points at which
+    its stability may change among its points: a row for each stretch with one number of separations
+    in a period."""
     from disc_model.stability.continuation import StepControl, continue_cycle
 
     name = options.parameter
@@ -199,27 +202,23 @@ def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> list[dict
         guess=cycle.state if reached else None,
         releases=cycle.releases if reached else 1,
     )
-    points = [
-        _BranchPoint(
-            float(branch.values[i, 0]),
-            float(branch.period[i]),
-            float(branch.growth_rate[i]),
-            float(branch.range[i]),
-            int(branch.separations[i]),
-        )
-        for i in range(len(branch))
-    ]
-    for fold in reversed([special for special in branch.special if special.kind == "fold"]):
-        apart = points[fold.after].separations
-        value = float(fold.values[0])
-        here = _BranchPoint(value, fold.period, fold.growth_rate, fold.range, apart)
-        points.insert(fold.after + 1, here)
+    # no special point but a grazing lies where the number of separations changes
+    after = np.array([special.after for special in branch.changes], dtype=int)
+    separations = np.insert(branch.separations, after + 1, branch.separations[after])
+    columns = (
+        branch.refined("values")[:, 0],
+        branch.refined("period"),
+        branch.refined_growth_rate(),
+        branch.refined("range"),
+        separations,
+    )
+    points = [_BranchPoint(*row) for row in zip(*map(np.ndarray.tolist, columns), strict=True)]
     return [_row(stretch, cycle.releases) for stretch in _stretches(points)]
 
 
 class _BranchPoint(NamedTuple):
-    """A cycle of a branch: the parameter's value, period (s), growth rate (1/s), range of the
-    slider's height (m), and number of separations in a period."""
+    """A cycle of a branch: the parameter's value, period (s), growth rate (1/s; 0 where stability
+    changes), range of the slider's height (m), and number of separations in a period."""
 
     value: float
     period: float
@@ -229,8 +228,9 @@ class _BranchPoint(NamedTuple):
 
 
 def _most_points(options: Branches) -> int:
-    """Largest number of computed points in each direction, which leaves room for the folds between
-    them: as a step turns by 26 degrees at most, at least six lie from fold to fold."""
+    """Largest number of computed points in each direction, which leaves room for the special points
+    between them: as a step turns by 26 degrees at most, at least six lie from fold to fold; with
+    period doublings and Neimark-Sacker bifurcations there is one among nine to eighteen points."""
     return max(2, 5 * options.max_points // 6)
 
 

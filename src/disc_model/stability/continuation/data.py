@@ -1,0 +1,116 @@
+"""A branch as a dataset: its cycles along `point`, its special points along `special`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import SERIES, Variable, attributes
+from disc_model.parameters import RATIOS, Parameters
+from disc_model.simulation.states import MODAL
+
+if TYPE_CHECKING:
+    from disc_model.simulation.states import State
+    from disc_model.stability.continuation.branch import Branch
+
+VARIABLES = {
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
+    "period": Variable("s", "period of the cycle"),
+    "stick_fraction": Variable("1", "share of the period spent sticking"),
+    "range": Variable("m", "range of the slider's height over a period"),
+}
+"""What is known of each cycle of a branch, and of each special point."""
+POINTS = {
+    "largest_multiplier": Variable("1", "modulus of the largest multiplier"),
+    "stable": Variable("1", "whether the cycle is stable"),
+    "separations": Variable("1", "number of separations in a period"),
+    "diameters": Variable("1", "nodal diameters of the leading multiplier's eigenvector"),
+    "multipliers": Variable("1", "multipliers of the cycle, largest modulus first"),
+}
+"""What is known of the cycles alone,"""
+SPECIAL = {
+    "kind": Variable("", "kind of the special point"),
+    "label": Variable("", "label of the kind in AUTO and COCO"),
+    "multiplier": Variable("1", "critical multiplier; at a grazing and an end, the leading one"),
+    "after": Variable("1", "number of the point before the special point, or at it"),
+    "changes_stability": Variable("1", "whether the cycle gains or loses stability"),
+}
+"""and of the special points alone."""
+STATE = {name: SERIES[name] for name in ("psi", "f", "u", "u_velocity")} | {
+    "phase": Variable("", "phase of the motion"),
+    "direction": Variable("1", "sign of the slip speed"),
+    "a": Variable("kg0.5 m", "cosine coordinate of a mode"),
+    "b": Variable("kg0.5 m", "sine coordinate of a mode"),
+    "alpha": Variable("kg0.5 m s-1", "rate of the cosine coordinate of a mode"),
+    "beta": Variable("kg0.5 m s-1", "rate of the sine coordinate of a mode"),
+}
+"""Values of the cycle's state on the section, at time 0."""
+
+
+def dataset_of(branch: Branch) -> xr.Dataset:
+    """A branch as a dataset, as `Branch.to_dataset` describes it."""
+    cycles = _Columns("point", "")
+    cycles.add_parameters(branch.parameters, branch.values)
+    cycles.add(VARIABLES, lambda name: getattr(branch, name))
+    own = {
+        "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
+        "stable": branch.growth_rate < 0,
+        "separations": branch.separations,
+        "diameters": branch.diameters,
+        "multipliers": branch.multipliers,
+    }
+    cycles.add(POINTS, own.__getitem__)
+    cycles.add_states([branch.state(i) for i in range(len(branch))])
+
+    special = _Columns("special", "special_")
+    values = [each.values for each in branch.special]
+    special.add_parameters(branch.parameters, np.reshape(values, (-1, len(branch.parameters))))
+    special.add(VARIABLES | SPECIAL, lambda name: [getattr(each, name) for each in branch.special])
+    special.add_states([each.state for each in branch.special])
+
+    numbers = {
+        "point": ("point", np.arange(len(branch)), {"long_name": "number along the branch"}),
+        "special": (
+            "special",
+            np.arange(len(branch.special)),
+            {"long_name": "number of the special point along the branch"},
+        ),
+    }
+    attrs: dict[str, Any] = {"ended": branch.ended, "parameters": branch.case.canonical_json}
+    if len(branch.not_reached):
+        attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
+    coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
+    return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
+
+
+class _Columns:
+    """Variables along a dimension, whose names have a beginning."""
+
+    def __init__(self, dim: str, begin: str) -> None:
+        self.dim = dim
+        self.begin = begin
+        self.variables: dict[str, xr.Variable] = {}
+        self.coordinates: dict[str, xr.Variable] = {}
+
+    def add_parameters(self, names: Iterable[str], values: np.ndarray) -> None:
+        """Add the free parameters as coordinates, from their values, (n, n_parameters)."""
+        for i, name in enumerate(names):
+            described: dict[str, Any] = {"long_name": name}  # as of a mode of a disc
+            if name in (*Parameters.model_fields, *RATIOS):
+                described = attributes(name)
+            self.coordinates[self.begin + name] = xr.Variable(self.dim, values[:, i], described)
+
+    def add(self, columns: dict[str, Variable], values_of: Callable[[str], Any]) -> None:
+        """Add columns by their names; a second dimension is that of the multipliers or modes."""
+        for name, column in columns.items():
+            values = np.asarray(values_of(name))
+            second = "mode" if name in MODAL else "multiplier"
+            dims = (self.dim, second)[: values.ndim]
+            self.variables[self.begin + name] = xr.Variable(dims, values, column.attributes)
+
+    def add_states(self, states: list[State]) -> None:
+        """Add the values of states."""
+        self.add(STATE, lambda name: [getattr(state, name) for state in states])

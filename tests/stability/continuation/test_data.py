@@ -1,0 +1,168 @@
+"""A branch as a dataset."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+from numpy.testing import assert_allclose, assert_array_equal
+
+import disc_model as dm
+from disc_model.simulation.states import MODAL
+from disc_model.stability.continuation import Branch
+
+pytestmark = pytest.mark.compiled
+
+WORDS = ("kind", "label", "phase")
+"""Variables of words, which have no unit."""
+OF_BOTH = ("growth_rate", "period", "stick_fraction", "range")
+"""Variables of cycles and of special points."""
+OF_CYCLES = (*OF_BOTH, "separations", "diameters", "multipliers")
+OF_POINTS = (*OF_BOTH, "kind", "label", "multiplier", "after", "changes_stability")
+
+
+@pytest.fixture(scope="module")
+def branch() -> Branch:
+    """From 14.8 rad/s round the fold at 15.09 and back."""
+    case = dm.Parameters(N=385, Omega=14.9)
+    bounds = (14.8, 15.2)
+    return dm.continue_cycle(case, "Omega", bounds, values=[15.0, 15.15])
+
+
+@pytest.fixture(scope="module")
+def data(branch: Branch) -> xr.Dataset:
+    return branch.to_dataset()
+
+
+def test_a_dataset_has_what_the_branch_has(branch: Branch, data: xr.Dataset) -> None:
+    for name in OF_CYCLES:
+        known = getattr(branch, name)
+        assert_array_equal(data[name], known)
+    speeds = branch.values[:, 0]
+    assert_array_equal(data["Omega"], speeds)
+    assert data.ended == branch.ended
+    assert data.not_reached == "15.15"
+
+
+def test_stability_is_that_of_the_largest_multiplier(branch: Branch, data: xr.Dataset) -> None:
+    """The branch is stable up to its fold, in the order of its points."""
+    largest = data["largest_multiplier"]
+    stable = data["stable"]
+    [_, fold, _] = branch.special
+    before = data["point"] <= fold.after
+    assert_array_equal(stable, before)
+    assert_array_equal(stable, largest < 1)
+    growth = np.log(largest) / data["period"]
+    assert_allclose(
+        growth,
+        data["growth_rate"],
+        rtol=0,
+        atol=1e-9,  # 1/s, rounding of the multiplier over the period
+    )
+
+
+def test_special_points_are_a_dimension_of_their_own(branch: Branch, data: xr.Dataset) -> None:
+    kinds = data["special_kind"]
+    assert [*kinds.values] == ["end", "fold", "end"]
+    for i, special in enumerate(branch.special):
+        row = data.isel(special=i)
+        for name in OF_POINTS:
+            known = getattr(special, name)
+            assert row[f"special_{name}"] == known
+        assert row["special_Omega"] == special.values[0]
+        assert row["special_u"] == special.state.u
+        assert_array_equal(row["special_alpha"], special.state.alpha)
+
+
+def test_every_number_has_a_unit_and_everything_a_name(data: xr.Dataset) -> None:
+    for name in data.data_vars:
+        attrs = data[name].attrs
+        assert attrs["long_name"]
+        bare = str(name).removeprefix("special_")
+        expected = bare not in WORDS
+        assert ("units" in attrs) == expected
+    for name in ("Omega", "special_Omega"):
+        attrs = data[name].attrs
+        assert attrs["units"] == "rad s-1"
+
+
+@pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])
+def test_a_dataset_of_a_branch_comes_back_from_a_file(
+    file: str, data: xr.Dataset, tmp_path: Path
+) -> None:
+    path = tmp_path / file
+    dm.save(data, path)
+    stored = dm.load(path)
+    assert stored.identical(data)
+
+
+def test_a_branch_itself_is_refused_with_the_way_to_save_it(branch: Branch, tmp_path: Path) -> None:
+    """The message said what is needed, and not how to get it."""
+    path = tmp_path / "branch.nc"
+    rule = "must be an xarray.Dataset .* to_dataset"
+    with pytest.raises(dm.ParameterError, match=rule):
+        dm.save(branch, path)
+
+
+def test_a_table_of_pandas_has_the_parameter_beside_the_values(data: xr.Dataset) -> None:
+    names = ["growth_rate", "stable"]
+    table = data[names].to_dataframe()
+    assert {*table.columns} == {"Omega", *names}
+    assert_array_equal(table["Omega"], data["Omega"])
+
+
+def test_a_cycle_is_simulated_from_its_row(branch: Branch, data: xr.Dataset) -> None:
+    """An unstable one, of growth rate 0.5/s, repeats after a period."""
+    row = data.isel(point=-1)
+    assert not row["stable"]
+    state = {}
+    for name in ("psi", "f", "u", "u_velocity"):
+        state[name] = float(row[name])
+    for name in MODAL:
+        state[name] = row[name].values
+    start = dm.State(
+        time=0.0, phase=str(row["phase"].values), direction=int(row["direction"]), **state
+    )
+    speed = float(row["Omega"])
+    run = dm.simulate(branch.case.replace(Omega=speed), float(row["period"]), initial_state=start)
+    end = run.final_state
+    size = np.abs(start.a).max()
+    assert_allclose(
+        end.a,
+        start.a,
+        rtol=0,
+        atol=2e-7 * size,  # as `Branch.state` promises: 1e-7, times the leading multiplier
+    )
+
+
+def test_a_rigid_disc_has_no_modes() -> None:
+    block = dm.Parameters(
+        n_diameters=-1,
+        m=0.538,
+        k=0,
+        k_p=6957,
+        c_p=5.946,
+        N=10,
+        mu_s=0.6,
+        mu_k=0.2,
+        friction_decay=10,
+        Omega=2,
+    )
+    bounds = (1.9, 2.1)
+    branch = dm.continue_cycle(block, "Omega", bounds)
+    sizes = branch.to_dataset().sizes
+    assert sizes["mode"] == 0
+
+
+def test_a_frequency_of_a_given_disc_is_a_parameter_too() -> None:
+    """It is no field of `Parameters`, whose fields are described there."""
+    disc = dm.Disc(
+        diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3, 1e-3]
+    )
+    case = dm.Parameters(N=385, Omega=10, disc=disc, r_0=0.1)
+    bounds = (1510, 1520)
+    branch = dm.continue_cycle(case, "omega_1_0", bounds)
+    along = branch.to_dataset()["omega_1_0"]
+    assert along.long_name == "omega_1_0"
+    assert along.min() == bounds[0]
+    assert along.max() == bounds[1]
