@@ -358,6 +358,34 @@ def test_the_exit_code_of_snakemake_is_passed_on(
     assert err.split()[-1] == "interrupted"
 
 
+@pytest.mark.parametrize(
+    ("code", "options", "says"),
+    [
+        (0, ["--target", "explorer"], True),
+        (1, ["--target", "explorer"], False),
+        (0, ["--target", "explorer", "--unlock"], False),
+        (0, [], False),
+    ],
+)
+def test_the_page_of_all_points_is_named_where_it_was_made(
+    command: Command,
+    monkeypatch: pytest.MonkeyPatch,
+    mine: Path,
+    code: int,
+    options: list[str],
+    says: bool,
+) -> None:
+    """Nobody said where it is."""
+
+    def ends(arguments: list[str]) -> None:
+        sys.exit(code)
+
+    monkeypatch.setattr("snakemake.cli.main", ends)
+    found = command.run("study", str(mine), "-d", str(mine.parent), *options)
+    page = mine.parent / "results" / mine.stem / "explorer.html"
+    assert found[:2] == (code, f"explorer: {page}\n" if says else "")
+
+
 def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> None:
     """A kernel in another environment chooses a module that is not here."""
     picture = tmp_path / "run.png"

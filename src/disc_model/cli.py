@@ -393,6 +393,7 @@ DRY = (
 CORES = os.cpu_count() or 1
 if hasattr(os, "sched_getaffinity"):
     CORES = len(os.sched_getaffinity(0))
+EXPLORER = "explorer"  # the target that makes a page of all points
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
 
@@ -432,7 +433,13 @@ def study(
     options += ["--configfile", *(str(file.resolve()) for file in files)]
     import snakemake.cli  # type: ignore[import-untyped]
 
-    snakemake.cli.main(options)  # ends with an exit code
+    try:
+        snakemake.cli.main(options)  # ends with an exit code
+    except SystemExit as ended:
+        made = not (ended.code or dry_run or unlock)
+        if made and EXPLORER in (target or []):
+            typer.echo(f"explorer: {directory / 'results' / chosen.name / 'explorer.html'}")
+        raise
 
 
 def _show_options(grid: GridStudy) -> None:

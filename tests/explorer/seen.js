@@ -21,7 +21,7 @@ const seen = {
   centre(i, j) {
     const {left, top} = intoView("map");
     const {xs, ys, horizontal, vertical} = drawn;
-    return [left + horizontal(xs.at[i]), top + vertical(ys.at[j])];
+    return [left + horizontal(xs.middles[i]), top + vertical(ys.middles[j])];
   },
   // The left end of the history, in the window.
   beginning() {
@@ -31,19 +31,28 @@ const seen = {
   // The colour a little below and left of a cell's middle, where no ring and no dot is.
   colour(i, j) {
     const {xs, ys, horizontal, vertical} = drawn;
-    const quarter = (scale, position, n) => (position(scale.at[n]) + position(scale.borders[n])) / 2;
+    const quarter = (scale, position, n) => (position(scale.middles[n]) + position(scale.borders[n])) / 2;
     return pixel(quarter(xs, horizontal, i), quarter(ys, vertical, j));
   },
   // The colour of a pixel some pixels right of a cell's middle.
   pixel(i, j, shift) {
     const {xs, ys, horizontal, vertical} = drawn;
-    const found = pixel(horizontal(xs.at[i]) + shift, vertical(ys.at[j]) + 20);
+    const found = pixel(horizontal(xs.middles[i]) + shift, vertical(ys.middles[j]) + 20);
     return "#" + found.map(x => x.toString(16).padStart(2, "0")).join("");
   },
-  middle(i, j) {
+  // All colours of the inside of a cell.
+  coloursOf(i, j) {
     const {xs, ys, horizontal, vertical} = drawn;
-    return pixel(horizontal(xs.at[i]), vertical(ys.at[j]));
+    const [x0, x1] = [horizontal(xs.borders[i]), horizontal(xs.borders[i + 1])];
+    const [y0, y1] = [vertical(ys.borders[j + 1]), vertical(ys.borders[j])];
+    const {data} = document.getElementById("map").getContext("2d").getImageData(x0 + 4, y0 + 4, x1 - x0 - 8, y1 - y0 - 8);
+    const hex = n => "#" + [0, 1, 2].map(k => data[4 * n + k].toString(16).padStart(2, "0")).join("");
+    return [...new Set([...Array(data.length / 4).keys()].map(hex))];
   },
+  // Where the cells of both axes begin and end, and the first and last value there.
+  ends: () => [drawn.xs, drawn.ys].map(({at, borders}) => [at[0], at.at(-1), borders[0], borders.at(-1)]),
+  // The texts below selectors.
+  below: () => [...document.querySelectorAll("#controls span")].map(x => x.textContent),
   colours() {
     const map = document.getElementById("map");
     const {data} = map.getContext("2d").getImageData(0, 0, map.width, map.height);

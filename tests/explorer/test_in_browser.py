@@ -1,22 +1,29 @@
 """A trip through the explorer in a real browser, as wide as a screen and as narrow as a
 telephone."""
 
+import json
 import re
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 from cmcrameri import cm
 from matplotlib.colors import to_hex
 from PIL import Image
 
-from disc_model.explorer import LEVELS, Picture, page
+import disc_model as dm
+from disc_model.explorer import LEVELS, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.figures.classes import LOOKS
+from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, lightness
 from disc_model.figures.growth import growth_norm
+from disc_model.studies.point_calls import SEARCHES, call_of
+from disc_model.studies.registry import quantity_of
+from disc_model.studies.run import describe
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, plane
+from tests.studies.test_quantities import OPTIONS
 from tests.workflow.browser import Page, browser
 
 pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
@@ -91,6 +98,88 @@ def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
         draws_gaps_and_scale(shown)
         keeps_what_is_chosen_in_the_link(shown)
         draws_dots_on_curves(shown)
+
+
+def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
+    """There were neither the dots of "stable" nor the hatching of "unresolved"."""
+    study = plane()
+    alone = (0, 1, 0)
+    study["outcome"].values[alone] = 0  # separates, unlike the cells around it
+    explorer_path = tmp_path / "explorer.html"
+    told = [
+        contents_of("without", plane(), stated=Stated(has_figures=False)),
+        contents_of("plane", study),
+    ]
+    explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.resize(1280, 1000)
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        assert opened.run("return view.study.name") == "plane", "the first one with figures"
+
+        # marks lie over the colours of their cells
+        assert STABLE.label in shown.text("legend").split("\n")
+        white_dots = shown.ask("coloursOf", 0, 0)
+        assert is_light(white_dots)
+        assert shown.ask("colourOf", float(study["growth_rate"][0, 0, 0])) in white_dots
+        assert not is_light(shown.ask("coloursOf", 3, 2)), "its disturbances grow"
+        shown.choose("Variable", "outcome")
+        assert UNRESOLVED.label in shown.text("legend").split("\n")
+        N, Omega, _ = alone
+        hatched = shown.ask("coloursOf", Omega, N)
+        assert LOOKS["separation"].face in hatched
+        assert is_light(hatched)
+        assert shown.ask("coloursOf", 3, 0) == [LOOKS["quiet"].face]
+
+        # cells end at the axes, and what is chosen for dots stays
+        for first, last, begin, end in shown.ask("ends"):
+            assert (first, last) == (begin, end)
+        shown.choose("Dots", "growth_rate=stable")
+        assert shown.text("legend").endswith(STABLE.label)
+        shown.choose("Up", "normalization")
+        assert opened.run("return document.getElementById('controls').Dots.value") == (
+            "growth_rate=stable"
+        )
+
+        # a narrow selector has the whole text below it
+        assert shown.ask("below") == []
+        opened.resize(360, 740)
+        shown.choose("Up", "normalization")
+        assert any(text.endswith("Eq. (17)") for text in shown.ask("below"))
+        assert opened.run("return document.documentElement.scrollWidth <= window.innerWidth")
+
+
+def is_light(colours: list[str]) -> bool:
+    """Whether some are white but for smooth edges: marks on dark cells."""
+    return any(lightness(colour) > 0.8 for colour in colours)
+
+
+def test_the_call_of_every_point_runs(tmp_path: Path) -> None:
+    """Those of quantities that search a speed gave a case without a speed."""
+    told = []
+    for name, options in OPTIONS.items():
+        quantity = quantity_of(name).model_validate(options)
+        base = {"N": 200, "Omega": 15, "n_diameters": 1, "damping_ratio": None}
+        attrs = {"base": json.dumps({x: base[x] for x in base if x not in quantity.scanned})}
+        study = xr.Dataset(
+            {"value": ("c_p", [1.0, 2.0])}, {"c_p": ("c_p", [0.0, 0.02], describe("c_p"))}, attrs
+        )
+        told.append(contents_of(name, study, stated=Stated(**call_of(name, quantity)._asdict())))
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        calls = {}
+        for name in OPTIONS:
+            shown.choose("Study", name)
+            calls[name] = shown.text("call")
+    for name, call in calls.items():
+        found = eval(call, {"dm": dm})
+        assert isinstance(found, xr.Dataset if name in SEARCHES else dm.Parameters), name
+    assert calls["critical_speed"].startswith("dm.critical_speed(dm.Parameters(N=200, n_diam")
 
 
 def draws_gaps_and_scale(shown: Explorer) -> None:

@@ -16,10 +16,10 @@ import xarray as xr
 from PIL import Image
 
 from disc_model.data.variables import PHASES
-from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, page
+from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.figures.classes import LOOKS
-from disc_model.figures.growth import growth_norm
+from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
+from disc_model.figures.growth import growth_norm, isolated
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
 
@@ -138,7 +138,7 @@ def motions() -> xr.Dataset:
 def contents() -> list[dict[str, Any]]:
     """What the page is told of both studies."""
     return [
-        contents_of("plane", plane(), motions(), "After the transient."),
+        contents_of("plane", plane(), motions(), Stated("After the transient.")),
         contents_of("line", line()),
     ]
 
@@ -178,8 +178,9 @@ def test_numbers_flags_and_messages_come_through() -> None:
         "symbol": "k",
         "label": "Spring k",
         "title": "spring of the slider, normal to the disc",
-        "unit": "N/m",
+        "unit": "kN/m",
         "value": 5e4,
+        "shown": 50.0,
         "usual": True,
     }
     assert told["fixed"][0] == spring
@@ -189,7 +190,7 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert traced == {"Contact force P": "N", "Slider u": "mm", "Angle ψ": "rad"}
     labels = {dim["name"]: dim["label"] for dim in told["dims"]}
     assert {dim["symbol"] for dim in told["dims"]} == {"N", "Ω", "normalization"}
-    known = {"N": "Preload N", "Omega": "Speed Ω", "mu_k": "Kinetic friction μ_k"}
+    known = {"N": "Preload N", "Omega": "Speed Ω", "mu_k": "Kinetic friction μₖ"}
     assert {name: known[name] for name in labels if name in known} == {
         name: label for name, label in labels.items() if name in known
     }
@@ -210,6 +211,73 @@ def test_points_without_a_number_have_the_class_that_figures_show() -> None:
     unknown = contents()[1]["variables"][0]["gaps"]
     assert [look["label"] for look in unknown["looks"]] == ["no value"]
     assert numbers(unknown, "u1").tolist() == [0, 0, 1]
+
+
+def marked(variable: dict[str, Any], shape: tuple[int, ...]) -> dict[tuple[str, ...], np.ndarray]:
+    """The points that a page marks, by the label of the mark and the axes of the map."""
+    found = {}
+    for mark in variable["marks"]:
+        cells = numbers(mark, "u1").reshape(shape).astype(bool)
+        found[mark["look"]["label"], *mark["axes"]] = cells
+    return found
+
+
+def test_maps_have_the_marks_of_figures() -> None:
+    """The explorer had neither the figures' dots for "stable" nor the hatching of "unresolved"."""
+    study = plane()
+    # one cell alone among others, in the plane of the second normalization
+    study["outcome"].values[0, 1, 1] = 0
+    variables = {one["name"]: one for one in contents_of("plane", study)["variables"]}
+
+    growth = marked(variables["growth_rate"], study["growth_rate"].shape)
+    stable = growth[STABLE.label, "N", "Omega"]
+    np.testing.assert_array_equal(stable, study["growth_rate"].values < 0)
+    outcome = marked(variables["outcome"], study["outcome"].shape)
+    unresolved = outcome[UNRESOLVED.label, "N", "Omega"]
+    assert np.argwhere(unresolved).tolist() == [[0, 1, 1]]
+    for variable, name in (("growth_rate", STABLE), ("outcome", UNRESOLVED)):
+        looks = [mark["look"] for mark in variables[variable]["marks"]]
+        assert {**name._asdict(), "ink": name.ink} in looks
+    assert variables["status"]["marks"] == [], "no map of statuses in figures has one"
+    assert variables["releases"]["marks"] == []
+
+
+@pytest.mark.parametrize("axes", [("N", "Omega"), ("N", "normalization")])
+def test_marks_are_those_of_each_plane(axes: tuple[str, str]) -> None:
+    """Whichever dimensions a reader chooses as axes."""
+    study = plane()
+    study["growth_rate"].values[:, 1, 1] = -1.0
+    variables = {one["name"]: one for one in contents_of("plane", study)["variables"]}
+    found = marked(variables["growth_rate"], study["growth_rate"].shape)[UNRESOLVED.label, *axes]
+    cells = xr.DataArray(found, dims=study["growth_rate"].dims)
+    [other] = {*AXES} - {*axes}
+    for i in range(study.sizes[other]):
+        figure = isolated(study.isel({other: i}).transpose(*axes), "growth_rate")
+        np.testing.assert_array_equal(cells.isel({other: i}).transpose(*axes), figure)
+
+
+def test_units_are_those_of_the_figures() -> None:
+    """Figures had rpm and the explorer rad/s, and a height was in m beside a plot in mm."""
+    study = plane()
+    attrs = {"long_name": "displacement, least", "units": "m"}
+    study["u_min"] = (["N", "Omega"], np.full((3, 4), -0.0123), attrs)
+    told = contents_of("plane", study, stated=Stated(units={"Omega": "rpm"}))
+    dims = {dim["name"]: dim for dim in told["dims"]}
+    assert (dims["Omega"]["unit"], dims["Omega"]["si_unit"]) == ("rpm", "rad/s")
+    np.testing.assert_allclose(dims["Omega"]["values"], study["Omega"] * 30 / np.pi, rtol=1e-11)
+    assert dims["Omega"]["parts"]["Omega"] == AXES["Omega"], "calls have SI units"
+    assert (dims["N"]["unit"], dims["N"]["si_unit"]) == ("N", "")
+    [height] = [one for one in told["variables"] if one["name"] == "u_min"]
+    assert height["unit"] == "mm"
+    np.testing.assert_allclose(numbers(height, "<f4"), -12.3, rtol=2.0 ** -(BITS + 1))
+
+
+def test_no_label_ends_within_a_sentence() -> None:
+    """ "... coefficient of J_l equal to 1, or Eq. (17)" lost its number, which was taken for a
+    unit."""
+    dims = {dim["name"]: dim for dim in contents()[0]["dims"]}
+    label = dims["normalization"]["label"]
+    assert label == "Scale of the mode shapes: coefficient of Jₗ equal to 1, or Eq. (17)"
 
 
 def test_growth_rates_have_the_colours_of_figures() -> None:

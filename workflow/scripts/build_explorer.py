@@ -7,7 +7,7 @@ from pathlib import Path
 
 from disc_model.data.dataset import load
 from disc_model.errors import script
-from disc_model.explorer import Picture, page, study_contents
+from disc_model.explorer import Picture, Stated, page, study_contents
 
 
 @script
@@ -18,7 +18,8 @@ def main(output: str) -> None:
         data, motions = (
             load(study[role]).to_dataset() if study[role] else None for role in ("data", "motions")
         )
-        studies.append(study_contents(study["name"], data, motions, study["text"]))
+        stated = Stated(**study["stated"])
+        studies.append(study_contents(study["name"], data, motions, stated))
     pictures = [
         Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]
     ]

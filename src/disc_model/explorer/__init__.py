@@ -1,6 +1,15 @@
 """A page on which all points of studies can be looked at, in one file."""
 
-from disc_model.explorer.contents import BITS, LEVELS, study_contents
+from disc_model.explorer.contents import BITS, LEVELS, Stated, study_contents
 from disc_model.explorer.document import PAGE_WIDTH, PICTURE_WIDTH, Picture, page
 
-__all__ = ["BITS", "LEVELS", "PAGE_WIDTH", "PICTURE_WIDTH", "Picture", "page", "study_contents"]
+__all__ = [
+    "BITS",
+    "LEVELS",
+    "PAGE_WIDTH",
+    "PICTURE_WIDTH",
+    "Picture",
+    "Stated",
+    "page",
+    "study_contents",
+]

@@ -4,24 +4,36 @@ import base64
 import json
 import zlib
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.variables import SHOWN, attributes
+from disc_model.explorer.marks import marked_cells
 from disc_model.figures.classes import LOOKS, Look, looks_of
-from disc_model.figures.growth import classes_without_rate, growth_norm, is_growth
+from disc_model.figures.growth import (
+    MAP_LOOKS,
+    NEGATIVE,
+    classes_without_rate,
+    growth_norm,
+    is_growth,
+)
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.types import Words
 from disc_model.figures.words import (
     NO_VALUE,
+    UNITS,
     WITHIN_HORIZON,
     WORDS,
+    factors_of,
+    known_name,
     label_in,
+    lowered,
     missing_text,
-    plain_name,
+    named,
     unit_text,
 )
 from disc_model.parameters import Parameters
@@ -32,22 +44,59 @@ MANTISSA = 23  # bits of the mantissa of a 32-bit float,
 BITS = 17  # and those that are kept: five digits, as many as are shown
 
 
+class Stated(NamedTuple):
+    """What a study's file and its quantity state, beside its dataset.
+
+    Attributes
+    ----------
+    motion : what its stored motions are
+    before, after : texts round a case, in the call in Python that computes a point
+    begins : parameters that the quantity varies by itself, each where its range begins
+    units : units of its figures, by parameter
+    has_figures : whether there is a figure of it
+    """
+
+    motion: str = ""
+    before: str = ""
+    after: str = ""
+    begins: Mapping[str, float] = MappingProxyType({})
+    units: Mapping[str, str] = MappingProxyType({})
+    has_figures: bool = True
+
+
+NOTHING_STATED = Stated()
+
+
 def study_contents(
-    name: str, study: xr.Dataset, motions: xr.Dataset | None = None, text: str = ""
+    name: str, study: xr.Dataset, motions: xr.Dataset | None = None, stated: Stated = NOTHING_STATED
 ) -> dict[str, Any]:
-    """Contents of a merged study: fixed parameters, dimensions, variables, messages; motions, and a
-    text on these."""
+    """Contents of a merged study, in the units of its figures: fixed parameters, dimensions,
+    variables, messages, motions."""
+    token = UNITS.set(factors_of(stated.units))
+    try:
+        return _study_contents(name, study, motions, stated)
+    finally:
+        UNITS.reset(token)
+
+
+def _study_contents(
+    name: str, study: xr.Dataset, motions: xr.Dataset | None, stated: Stated
+) -> dict[str, Any]:
+    """Contents of a merged study, in the units that are set."""
     numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
     endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
     study = _as_texts(study.transpose(*study.sizes), endless)
     shown_motions = None
     if motions is not None:
-        shown_motions = motion_contents(_as_texts(motions, endless), text)
+        shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
+        "call": {"before": stated.before, "after": stated.after, "begins": dict(stated.begins)},
+        "discs": json.loads(study.attrs.get("discs", "{}")),
+        "has_figures": stated.has_figures,
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(study, variable) for variable in drawn],
@@ -57,10 +106,19 @@ def study_contents(
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:
-    """A parameter that a study does not vary, and whether a case has this value unless it is given."""
+    """A parameter that a study does not vary, its value in SI and as it is shown, and whether a case
+    has this value unless it is given."""
     field = Parameters.model_fields.get(name)
     usual = field is not None and value in (field.default, str(field.default))
-    return {**_named(name, attributes(name)), "value": value, "usual": usual}
+    unit, factor = _unit_of(xr.DataArray(0.0, name=name, attrs=attributes(name)))
+    shown: Any = value
+    match value:
+        case int() | float():
+            shown = value * factor
+        case Mapping():  # a disc, of which the page has the call
+            shown = f"{len(value['omega'])} modes"
+    names = _named(name, attributes(name))
+    return {**names, "unit": unit, "value": value, "shown": shown, "usual": usual}
 
 
 def _messages(study: xr.Dataset) -> dict[str, Any] | None:
@@ -100,9 +158,9 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 def _trace(histories: xr.DataArray) -> dict[str, Any]:
     """The histories of one variable, in the unit and under the name that figures have."""
     name = str(histories.name)
-    shown = SHOWN[name]
-    packed_histories = traces(shown.factor * histories.values.astype(float))
-    return {"name": name, "label": plain_name(histories), "unit": shown.unit, **packed_histories}
+    label, unit, factor = named(histories)
+    packed_histories = traces(factor * histories.values.astype(float))
+    return {"name": name, "label": lowered(label), "unit": unit, **packed_histories}
 
 
 def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
@@ -157,26 +215,41 @@ def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
     """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
+    variable = xr.DataArray(0.0, name=name, attrs=attrs)
     symbol = name
     if name in SHOWN:
         symbol = SHOWN[name].symbol or name
     return {
         "name": name,
-        "symbol": symbol,
-        "label": plain_name(xr.DataArray(0.0, name=name, attrs=attrs)),
-        "title": str(attrs.get("long_name", name)),
-        "unit": unit_text(str(attrs.get("units", "1"))),
+        "symbol": lowered(symbol),
+        "label": lowered(named(variable).name),
+        "title": lowered(str(attrs.get("long_name", name))),
+        "unit": _unit_of(variable)[0],
     }
 
 
+def _unit_of(variable: xr.DataArray) -> tuple[str, float]:
+    """The unit in which figures show a variable, and the factor from SI to it."""
+    usual = named(variable)
+    return UNITS.get().get(known_name(variable), (usual.unit, usual.factor))
+
+
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension; for a zip, which has no coordinate of its own, its parameters as
-    text."""
+    """Values along a dimension as they are shown, and in SI as parts; for a zip, which has no
+    coordinate of its own, its parameters as text."""
     if dim in study.coords:
         values = study[dim].values.tolist()
-        shown = [WORDS.get(value, value) for value in values]
-        named = _named(dim, study[dim].attrs)
-        return {**named, "values": values, "shown": shown, "parts": {dim: values}}
+        _, factor = _unit_of(study[dim])
+        scaled = values
+        if factor != 1.0 and not isinstance(values[0], str):
+            scaled = [float(f"{value * factor:.12g}") for value in values]
+        shown = [WORDS.get(value, value) for value in scaled]
+        names = _named(dim, study[dim].attrs)
+        si_unit = ""
+        if known_name(study[dim]) in UNITS.get():  # the page says both
+            si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
+        parts = {dim: values}
+        return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
     columns = {
         str(name): values.values.tolist()
         for name, values in study.coords.items()
@@ -216,13 +289,18 @@ def _variable(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any]:
     name = str(variable.name)
     described = _named(name, variable.attrs)
     if name in WITHIN_HORIZON:
-        described["label"] = label_in(study, name)
+        described["label"] = lowered(label_in(study, name))
     described["dims"] = list(variable.dims)
+    described["marks"] = _marks(study, name)
     meanings = variable.attrs.get("flag_meanings")
     if meanings is None:
         described["gaps"] = _gaps(study, variable)
         described["scale"] = _scale(variable)
-        return {**described, "data": packed(shortened(variable.values), "<f4")}
+        _, factor = _unit_of(variable)
+        numbers = variable.values
+        if factor != 1.0:
+            numbers = factor * numbers
+        return {**described, "data": packed(shortened(numbers), "<f4")}
     words = str(meanings).split()
     codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
     looks = [_look(look) for look in looks_of(words).values()]
@@ -263,6 +341,22 @@ def _scale(variable: xr.DataArray) -> dict[str, float] | None:
         return None
     norm = growth_norm(variable.values)
     return {"width": norm.linear_width, "end": float(norm.vmax or 0.0)}
+
+
+def _marks(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
+    """The marks of a variable on maps over each pair of dimensions, as bytes; that of decaying
+    disturbances may also be chosen for dots on other maps."""
+    found = []
+    for mark in marked_cells(study, name):
+        found.append(
+            {
+                "look": _look(mark.look),
+                "axes": list(mark.axes),
+                "is_stable": mark.look is MAP_LOOKS[NEGATIVE],
+                "data": packed(mark.cells, "u1"),
+            }
+        )
+    return found
 
 
 def _look(look: Look) -> dict[str, str]:

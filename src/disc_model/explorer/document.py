@@ -15,6 +15,7 @@ from cmcrameri import cm
 from matplotlib.colors import Colormap, to_hex
 from PIL import Image, ImageOps
 
+from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.parameters import RATIOS, Parameters
 
@@ -45,6 +46,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "studies": studies,
         "maps": {"sequential": _colours(cm.batlow), "diverging": _colours(cm.vik)},
         "phases": PHASE_COLOURS,
+        "weights": WEIGHTS,
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -85,6 +85,13 @@ def unresolved(words: Words) -> Mask:
     return found
 
 
+def unresolved_motions(words: Words) -> Mask:
+    """Unresolved cells of a map of what becomes of motions; none if the words say anything else."""
+    if not {*words.flat} & {*Outcome}:
+        return np.zeros(words.shape, dtype=bool)
+    return unresolved(words)
+
+
 def paint(ax: Axes, edges: Edges, words: Words, looks: Mapping[str, Look]) -> Colours:
     """Paint each cell in the look of its word, if it has one; returns the colours."""
     colours = np.zeros((*words.shape, 4))
@@ -124,8 +131,8 @@ def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set
     edges = edges_of(plane)
     colours = paint(ax, edges, words, looks)
     used = set(words.flat)
-    single = unresolved(words)
-    if single.any() and used & {*Outcome}:
+    single = unresolved_motions(words)
+    if single.any():
         lay_over(ax, edges, single, UNRESOLVED, colours)
         used.add(UNRESOLVED.label)
     return used

@@ -69,13 +69,12 @@ def growth_panels(
         painted = paint(ax, edges, words, MAP_LOOKS)
         colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
         used |= set(words.flat)
-        if (np.abs(rates) <= ROUNDING).any():
-            used.add(NEUTRAL)
-        decaying = rates < -ROUNDING
-        for mark, cells in ((NEGATIVE, decaying), (UNRESOLVED.label, isolated(plane, name))):
-            if cells.any():
+        for mark, cells in marks_of(plane, name).items():
+            if not cells.any():
+                continue
+            used.add(mark)
+            if MAP_LOOKS[mark].hatch:
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
-                used.add(mark)
     if not has_values(planes, name):
         return entries(used, MAP_LOOKS)
     bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
@@ -84,6 +83,17 @@ def growth_panels(
     bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
     bar.minorticks_off()
     return entries(used, MAP_LOOKS)
+
+
+def marks_of(plane: xr.Dataset, name: str = "growth_rate") -> dict[str, Mask]:
+    """Cells of a map of growth rates that have each mark, a key of `MAP_LOOKS`; neutral ones are
+    named, and keep the colour of their rate."""
+    rates = plane[name].values
+    return {
+        NEGATIVE: rates < -ROUNDING,
+        NEUTRAL: np.abs(rates) <= ROUNDING,
+        UNRESOLVED.label: isolated(plane, name),
+    }
 
 
 def stability_of(plane: xr.Dataset) -> Words:

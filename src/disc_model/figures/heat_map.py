@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import EXCLUDED, flag_names
+from disc_model.data.variables import EXCLUDED
 from disc_model.figures.cells import (
     MARKED,
     class_cells,
@@ -29,6 +29,7 @@ from disc_model.figures.selection import (
     parts_along,
     picked,
     remaining,
+    shown_words,
     statuses,
     titles_of,
 )
@@ -129,9 +130,7 @@ def class_panels(
     looks = {**looks_in(panels[0]), EXCLUDED: LOOKS[EXCLUDED]}
     used: set[str] = set()
     for ax, panel, status in zip(axes, panels, conditions, strict=True):
-        words = panel.copy(data=flag_names(panel).astype(object))
-        shown = words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*panel.dims)
-        used |= class_cells(ax, shown, looks)
+        used |= class_cells(ax, shown_words(panel, status), looks)
     return entries(used, {**looks, UNRESOLVED.label: UNRESOLVED})
 
 

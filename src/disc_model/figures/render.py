@@ -34,21 +34,11 @@ from disc_model.figures import (
     spectrum,
 )
 from disc_model.figures.drawing import COLUMN, panels, styled
-from disc_model.figures.kinds import (
-    NORM,
-    CasePlot,
-    Compared,
-    General,
-    Kind,
-    Plot,
-    si_unit,
-    table_of,
-)
+from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
 from disc_model.figures.labels import break_labels, restate_axes
 from disc_model.figures.selection import normalizations, of, picked
 from disc_model.figures.types import Figure
-from disc_model.figures.words import MODES, UNITS, head_text, named_value, what_case
-from disc_model.units import in_si
+from disc_model.figures.words import MODES, UNITS, factors_of, head_text, named_value, what_case
 
 Drawings = Mapping[str, Callable[..., Figure]]
 DRAWINGS: Drawings = {
@@ -97,7 +87,7 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
 
     A figure of cases that lack what it shows says so instead.
     """
-    token = UNITS.set(_factors(plot))
+    token = UNITS.set(factors_of(plot.units))
     try:
         with styled():
             drawn = (
@@ -119,14 +109,6 @@ def drawing_of(kind: str) -> Callable[..., Figure]:
     part = kind.rpartition(".")[0]
     drawings: Drawings = table_of(part, "drawings", "DRAWINGS") if part else DRAWINGS
     return drawings[kind]
-
-
-def _factors(plot: Kind) -> dict[str, tuple[str, float]]:
-    """The units of the reader, and the factors from SI to them."""
-    return {
-        name: (unit, 1 / in_si(f"1 {unit}", si_unit(name), [], ()))
-        for name, unit in plot.units.items()
-    }
 
 
 def _write_title(plot: Kind, figure: Figure, text: str) -> None:

@@ -164,6 +164,12 @@ def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
     return np.asarray(words.values, dtype=str)
 
 
+def shown_words(flag: xr.DataArray, status: xr.DataArray) -> xr.DataArray:
+    """The words of a flag, and `EXCLUDED` at points that a study's rule leaves out."""
+    words = flag.copy(data=flag_names(flag).astype(object))
+    return words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*flag.dims)
+
+
 def failed(study: xr.Dataset) -> xr.DataArray:
     """Points of a grid study that failed."""
     return statuses(study) != "ok"

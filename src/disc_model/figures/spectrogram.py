@@ -14,7 +14,6 @@ from disc_model.figures.drawing import panels, wide
 from disc_model.figures.kinds.cases import Spectrogram
 from disc_model.figures.runs import mark_first_separation, sampled
 from disc_model.figures.types import Axes, Figure, FigureBase
-from disc_model.figures.words import quantity_of_label
 
 FLOOR = -100.0  # least power shown, dB below the reference
 
@@ -28,7 +27,8 @@ def draw(plot: Spectrogram, case: xr.DataTree) -> Figure:
     ax.set_xlabel("Time (s)")
     ax.set_ylabel("Frequency (Hz)")
     label, *_ = sampled(plot.variable, dataset.group(case, plot.window))
-    ax.set_title(quantity_of_label(label))
+    name, _, _ = label.rpartition(" (")  # every sampled variable has a unit
+    ax.set_title(name)
     return figure
 
 

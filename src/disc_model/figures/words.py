@@ -14,6 +14,8 @@ import xarray as xr
 from disc_model.data import variables
 from disc_model.data.variables import EXCLUDED, SHOWN, axis_of, flag_names, typeset
 from disc_model.figures.classes import name_of
+from disc_model.figures.kinds.base import si_unit
+from disc_model.units import in_si
 
 MODES = {
     "as_published": "modes as published",
@@ -70,6 +72,20 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
+RANGE_END = re.compile("_(min|max)$")
+"""The end of the name of a bound of a sampled variable's range."""
+LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
+"""Characters that plain text has as indices."""
+
+
+class Named(NamedTuple):
+    """A variable's name in plain text, its unit for readers, and the factor from SI to this."""
+
+    name: str
+    unit: str
+    factor: float
+
+
 class Measured(NamedTuple):
     """A variable for an axis: its label with a unit, and its values in this unit."""
 
@@ -85,20 +101,44 @@ LOAD, _ = axis_of("N")
 
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
+    name, unit, factor = named(variable)
+    label = typeset(name) if known_name(variable) else name
+    if unit:
+        label = f"{label} ({unit})"
+    return label, factor
+
+
+def named(variable: xr.DataArray) -> Named:
+    """The name of any variable or coordinate in plain text, its unit, and the factor from SI to
+    this."""
+    known = known_name(variable)
+    if known:
+        shown = SHOWN[known]
+        return Named(f"{shown.name} {shown.symbol}".strip(), shown.unit, shown.factor)
+    # disturbances have one name in all figures
+    words = _words_of(variable).replace("disturbances of ", "")
+    phrase = words[0].upper() + words[1:]
+    ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
+    if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
+        return Named(phrase, ranged.unit, ranged.factor)
+    return Named(phrase, unit_text(str(variable.attrs.get("units", "1"))), 1.0)
+
+
+def _words_of(variable: xr.DataArray) -> str:
+    """What a variable says that it is, without remarks."""
     own = str(variable.name)
     long_name = str(variable.attrs.get("long_name", own))
-    words = SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
+    return SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
+
+
+def known_name(variable: xr.DataArray) -> str:
+    """The name of a variable in `SHOWN`, "" if it is not there."""
+    own = str(variable.name)
     # a scanned parameter is the long name of its dimension, or its name has a prefix
-    for name in (own.removeprefix("scan_").removeprefix("sweep_"), words):
+    for name in (own.removeprefix("scan_").removeprefix("sweep_"), _words_of(variable)):
         if name in SHOWN:
-            return axis_of(name)
-    # disturbances have one name in all figures
-    words = words.replace("disturbances of ", "")
-    phrase = words[0].upper() + words[1:]
-    unit = unit_text(str(variable.attrs.get("units", "1")))
-    if unit:
-        phrase = f"{phrase} ({unit})"
-    return phrase, 1.0
+            return name
+    return ""
 
 
 def label_in(study: xr.Dataset, name: str) -> str:
@@ -148,6 +188,13 @@ def unit_text(units: str) -> str:
     return "/".join([" ".join(above) or "1", *below])
 
 
+def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
+    """Units of the reader, as `UNITS` has them: with the factors from SI to them."""
+    return {
+        name: (unit, 1 / in_si(f"1 {unit}", si_unit(name), [], ())) for name, unit in units.items()
+    }
+
+
 def measured(variable: xr.DataArray) -> Measured:
     """The label of a variable, and its values in the label's unit."""
     label, factor = label_of(variable)
@@ -156,17 +203,14 @@ def measured(variable: xr.DataArray) -> Measured:
     return Measured(label, variable.values * factor)
 
 
-def plain_name(variable: xr.DataArray) -> str:
-    """What figures call a variable, without a unit and in plain text."""
-    shown = SHOWN.get(str(variable.name))
-    if shown is not None:
-        return f"{shown.name} {shown.symbol}".strip()
-    return quantity_of_label(label_of(variable)[0])
+def lowered(text: str) -> str:
+    """The text with its indexed symbols, such as c_p, in plain characters: cₚ."""
 
+    def with_index(found: re.Match[str]) -> str:
+        symbol, index = found.groups()
+        return symbol + LOWERED[index] if index in LOWERED else found[0]
 
-def quantity_of_label(label: str) -> str:
-    """What a label says before its unit."""
-    return label.rpartition(" (")[0] or label
+    return re.sub(r"\b([^\W_])_([^\W_])\b", with_index, text)
 
 
 def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
@@ -196,8 +240,7 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
         return f"a pad over {value:g} rad"
     if by == "friction_offset":
         return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
-    label, factor = label_of(data[by])
-    unit = label.rpartition(" (")[2].rstrip(")") if " (" in label else ""
+    _, unit, factor = named(data[by])
     unit, factor = UNITS.get().get(by, (unit, factor))
     return f"{value * factor:g} {unit}".strip()
 
@@ -208,7 +251,7 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
     value = data[by].item()
     if isinstance(value, str) or by in AT_ZERO:
         return text
-    return f"{quantity_of_label(label_of(data[by])[0])} = {text}"
+    return f"{typeset(named(data[by]).name)} = {text}"
 
 
 def rank_of(value: Any) -> Any:

@@ -44,6 +44,7 @@ async function unpack(study) {
   const parts = [
     ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : Float32Array]),
     ...study.variables.filter((variable) => variable.gaps).map((variable) => [variable.gaps, Uint8Array]),
+    ...study.variables.flatMap((variable) => variable.marks.map((mark) => [mark, Uint8Array])),
     ...(study.messages ? [[study.messages, Uint32Array]] : []),
     ...(study.motions ? study.motions.traces.map((trace) => [trace, Uint16Array]) : []),
   ].filter(([part]) => !part.numbers);
@@ -79,4 +80,5 @@ for (const study of contents.studies) {
   study.dim = Object.fromEntries(study.dims.map((dim) => [dim.name, dim]));
   study.status = study.variables.find((variable) => variable.name === "status" && variable.flags);
   for (const dim of study.dims) dim.words = typeof dim.values[0] === "string";
+  for (const variable of study.variables) for (const mark of variable.marks) mark.dims = variable.dims;
 }

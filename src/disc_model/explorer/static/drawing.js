@@ -15,7 +15,8 @@ function unevenness(values) {
   return Math.abs((median * sorted.length) / (values[values.length - 1] - values[0]) - 1);
 }
 
-/** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and their cells' borders. */
+/** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and the borders and middles of
+ * their cells. Numbers end at the first and last value, as in the figures; words have whole cells. */
 function scaleOf(dim) {
   const count = dim.values.length;
   const decade = !dim.words && dim.values[0] > 0 && dim.values[count - 1] >= 10 * dim.values[0];
@@ -28,9 +29,11 @@ function scaleOf(dim) {
   const to = kind === "log" ? log10 : identity;
   const at = kind === "place" ? dim.values.map((_, i) => i) : dim.values.map(to);
   const middle = gaps(at).map((gap, i) => at[i] + gap / 2);
-  const first = count > 1 ? at[0] - (at[1] - at[0]) / 2 : at[0] - 0.5;
-  const last = count > 1 ? at[count - 1] + (at[count - 1] - at[count - 2]) / 2 : at[0] + 0.5;
-  return { kind, at, borders: [first, ...middle, last], ticks: () => ticksOf(dim, kind, first, last, at) };
+  const beyond = dim.words || count === 1 ? 0.5 : 0;
+  const [first, last] = [at[0] - beyond, at[count - 1] + beyond];
+  const borders = [first, ...middle, last];
+  const middles = at.map((_, i) => (borders[i] + borders[i + 1]) / 2);
+  return { kind, at, borders, middles, ticks: () => ticksOf(dim, kind, first, last, at) };
 }
 
 function ticksOf(dim, kind, first, last, at) {
@@ -66,8 +69,18 @@ const style = (name) => getComputedStyle(document.documentElement).getPropertyVa
 /** What figures call a class, by its word. */
 const labelOf = (variable, word) => variable.looks[variable.flags.indexOf(word)].label;
 
-/** What an area of a class is filled with: its colour, and its pattern over it. */
-const fillsOf = (ink, { face, hatch, ink: line }) => (hatch ? [face, pattern(ink, hatch, line)] : [face]);
+/** What an area of a class is filled with: its colour, and its pattern over it; a mark in a legend lies on white paper. */
+function fillsOf(ink, { face, hatch, ink: line }) {
+  const paper = face === "none" ? "#ffffff" : face;
+  return hatch ? [paper, pattern(ink, hatch, line)] : [paper];
+}
+
+/** Black or white, whichever is seen on a colour in grey print. */
+function inkOn(colour) {
+  const channels = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16) / 255);
+  const lightness = channels.reduce((sum, channel, i) => sum + contents.weights[i] * channel, 0);
+  return lightness < 0.5 ? "#ffffff" : "#000000";
+}
 
 /** Colours of numbers: `colour(x)`, and `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers. */
 function colouring(numbers, scale) {

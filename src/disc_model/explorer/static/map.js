@@ -33,9 +33,11 @@ function drawMap() {
   ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
-  const dots = marks().find(([key]) => key === view.mark);
-  const dotted = (place) => dots && dots[1].flags[value(study, dots[1], place)] === dots[2];
-  const seen = { flags: new Set(), gaps: new Set(), hatched: false };
+  const dots = chosenDots();
+  const dotted = (place) => Boolean(dots) && dots.holds(place);
+  const over = curve ? [] : marksOver(variable, x, y);
+  const patterns = patternsOf(ink, over);
+  const seen = { flags: new Set(), gaps: new Set(), marks: new Set(), hatched: false };
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
     const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
@@ -47,11 +49,14 @@ function drawMap() {
     };
     const gap = gapAt(study, variable, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
-    if (gap) {
-      seen.gaps.add(gap);
-      fillsOf(ink, gap).forEach(fill);
-    } else if (!curve && variable.flags) fillsOf(ink, variable.looks[numbers[n]]).forEach(fill);
+    const look = gap ?? (!curve && variable.flags ? variable.looks[numbers[n]] : null);
+    if (gap) seen.gaps.add(gap);
+    if (look) fillsOf(ink, look).forEach(fill);
     else if (!curve) fill(colours.colour(numbers[n]));
+    for (const mark of over.filter((one) => value(study, one, place))) {
+      seen.marks.add(mark);
+      if (mark.look.hatch) fill(patterns.get(mark)[inkOn(look?.face ?? colours.colour(numbers[n]))]);
+    }
     if (variable !== study.status && !gap && failed(study, place)) {
       seen.hatched = true;
       fill(hatch);
@@ -67,6 +72,13 @@ function drawMap() {
   else markChosen(ink);
   legend(seen, dots);
 }
+
+/** The marks that lie over the cells of a map, as in the figures. */
+const marksOver = (variable, x, y) => variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y));
+
+/** The patterns of marks in black and in white. */
+const patternsOf = (ink, over) =>
+  new Map(over.map((mark) => [mark, Object.fromEntries(["#000000", "#ffffff"].map((colour) => [colour, pattern(ink, mark.look.hatch, colour)]))]));
 
 const linear = (from, to, start, end) => (x) => start + ((x - from) / (to - from || 1)) * (end - start);
 
@@ -113,7 +125,7 @@ function markChosen(ink) {
     const near = nearestMotion();
     if (near && near.places[x] !== undefined && near.places[y] !== undefined) {
       ink.beginPath();
-      ink.arc(horizontal(xs.at[near.places[x]]), vertical(ys.at[near.places[y]]), 6, 0, 2 * Math.PI);
+      ink.arc(horizontal(xs.middles[near.places[x]]), vertical(ys.middles[near.places[y]]), 6, 0, 2 * Math.PI);
       ink.stroke();
     }
   }
@@ -125,8 +137,9 @@ function legend(seen, dots) {
   const entries = [...seen.flags].sort((a, b) => a - b)
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
   for (const look of variable.gaps?.looks ?? []) if (seen.gaps.has(look)) entries.push([swatchOf(look), look.label]);
+  for (const mark of variable.marks) if (seen.marks.has(mark)) entries.push([swatchOf(mark.look), mark.look.label]);
   if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
-  if (dots) entries.push([dotSwatch(), `${dots[1].label}: ${labelOf(dots[1], dots[2])}`]);
+  if (dots) entries.push([dotSwatch(), dots.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 

@@ -16,10 +16,13 @@ function cellAt(canvas, event) {
 
 /** Where a point lies, in words. */
 function where(place, dims = view.study.dims) {
-  return dims
-    .map((dim) => (dim.words ? dim.shown[place[dim.name]]
-      : `${dim.symbol} = ${withUnit(number(dim.values[place[dim.name]]), dim.unit)}`))
-    .join(", ");
+  const valueAlong = (dim) => {
+    const i = place[dim.name];
+    if (dim.words) return dim.shown[i];
+    const inSI = dim.si_unit ? ` (${withUnit(number(dim.parts[dim.name][i]), dim.si_unit)})` : "";
+    return `${dim.symbol} = ${withUnit(number(dim.values[i]), dim.unit)}${inSI}`;
+  };
+  return dims.map(valueAlong).join(", ");
 }
 
 function hover(place) {
@@ -46,14 +49,16 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
-/** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1. */
+/** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; within the call of
+ * the quantity if that varies a parameter by itself, which the case has where its range begins. */
 function call(study, place) {
   const varied = study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
   const unusual = study.fixed.filter((one) => !one.usual);
-  const values = [...unusual.map((one) => [one.name, one.value]), ...varied];
-  const python = (value) => (value === null ? "None" : JSON.stringify(value));
-  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(value)}`);
-  return `dm.Parameters(${stated.join(", ")})`;
+  const { before, after, begins } = study.call;
+  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(begins), ...varied];
+  const python = (name, value) => JSON.stringify(name === "disc" ? study.discs[value] ?? value : value).replaceAll("null", "None");
+  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(name, value)}`);
+  return `${before}dm.Parameters(${stated.join(", ")})${after}`;
 }
 
 /** The address of a point: its study, what is shown of it and how, and its place along each dimension. */
@@ -73,7 +78,7 @@ async function follow(hash) {
   view.variable = study.variables.find((one) => one.name === asked.get("variable")) ?? view.variable;
   chooseAxes();
   if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
-  if ([NONE, ...marks().map(([key]) => key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
+  if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
   for (const dim of study.dims) {
     const index = Number(asked.get(dim.name) ?? view.place[dim.name]);
     if (index >= 0 && index < dim.values.length) view.place[dim.name] = Math.floor(index);
@@ -115,7 +120,7 @@ function showPoint() {
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;
   fillTable("values", study.variables.map((one) => [one, shown(study, one, place)]));
-  fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.value), one.unit)]));
+  fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.shown), one.unit)]));
 }
 
 function fillTable(id, rows) {

@@ -36,7 +36,10 @@ function listen() {
   });
   map.addEventListener("keydown", move);
   element("motion").addEventListener("pointermove", hoverMotion);
-  window.addEventListener("resize", redraw);
+  window.addEventListener("resize", () => {
+    showCutTexts();
+    redraw();
+  });
   window.addEventListener("hashchange", async () => (await follow(location.hash.slice(1))) && update());
   element("table").addEventListener("click", () => {
     URL.revokeObjectURL(element("table").href);
@@ -48,7 +51,8 @@ function listen() {
 
 async function start() {
   try {
-    const [first] = [...contents.studies].sort((a, b) => mapped(b) - mapped(a)); // the largest growth map
+    // the largest growth map among the studies that have figures
+    const [first] = [...contents.studies].sort((a, b) => b.has_figures - a.has_figures || mapped(b) - mapped(a));
     if (!(await follow(location.hash.slice(1)))) await chooseStudy(first.name);
   } catch (error) {
     element("map-title").textContent = `This browser cannot unpack the studies: ${error}`;

@@ -28,6 +28,7 @@ async function chooseStudy(name) {
   );
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
+  if (marks().some((mark) => mark.key === SIMULATED)) view.mark = SIMULATED;
   view.place = opening();
 }
 
@@ -49,18 +50,28 @@ function chooseAxes() {
   const fitting = variablesShown();
   const wanted = (one) => !one.name.endsWith("status");
   if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(wanted) ?? fitting[0];
-  const simulated = marks().find(([, variable, word]) => variable.name === "method" && word === "simulation");
-  view.mark = simulated ? simulated[0] : NONE;
+  if (!chosenDots()) view.mark = NONE;
 }
 
 const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
 
-/** Flags that points can be marked by: key, variable, word. */
+const SIMULATED = "method=simulation";
+
+/** What points can be dotted by, a class of a flag or the stability of a growth rate: its key, texts, and whether it holds. */
 function marks() {
-  return variablesShown().flatMap((variable) =>
-    variable.flags ? variable.flags.map((word) => [`${variable.name}=${word}`, variable, word]) : [],
-  );
+  const { study } = view;
+  return variablesShown().flatMap((variable) => {
+    const mark = (word, label, holds) => ({
+      key: `${variable.name}=${word}`, text: `${variable.name}: ${label}`, title: `${variable.label}: ${label}`, holds,
+    });
+    const stable = variable.marks.find((one) => one.is_stable);
+    if (stable) return [mark("stable", stable.look.label, (place) => value(study, stable, place) > 0)];
+    return (variable.flags ?? []).map((word, code) =>
+      mark(word, labelOf(variable, word), (place) => value(study, variable, place) === code));
+  });
 }
+
+const chosenDots = () => marks().find((mark) => mark.key === view.mark);
 
 // Controls
 
@@ -122,8 +133,28 @@ function fillControls() {
     );
   if (marks().length)
     boxes.push(
-      choice("Dots", [[NONE, "none"], ...marks().map(([key, variable, word]) => [key, `${variable.name}: ${labelOf(variable, word)}`])],
+      choice("Dots", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.text])],
         view.mark, (key) => (view.mark = key)),
     );
   element("controls").replaceChildren(...boxes);
+  showCutTexts();
+}
+
+/** Below each selector that is too narrow for the text of what is chosen, this text. */
+function showCutTexts() {
+  const ink = document.createElement("canvas").getContext("2d");
+  for (const select of element("controls").querySelectorAll("select")) {
+    select.parentElement.querySelector("span")?.remove();
+    ink.font = getComputedStyle(select).font;
+    const widthOf = (text) => ink.measureText(text).width;
+    const width = select.offsetWidth;
+    select.style.width = "max-content"; // of its longest text, and what is beside that
+    const beside = select.offsetWidth - Math.max(...[...select.options].map((option) => widthOf(option.text)));
+    select.style.width = "";
+    if (widthOf(select.title) <= width - beside + 1) continue;
+    const whole = document.createElement("span");
+    whole.textContent = select.title;
+    whole.ariaHidden = "true"; // the selector says the same
+    select.after(whole);
+  }
 }
