@@ -91,7 +91,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
         {"value": "negative"},
     ),
-    (dm.plot_sweep, {"study": GRID}, PICTURE | {"log": "True", "variable": "None", "x": "None"}),
+    (
+        dm.plot_sweep,
+        {"study": GRID},
+        PICTURE | {"log": "True", "variable": "None", "x": "None", "cmap": "None"},
+    ),
     (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),
     (
@@ -171,7 +175,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         (function, {}, {"path": "text"})
         for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)
     ),
-    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text"}),
+    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text", "compressed": "True"}),
 ]
 ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")

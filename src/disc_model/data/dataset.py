@@ -38,7 +38,10 @@ CONVENTIONS = "CF-1.11"
 def save(tree: xr.DataTree, path: str | Path, *, compressed: bool = True) -> None:
     """Write a tree as netCDF 4, atomically; raises `ParameterError` for what is no tree, or
     `WriteError`."""
-    require((isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"))
+    require(
+        (isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"),
+        (isinstance(compressed, bool), "compressed", compressed, "must be True or False"),
+    )
 
     def write(name: str) -> None:
         _write(tree, name, compressed)

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data.variables import SHOWN, attributes
 from disc_model.explorer.marks import marked_cells
@@ -22,7 +21,6 @@ from disc_model.figures.growth import (
     is_growth,
 )
 from disc_model.figures.selection import classes_of_gaps, statuses
-from disc_model.figures.types import Words
 from disc_model.figures.words import (
     NO_VALUE,
     UNITS,
@@ -172,7 +170,7 @@ def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
     }
 
 
-def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
+def traces(values: np.ndarray) -> dict[str, Any]:
     """Packed histories, shape (points, samples); ``least + step * n`` errs by half a step, 8e-6 of
     each range."""
     least = values.min(axis=1, keepdims=True, initial=np.inf).astype(float)
@@ -188,13 +186,13 @@ def traces(values: NDArray[np.floating[Any]]) -> dict[str, Any]:
     }
 
 
-def runs(values: NDArray[np.integer[Any]]) -> list[list[int]]:
+def runs(values: np.ndarray) -> list[list[int]]:
     """Runs of equal values: the index where each begins, and its value."""
     begins = np.flatnonzero(np.diff(values, prepend=values[0] + 1))
     return [[int(i), int(values[i])] for i in begins]
 
 
-def packed(values: NDArray[Any], kind: str) -> str:
+def packed(values: np.ndarray, kind: str) -> str:
     """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and
     so on, deflated."""
     numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
@@ -202,7 +200,7 @@ def packed(values: NDArray[Any], kind: str) -> str:
     return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
 
 
-def shortened(values: NDArray[Any]) -> NDArray[np.float32]:
+def shortened(values: np.ndarray) -> np.ndarray:
     """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses
     well."""
     whole = np.array(values, dtype=np.float32)
@@ -325,7 +323,7 @@ def _gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
     }
 
 
-def _words_of_gaps(study: xr.Dataset, variable: xr.DataArray) -> Words:
+def _words_of_gaps(study: xr.Dataset, variable: xr.DataArray) -> np.ndarray:
     """The class of each point that has no number, as in the figures; "" for other points."""
     if not {*statuses(study).dims} <= {*variable.dims}:  # then no one status is that of the number
         return np.where(np.isfinite(variable.values.astype(float)), "", NO_VALUE)

@@ -6,7 +6,6 @@ import json
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from itertools import groupby
-from operator import attrgetter
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -58,7 +57,8 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         embedded=embedded,
         style=_part("page.css"),
         figures=[
-            (heading, [*group]) for heading, group in groupby(pictures, key=attrgetter("heading"))
+            (heading, [*group])
+            for heading, group in groupby(pictures, key=lambda picture: picture.heading)
         ],
         contents=texts.replace(
             "<", "\\u003c"
