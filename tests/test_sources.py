@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from disc_model import sources
 from disc_model.sources import (
     BATCHES,
     MERGING,
@@ -48,6 +49,36 @@ def test_code_counts_and_what_is_said_of_it_does_not(text: str, same: bool, tmp_
         path.write_text(content)
         hashes.append(source_hash(path))
     assert (hashes[0] == hashes[1]) == same
+
+
+def test_hashes_of_code_are_kept_for_later_processes(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """By the file's content: a file that has changed is read anew, and a damaged line is left out."""
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    path = tmp_path / "job.py"
+    path.write_text("x = 1")
+
+    def in_a_new_process() -> str:
+        code_hash.cache_clear()
+        sources._known_hashes.cache_clear()
+        return code_hash(path)
+
+    first = in_a_new_process()
+    [kept] = (tmp_path / "cache").glob("code-*.txt")
+    line = kept.read_text()
+    assert line.split()[1] == first
+    monkeypatch.setattr(sources.ast, "dump", None)  # no file is read again
+    assert in_a_new_process() == first
+
+    monkeypatch.undo()
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache"))
+    path.write_text("x = 2")
+    second = in_a_new_process()
+    assert second != first
+    kept.write_text(f"{line[:100]}\n")
+    assert in_a_new_process() == second
+    sources._known_hashes.cache_clear()
 
 
 def test_names_and_data_of_a_folder_count(tmp_path: Path) -> None:

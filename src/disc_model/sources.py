@@ -5,6 +5,7 @@ the file of its quantity too, a figure on the folder of figures.
 """
 
 import ast
+import contextlib
 import functools
 import hashlib
 import importlib.metadata
@@ -46,6 +47,7 @@ BATCHES = (
 """Parts on which every batch depends, beside the file of its quantity."""
 MERGING = ("data", "studies/batch.py", "studies/merge.py", "studies/run.py")
 """Parts on which merged datasets depend, beside their batches and cases."""
+HASH_LENGTH = 64  # hexadecimal digits
 
 
 @functools.cache
@@ -85,11 +87,37 @@ def code_hash(path: Path) -> str:
     """Return a hash of a file; of Python only of what it does, as this version of Python reads
     it."""
     content = path.read_bytes()
-    if path.suffix == ".py":
+    of_content = hashlib.sha256(content).hexdigest()
+    if path.suffix != ".py":
+        return of_content
+    known = _known_hashes()
+    if of_content not in known:
         tree = ast.parse(content, str(path))
         _drop_texts(tree)
-        content = ast.dump(tree).encode()
-    return hashlib.sha256(content).hexdigest()
+        known[of_content] = hashlib.sha256(ast.dump(tree).encode()).hexdigest()
+        with contextlib.suppress(OSError), _hashes_file().open("a") as file:
+            file.write(f"{of_content} {known[of_content]}\n")
+    return known[of_content]
+
+
+@functools.cache
+def _known_hashes() -> dict[str, str]:
+    """Hashes of what Python files do, by those of their contents, kept from earlier processes: to
+    read the whole package takes half a second at each start of the workflow."""
+    known = {}
+    with contextlib.suppress(OSError):
+        _hashes_file().parent.mkdir(parents=True, exist_ok=True)
+        for line in _hashes_file().read_text().splitlines():
+            of_content, _, of_code = line.partition(" ")
+            if len(of_content) == len(of_code) == HASH_LENGTH:
+                known[of_content] = of_code
+    return known
+
+
+def _hashes_file() -> Path:
+    """The file of known hashes, of this version of Python and of these rules for reading it."""
+    rules = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()
+    return cache_folder() / f"code-{platform.python_version()}-{rules[:16]}.txt"
 
 
 def _drop_texts(statement: ast.AST) -> None:
