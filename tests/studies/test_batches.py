@@ -271,6 +271,12 @@ def test_a_tile_has_at_most_32_intervals_a_side(monkeypatch: pytest.MonkeyPatch)
     """Of 64 there are two stretches, however cheap its points are."""
     monkeypatch.setattr(GridStudy, "_cost_of", lambda self, points: WORK / 100**2)
     side = {"start": 100, "stop": 164, "step": 1}
-    axes = {"N": side, "Omega": side}
-    grid = parse_grid(study(quantity="regions", options={"horizon": 1}, axes=axes, batch={}))
+    changes = {
+        "quantity": "regions",
+        "options": {"horizon": 1},
+        "axes": {"N": side, "Omega": side},
+        "batch": {},
+    }
+    raw = study(**changes)
+    grid = parse_grid(raw)
     assert len(grid.batches) == 4

@@ -219,6 +219,6 @@ def test_faults_beyond_fifty_are_only_counted(count: int, last: str) -> None:
     error = StudyError(*faults, source="mine.yaml")
     first, *lines = str(error).splitlines()
     assert first == f"mine.yaml: {count} faults"
-    assert lines[49].strip() == "fault 49"
-    assert lines[-1].strip() == last
-    assert len(error.faults) == count
+    shown = [line.strip() for line in lines]
+    assert shown[49] == "fault 49"
+    assert shown[-1] == last

@@ -194,8 +194,9 @@ def test_the_critical_energy_is_the_least_of_the_directions_that_are_bisected(
 ) -> None:
     ends = (0.04, 0.01)
     monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: ends[i]))
-    options = {"energies": [0.05], "n_starts": 2, "precision": 0.01}
-    table = found(n_bisection_directions=directions, **options).arrays
+    table = found(
+        energies=[0.05], n_starts=2, precision=0.01, n_bisection_directions=directions
+    ).arrays
     low = table["critical_energy_lower"][0]
     high = table["critical_energy"][0]
     assert low <= least < high

@@ -246,4 +246,5 @@ def test_turns_count_up_to_the_greatest_number_of_diameters(diameters: int, coun
     none = np.full(401, np.nan)
     numbers = np.full((401, 1), diameters)
     turning = made_up(rotation_frequency=5 * speeds, stick_slip_frequency=none, diameters=numbers)
-    assert Campbell().summarise(turning)["n_crossings"] == count
+    summary = Campbell().summarise(turning)
+    assert summary["n_crossings"] == count
