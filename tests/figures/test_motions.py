@@ -492,3 +492,9 @@ def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
 )
 def test_a_share_that_rounds_to_nothing_is_told_from_none(share: float, text: str) -> None:
     assert percent(share) == text.replace(" ", "\u00a0")
+
+
+def test_a_sweep_that_separates_is_named_even_if_no_branch_does() -> None:
+    names = labels(branches(separations=(0, 0)))
+    assert "simulated, separating" in names
+    assert "jump" in names
