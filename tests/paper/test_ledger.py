@@ -5,7 +5,7 @@ import pytest
 
 from disc_model.paper import ledger
 from disc_model.paper.ledger import ROWS, check_claims, summary
-from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.section43 import PLACE
 
 NUMBERS = " ".join(str(number) for number in range(1, 40))
@@ -98,3 +98,20 @@ def test_a_verdict_that_only_one_normalisation_has_changes_if_the_first_has_it(
     monkeypatch.setattr(ledger, "_verdicts", lambda *_: verdicts)
     _, _, changed = ledger.compare({}, {})["verdicts"]
     assert [*changed.index] == ["vanishes"]
+
+
+def test_the_brief_counts_verdicts_of_both_normalisations() -> None:
+    verdicts = pd.DataFrame(
+        {
+            ledger.OLD: [TRUE, TRUE, FALSE, NOT_COMPUTED, PART],
+            ledger.NEW: [TRUE, FALSE, FALSE, FALSE, PART],
+        }
+    )
+    table = ledger._brief([], verdicts).set_index("")
+    rows = {
+        "statements that are true, of 5 that are judged by cases": ["2", "1"],
+        "statements that are false": ["1", "3"],
+        "statements that no motion decides": ["1", "0"],
+    }
+    for name, counts in rows.items():
+        assert list(table.loc[name]) == counts
