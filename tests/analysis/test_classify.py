@@ -401,3 +401,43 @@ def test_points_have_settled_on_the_later_half_of_those_from_the_start() -> None
     points[70:] = 1.0
     points[1::2] += 0.5
     assert classify.first_settled(points, start=60) == 70
+
+
+@pytest.mark.parametrize(
+    ("motion", "text"),
+    [
+        (classify.Motion(Outcome.OTHER_CYCLE, 1), "periodic"),
+        (classify.Motion(Outcome.OTHER_CYCLE, 3), "periodic, repeats after 3 intervals"),
+        (classify.Motion(Outcome.QUASI_PERIODIC), "quasi-periodic"),
+    ],
+)
+def test_a_motion_is_told_in_words(motion: classify.Motion, text: str) -> None:
+    assert str(motion) == text
+
+
+@pytest.mark.parametrize(
+    ("settling", "text"),
+    [
+        (
+            classify.Settling(Settled.CHANGING, 0.2, 0.01),
+            "changing at 0.2/s, the record shows 0.01/s or more",
+        ),
+        (
+            classify.Settling(Settled.UNDECIDED, least=0.01),
+            "undecided, the record shows 0.01/s or more",
+        ),
+        (classify.Settling(), "undecided, since the record has too few events to show a change"),
+    ],
+)
+def test_whether_a_motion_has_settled_is_told_with_what_the_record_shows(
+    settling: classify.Settling, text: str
+) -> None:
+    assert str(settling) == text
+
+
+def test_twenty_intervals_are_enough_to_classify_a_motion() -> None:
+    same = np.full(20, 0.1)
+    found = classify.motion_of(same)
+    assert found.period == 1
+    with pytest.raises(ValueError, match=r"^19 intervals: at least 20 are needed$"):
+        classify.motion_of(same[1:])

@@ -286,3 +286,47 @@ def test_side_lobes_of_the_window_are_no_lines() -> None:
     # and a tenth of that is not told from them
     smaller = spectra.lines(time, 2.0 * np.sin(2 * np.pi * 60.1 * time) + 0.1 * small, floor=0.0)
     assert [line.frequency for line in smaller] == pytest.approx([60.1], abs=1e-2)
+
+
+@pytest.mark.parametrize(
+    ("sign", "label"),
+    [
+        (-1, "4 f_s = 290.28 Hz - 2 Ω/2π"),
+        (0, "4 f_s = 290.28 Hz"),
+        (1, "4 f_s = 290.28 Hz + 2 Ω/2π"),
+    ],
+)
+def test_a_resonance_is_named_with_the_side_of_the_turns(sign: int, label: str) -> None:
+    assert spectra.Resonance(4.0, 290.28, 2, sign, 0.0).label == label
+
+
+def test_a_mode_that_the_slider_holds_may_resonate_where_it_stands() -> None:
+    """With twice the rate of releases, without turns of the drive."""
+    p = Parameters(N=300, Omega=20)
+    bound = [mode for mode in spectra.modes_at_rest(p) if mode.bound and mode.diameters]
+    mode = bound[0]
+    period = 2 / mode.frequency
+    found = spectra.nearest_resonance(p, period, 1 + 0j, mode.diameters)
+    assert found.sign == 0
+    assert found.harmonic == 2
+    assert found.frequency == mode.frequency
+    # of the frequency by the period
+    assert found.detuning == pytest.approx(0.0, abs=1e-9)
+
+
+def test_lines_may_be_as_near_as_two_bins_if_that_is_asked_for() -> None:
+    values = signal(KNOWN)
+    usual = spectra.lines(TIME, values, floor=0.01)
+    near = spectra.lines(TIME, values, floor=0.01, apart=1e-9)
+    assert near == usual
+
+
+def test_the_shortest_record_of_a_spectrum_in_time_is_a_window_and_two_steps() -> None:
+    """Of 1 s and twice 0.05 s at 100 Hz."""
+    time = np.arange(110) / 100
+    values = np.sin(2 * np.pi * 10 * time)
+    found = spectra.time_frequency(time, values)
+    assert found.power.shape == (len(found.frequency), len(found.time))
+    assert found.time[0] >= 0.5
+    with pytest.raises(ValueError, match=r"^1\.09 s of samples are too few"):
+        spectra.time_frequency(time[1:], values[1:])

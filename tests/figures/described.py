@@ -81,7 +81,7 @@ def bifurcation(section: str = "stroboscopic") -> Figure:
     return drawn("bifurcation", study, {"lyapunov": lyapunov}, **phrase)
 
 
-def branches() -> Figure:
+def branches(separations: tuple[int, int] = (0, 2)) -> Figure:
     """A quiet branch with a fold at 13 rad/s, and one that separates above it."""
     dims = ("sweep_direction", "sweep_value")
     ranges = [[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2.5e-2, 3e-2]]
@@ -90,7 +90,7 @@ def branches() -> Figure:
     data = {
         "status": ((), np.int8(0), {"flag_meanings": "ok failed"}),
         "n_branches": ((), 2),
-        "separations": ("branch", [0, 2]),
+        "separations": ("branch", [*separations]),
         "value": (("branch", "branch_point"), [[10, 12, 13, 12], [11, 14, NAN, NAN]]),
         "range": (
             ("branch", "branch_point"),

@@ -11,9 +11,10 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed
-from disc_model.figures.borders import Curve, parts_of
+from disc_model.figures.borders import Curve, _resonance_of, curves_of, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
+from tests.figures.every_kind import flag
 from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
 
@@ -136,3 +137,40 @@ def test_a_fold_bounds_a_cycle_beyond_which_there_is_none(kind: str, drawn: bool
     cycle = xr.Dataset({"growth_rate": (("N", "Omega"), rate)}, axes)
     curve = Curve(np.full(5, 13.4), np.linspace(150, 450, 5), kind)
     assert bool(parts_of([curve], cycle)) == drawn
+
+
+@pytest.mark.parametrize(
+    ("detuning", "label"),
+    [
+        (-5.0, ""),
+        (-2.0, "2 f_s = 135.42 Hz − 1 f_Ω"),
+        (2.0, "2 f_s = 135.42 Hz − 1 f_Ω"),
+        (5.0, ""),
+    ],
+)
+def test_a_fold_is_named_within_three_hertz_of_a_resonance(detuning: float, label: str) -> None:
+    point = xr.Dataset(
+        {
+            "resonance_harmonic": 2.0,
+            "resonance_frequency": 135.42,
+            "resonance_diameters": 1,
+            "resonance_sign": -1,
+            "resonance_detuning": detuning,
+        }
+    )
+    assert _resonance_of(point) == label
+
+
+@pytest.mark.parametrize(("stable", "drawn"), [(["yes", "yes", "no"], 1), (["yes", "no", "no"], 0)])
+def test_two_points_beside_a_stable_cycle_make_a_curve(stable: list[str], drawn: int) -> None:
+    points = ("curve", "curve_point")
+    curves = xr.Dataset(
+        {
+            "kind": flag(("curve",), ["neutral"], ("none", "neutral")),
+            "adjoins_stable_cycle": flag(points, [stable], ("no", "yes")),
+            "x": (points, [[10.0, 11.0, 12.0]]),
+            "y": (points, [[200.0, 210.0, 220.0]]),
+        }
+    )
+    found = curves_of(curves)
+    assert len(found) == drawn

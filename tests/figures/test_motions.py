@@ -8,8 +8,10 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 from matplotlib.colors import to_hex, to_rgb
+from matplotlib.figure import Figure
 from matplotlib.text import Annotation
 
+from disc_model.figures import campbell as campbell_diagram
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
@@ -515,3 +517,49 @@ def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
 )
 def test_a_share_that_rounds_to_nothing_is_told_from_none(share: float, text: str) -> None:
     assert percent(share) == text.replace(" ", "\u00a0")
+
+
+def test_a_sweep_that_separates_is_named_even_if_no_branch_does() -> None:
+    names = labels(branches(separations=(0, 0)))
+    assert "simulated, separating" in names
+    assert "jump" in names
+
+
+CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
+
+
+@pytest.mark.parametrize(
+    ("rates", "name"),
+    [
+        ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
+        ([-0.05, -0.05, -0.30, -0.05, -0.05], "not resolved by the steps"),
+    ],
+)
+def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
+    speeds = np.arange(5.0)
+    studies = []
+    for column in (CALM, rates):
+        rate = ("Omega", np.array(column))
+        study = xr.Dataset({"growth_rate": rate}, {"Omega": speeds})
+        studies.append(study)
+    figure = Figure(figsize=(7, 4))
+    campbell_diagram._legend(figure, studies)
+    shown = labels(figure)
+    assert name in shown
+    assert "speed of a peak" not in shown
+
+
+@pytest.mark.parametrize(
+    ("rates", "alone"),
+    [
+        ([0.00, 0.15, 0.00], [True, True, True]),
+        ([0.00, 0.05, 0.20], [False, False, True]),
+        ([0.00, 0.05, 0.00], [False, False, False]),
+        ([0.00, np.nan, 0.00], [True, False, True]),
+    ],
+)
+def test_rates_that_differ_by_more_than_a_tenth_are_not_joined(
+    rates: list[float], alone: list[bool]
+) -> None:
+    found = campbell_diagram.unjoined(np.array(rates))
+    assert found.tolist() == alone

@@ -3,6 +3,7 @@ them."""
 
 import functools
 import re
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -14,6 +15,7 @@ from matplotlib.figure import Figure
 import disc_model as dm
 from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import CycleStatus
+from disc_model.figures.branch import _mark_special_points
 from disc_model.figures.disc import Motion, scale_of
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
@@ -174,6 +176,34 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     # the same numbers, but for the factor's rounding
     assert mark.get_xdata() == pytest.approx([speed], rel=1e-12)
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
+
+
+def test_several_special_points_of_a_kind_are_counted() -> None:
+    first = SimpleNamespace(kind="fold", values=[15.0], period=0.014)
+    second = SimpleNamespace(kind="fold", values=[15.5], period=0.015)
+    alone = SimpleNamespace(kind="period_doubling", values=[16.0], period=0.016)
+    special = [first, alone, second]
+    made: Any = SimpleNamespace(special=special, parameters=("Omega",))
+    _, ax = pyplot.subplots()
+    handles = _mark_special_points(ax, made, "period", (1.0, 1e3))
+    names = [str(handle.get_label()) for handle in handles]
+    assert names == ["2 folds", "period doubling at 16"]
+    shown = lines(ax)
+    folds = shown["2 folds"]
+    assert folds.get_xdata().tolist() == [15.0, 15.5]
+    assert folds.get_ydata() == pytest.approx([14.0, 15.0])
+
+
+def test_a_branch_of_both_stabilities_names_them_on_a_linear_axis() -> None:
+    """Ranges from one end to the other differ by less than a factor of 30."""
+    p = P.replace(Omega=14.9)
+    both = dm.continue_cycle(p, "Omega", (14.8, 15.2))
+    figure = figure_of(both.plot("range"))
+    (ax,) = figure.axes
+    assert ax.get_yscale() == "linear"
+    assert labels(figure) == ["stable", "unstable", "fold at 15.095"]
+    whole = figure_of(branch().plot("range"))
+    assert labels(whole) == ["stable"]
 
 
 def test_a_special_point_of_a_stiffness_is_marked_in_kilonewtons() -> None:

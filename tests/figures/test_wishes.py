@@ -11,6 +11,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
+from disc_model.figures.canvas import Page, _check_room
 from disc_model.figures.sizes import COLUMN, PAGE
 from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
 
@@ -286,3 +287,19 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     dm.plot_sweep(partly, ax=ax)
     assert min(ax.bbox.width, ax.bbox.height) / figure.dpi * 25.4 > 20
     pyplot.close("all")
+
+
+def page_of_a_panel(millimetres: float) -> Page:
+    """A panel of a width, with room around it."""
+    figure = pyplot.figure(figsize=(4, 4))
+    width = millimetres / 25.4 / 4
+    ax = figure.add_axes((0.3, 0.3, width, 0.5))
+    return Page([ax], own=False)
+
+
+def test_a_panel_beside_a_bar_has_eight_millimetres_at_least() -> None:
+    wide = page_of_a_panel(9.0)
+    _check_room(wide)
+    narrow = page_of_a_panel(7.0)
+    with pytest.raises(dm.ParameterError, match="ax='7 mm for the panel': must have room"):
+        _check_room(narrow)

@@ -1,6 +1,7 @@
 """The balance of powers: contact passes on what the slope supplies, and impacts take it."""
 
 from collections.abc import Sequence
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -142,3 +143,24 @@ def test_damping_belongs_to_the_diameters_of_the_wave_that_moves() -> None:
     psi = modes_at_point(GROWS).psi[of_wave]
     expected = modal_damping(GROWS)[of_wave] * (0.2 / psi) ** 2
     assert taken == pytest.approx([0, 0, 0, expected, 0], abs=1e-12 * expected)
+
+
+def test_instants_count_whose_range_is_within_five_per_cent(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of six a quarter of a second long, three."""
+    widths = iter([0.5, 0.92, 0.96, 1.0, 1.04, 1.06])
+
+    def found(*_: object) -> Powers:
+        [each] = numbered(next(widths))
+        return each
+
+    run = SimpleNamespace(final_state=None, u_0=0.0, samples={})
+    run.raise_for_status = lambda: run
+    monkeypatch.setattr(energy, "simulate", lambda *_, **__: run)
+    monkeypatch.setattr(energy, "powers", found)
+    stages = numbered(0.5, 2.0)
+    mean_powers, end = at_range(GROWS, 30.0, 1.0, stages)
+    [expected] = numbered(1.0)
+    assert mean_powers == pytest.approx(expected)
+    assert end == pytest.approx(1.25)

@@ -1,12 +1,17 @@
 """The top of the ledger's page: what is counted, what is said, and where words lead."""
 
+import math
+from typing import Any
+
 import pandas as pd
 import pytest
 
 from disc_model.paper import ledger
 from disc_model.paper.ledger import ROWS, check_claims, summary
-from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE
+from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.section43 import PLACE
+from disc_model.parameters import Parameters
+from tests.paper.known import known
 
 NUMBERS = " ".join(str(number) for number in range(1, 40))
 TEXTS = ledger.read_texts("paper/ledger.yaml")
@@ -98,3 +103,48 @@ def test_a_verdict_that_only_one_normalisation_has_changes_if_the_first_has_it(
     monkeypatch.setattr(ledger, "_verdicts", lambda *_: verdicts)
     _, _, changed = ledger.compare({}, {})["verdicts"]
     assert [*changed.index] == ["vanishes"]
+
+
+def test_the_brief_counts_verdicts_of_both_normalisations() -> None:
+    verdicts = pd.DataFrame(
+        {
+            ledger.OLD: [TRUE, TRUE, FALSE, NOT_COMPUTED, PART],
+            ledger.NEW: [TRUE, FALSE, FALSE, FALSE, PART],
+        }
+    )
+    table = ledger._brief([], verdicts).set_index("")
+    rows = {
+        "statements that are true, of 5 that are judged by cases": ["2", "1"],
+        "statements that are false": ["1", "3"],
+        "statements that no motion decides": ["1", "0"],
+    }
+    for name, counts in rows.items():
+        assert list(table.loc[name]) == counts
+
+
+@pytest.mark.parametrize(
+    ("changes", "text"),
+    [
+        ({}, "none in 60 s"),
+        ({"first": 12.345}, "12.35 s"),
+        ({"bilateral": True}, "ignored"),
+        ({"status": "failed"}, "failed"),
+    ],
+)
+def test_the_page_says_when_contact_is_first_lost(changes: dict[str, Any], text: str) -> None:
+    """Of a case of 100 s that reached 60 s."""
+    usual = {"first": math.nan, "bilateral": False, "status": "stopped"}
+    case = {**usual, **changes}
+    scalars = {"first_separation": case["first"], "time_reached": 60.0, "t_end": 100.0}
+    view = known(scalars, bilateral=case["bilateral"], status=case["status"])
+    assert ledger._first_separation(view) == text
+
+
+@pytest.mark.parametrize(
+    ("bilateral", "text"),
+    [(False, "N = 385 N, Ω = 20 rad/s"), (True, "N = 385 N, Ω = 20 rad/s, separation ignored")],
+)
+def test_the_page_says_whether_separation_is_ignored(bilateral: bool, text: str) -> None:
+    p = Parameters(N=385, Omega=20)
+    case = known({}, parameters=p, bilateral=bilateral)
+    assert ledger._parameters_text(case) == text

@@ -134,6 +134,17 @@ def test_a_period_is_told_in_releases_separations_and_seconds() -> None:
     )
 
 
+def test_up_to_half_of_the_intervals_a_motion_is_seen_not_to_repeat() -> None:
+    """Sixty intervals that turn by the golden mean."""
+    turns = 0.618034 * np.arange(60) % 1
+    intervals = 0.01 + 0.001 * turns
+    times = 90 + np.concatenate([[0.0], np.cumsum(intervals)])
+    rows = [(time, "stick_to_slip", "slip") for time in times]
+    said = view(rows, time_reached=91.0).motion
+    assert "it does not repeat after any number of releases up to 30, " in said
+    assert "the 0-1 test for chaos gives" in said
+
+
 # ---- Ranges
 
 

@@ -277,4 +277,13 @@ def test_the_brief_counts_cases_and_names_failures(sections: dict[str, Any]) -> 
     counts = table.set_index("").T
     assert list(counts["cases that separate, of 7"]) == ["5", "1"]
     assert list(counts["first separation, 200 N, 15 rad/s"]) == ["810.15 s", "none in 1240 s"]
+    [cycles] = [name for name in counts if name.startswith("cases whose stick-slip cycle")]
+    rows = sections["cases"][2].set_index("Case").drop("F20")
+    before = rows["Growth, as published (1/s)"]
+    after = rows["Growth, Eq. (17) (1/s)"]
+    known = (before != "–") & (after != "–")
+    assert not known.all()
+    assert f"of {known.sum()} that have one under both" in cycles
+    grows = [before[known].str.startswith("+"), after[known].str.startswith("+")]
+    assert list(counts[cycles]) == [str(each.sum()) for each in grows]
     assert "Without a result: F20." in text

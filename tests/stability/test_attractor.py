@@ -310,6 +310,7 @@ CALM_20 = Attractor(Outcome.QUIET, ranged(0.02)[0])
         ([APART_20, APART_30], [0.022, 0.021, 0.0205], None),  # too few legs
         ([APART_20, APART_30], [0.03, 0.028, 0.026, 0.0245], None),  # still far
         ([APART_20, APART_24], [0.024, 0.022, 0.021, 0.0205], None),  # another one as near
+        ([APART_24, APART_20], [0.024, 0.022, 0.021, 0.0205], None),
         ([CALM_20, APART_30], [0.024, 0.022, 0.021, 0.0205], None),  # quiet ones are told by cycles
         ([APART_20], [0.0205, 0.021, 0.0205, 0.021], None),  # it comes and goes
         ([APART_20], [0.0202, 0.0201, 0.0202, 0.0201], APART_20),  # by less than a hundredth

@@ -298,6 +298,11 @@ def test_intervals_of_instability_lie_between_crossings(
     edges = len(crossings) + 1
     assert rows.count(">unstable<") == len(unstable)
     assert rows.count(">stable<") == edges - len(unstable)
+    # the range is from 0 to 1, of a number without a unit
+    assert ">0<" in rows
+    assert ">1<" in rows
+    assert ">to<" in rows
+    assert ">below 0.1<" in rows
 
 
 def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:

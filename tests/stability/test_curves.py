@@ -95,3 +95,25 @@ def test_a_curve_that_cannot_be_followed_is_told_with_both_its_values(
     seed = SimpleNamespace(kind="fold", case=case, period=0.01, point=None, mu=1.0)
     search._follow(seed)
     assert search.failures == ["fold near Omega=15, N=300: no cycle there"]
+
+
+def test_a_point_of_a_line_without_a_branch_is_told_with_its_value(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def refuse(*_args: object, **_named: object) -> None:
+        raise ParameterError("no cycle there")
+
+    monkeypatch.setattr(curves, "continue_cycle", refuse)
+    case = Parameters(N=300, Omega=15)
+    failures: list[str] = []
+    seed = curves._border(case, "Omega", 16.0, 1e-12, failures)
+    assert seed is None
+    assert failures == ["Omega=15: no cycle there"]
+
+
+@pytest.mark.parametrize("bounds", [{"Omega": (16, 15), "N": (1, 2)}, {"Omega": (15, 16)}])
+def test_bounds_of_a_plane_are_two_ascending_ones(bounds: dict[str, tuple[float, float]]) -> None:
+    case = Parameters(N=300, Omega=15)
+    rule = "must be two ascending finite numbers, by the names of two parameters"
+    with pytest.raises(ParameterError, match=f"^bounds=.*: {rule}$"):
+        curves.neutral_curves(case, bounds, [1.5])

@@ -1,14 +1,23 @@
 """The stick-slip cycle: its multipliers, its status, what is stable."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
 from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.engine import transitions
 from disc_model.errors import DiscModelError
-from disc_model.stability.cycle import CycleError, find_cycle, run_through_once
+from disc_model.stability.cycle import (
+    CycleError,
+    FloquetResult,
+    _without_return,
+    cycle_of,
+    find_cycle,
+    run_through_once,
+)
 from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -209,3 +218,46 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
         sure += error < 1e-5
     assert sure > 10
     assert passed_over < 5
+
+
+def cycle_of_all_events() -> FloquetResult:
+    """Of a section with a static deflection of 0.5, which it misses by 1e-6."""
+    counts = Counts(3, 2, 4, 5, 7)
+    start = np.array([0.1])
+    end = start + 1e-6
+    slope = np.array([[0.5]])
+    by = np.zeros((1, 0))
+    orbit = Orbit(RETURNED, 0.02, 0.005, counts, start, end, slope, by)
+    map_ = SimpleNamespace(parameters=P, tol=1e-12, deflection=0.5, state=lambda x: None)
+    return cycle_of(map_, orbit)
+
+
+def test_a_cycle_has_its_events_by_their_kinds():
+    cycle = cycle_of_all_events()
+    assert cycle.releases == 3
+    assert cycle.backward_releases == 2
+    assert cycle.reversals == 4
+    assert cycle.separations == 5
+    assert cycle.sticks == 7
+    events = "3 releases, 2 backward releases, 4 slip reversals, 5 separations"
+    assert cycle.message == f"ok: cycle of 0.02 s with {events}"
+
+
+def test_numbers_of_a_cycle_are_relative_to_its_period_and_the_deflection():
+    cycle = cycle_of_all_events()
+    assert cycle.stick_fraction == pytest.approx(0.25)
+    # of the difference of two floats near 0.1
+    assert cycle.residual == pytest.approx(2e-6, rel=1e-9)
+
+
+def test_the_modulus_of_a_complex_multiplier_is_stated():
+    values = np.array([0.3 + 0.4j, 0.3 - 0.4j])
+    cycle = FloquetResult(P, 1e-12, CycleStatus.OK, "made up", multipliers=values)
+    said = dict(cycle._summary())
+    assert said["leading multiplier"] == "0.3+0.4j, modulus 0.5"
+
+
+def test_how_long_a_slider_slips_on_is_stated():
+    found = _without_return(ReturnMap(P), transitions.TIME_OVER, 0.123)
+    assert found.status is CycleStatus.NO_STICK_SLIP
+    assert found.message.endswith("the slider slips on for 0.123 s without sticking")

@@ -10,7 +10,7 @@ from disc_model.parameters import Parameters
 from disc_model.stability import thresholds
 from disc_model.stability.floquet import floquet
 from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
-from disc_model.stability.outcome import find_outcome
+from disc_model.stability.outcome import SearchOptions, _OutcomeSearch, find_outcome
 from disc_model.stability.return_map import ReturnMap
 
 pytestmark = pytest.mark.compiled
@@ -126,3 +126,14 @@ def test_a_departure_whose_growth_rate_is_another_is_not_extrapolated() -> None:
     near = near_start(Parameters(N=300, Omega=11.25, k_p=4742.74741132))
     assert near.cycle.growth_rate < thresholds.SLOW_DEPARTURE
     assert near.extrapolate(500.0) is None
+
+
+@pytest.mark.parametrize(("tol", "departs"), [(1e-10, False), (1e-12, True)])
+def test_a_change_within_the_errors_of_a_simulation_is_no_departure(
+    tol: float, departs: bool
+) -> None:
+    """Errors are up to 1e4 tol: 1e-6 and 1e-8."""
+    options = SearchOptions(100.0, tol, None, early=True, late=0.0, extrapolate=False)
+    search = _OutcomeSearch(SLOW, options, None, None)
+    search.result.changes = [1e-9, 5e-7]
+    assert search._departs() is departs

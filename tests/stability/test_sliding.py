@@ -363,3 +363,18 @@ def test_a_step_that_changes_modes_much_is_halved():
     narrow = follow_modes([p.replace(m=m) for m in masses])
     numbers = narrow[-1].numbers
     np.testing.assert_array_equal(wide[-1].numbers, numbers)
+
+
+def test_growing_modes_are_counted_and_named_by_their_frequencies():
+    values = np.array([3 + 1j * math.tau * 100, 2 + 1j * math.tau * 40, -1 + 1j * math.tau * 7])
+    eigenvalues = np.concatenate([values, values.conj()])
+    sliding = SteadySliding(SlidingStatus.OK, "made up", eigenvalues=eigenvalues)
+    said = dict(sliding._summary())
+    assert said["unstable modes"] == 2
+    assert said["growing frequencies"] == "100 Hz, 40 Hz"
+
+
+@pytest.mark.parametrize(("force", "symbol"), [("vertical", "P"), ("normal", "R")])
+def test_the_force_of_sliding_has_the_symbol_of_its_direction(force, symbol):
+    sliding = steady_sliding(P.replace(contact_force=force))
+    assert sliding.message.startswith(f"steady sliding with {symbol} = ")

@@ -178,3 +178,11 @@ def test_the_least_damped_oscillation_comes_first() -> None:
     assert len(shapes) == 2
     assert np.abs(shapes[0][2:4]).min() > 0.5
     assert np.abs(shapes[1][:2]).min() > 0.5
+
+
+def test_without_preload_no_cycle_slips_even_if_contact_is_kept() -> None:
+    p = dm.Parameters(N=0, Omega=2, n_diameters=0, contact="bilateral")
+    assert dm.steady_sliding(p).status == "ok"
+    cycle = dm.floquet(p, kind="slipping")
+    assert cycle.status is CycleStatus.NO_CYCLE
+    assert cycle.message.endswith("there is no steady sliding on a spring")

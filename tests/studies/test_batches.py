@@ -255,3 +255,28 @@ def test_a_rule_may_compare_nothing_that_the_quantity_varies(
     raw["base"] = {"N": 200, "Omega": 20, **changes.get("base", {})}
     found = faults_of(parse_study, raw)
     assert any(words in each for each in found), found
+
+
+def test_a_grid_may_have_the_greatest_number_of_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    axes = {"mu_s": [0.3, 0.4], "mu_k": [0.1, 0.2, 0.3]}
+    raw = {"study": "s", "quantity": "floquet", "base": {"N": 200, "Omega": 20}, "axes": axes}
+    monkeypatch.setattr(parts_of, "MOST_POINTS", 6)
+    assert parse_grid(raw).n_points == 6
+    monkeypatch.setattr(parts_of, "MOST_POINTS", 5)
+    told = faults_of(parse_study, raw)
+    assert told == ["axes: must make at most 5 points, and not 6"]
+
+
+def test_a_tile_has_at_most_32_intervals_a_side(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of 64 there are two stretches, however cheap its points are."""
+    monkeypatch.setattr(GridStudy, "_cost_of", lambda self, points: WORK / 100**2)
+    side = {"start": 100, "stop": 164, "step": 1}
+    changes = {
+        "quantity": "regions",
+        "options": {"horizon": 1},
+        "axes": {"N": side, "Omega": side},
+        "batch": {},
+    }
+    raw = study(**changes)
+    grid = parse_grid(raw)
+    assert len(grid.batches) == 4

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.studies.merge import MergeError, failures, merge_batches, merge_cases
+from disc_model.studies.merge import (
+    MergeError,
+    _excluded,
+    _status_text,
+    failures,
+    merge_batches,
+    merge_cases,
+)
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import coordinates_of, run_batch
 from tests.studies.conftest import computed
@@ -172,3 +179,19 @@ def test_what_a_rule_leaves_out_is_missing_and_no_number() -> None:
     assert done["status"].values[1, 1] == len(done["status"].attrs["flag_meanings"].split()) - 1
     assert np.isnan(done["period"].values[1, 1])
     assert done["message"].values[1, 1] == ""
+
+
+def test_a_status_is_said_once_and_a_message_that_has_its_word_keeps_it() -> None:
+    assert _status_text("failed", "failed: no steps") == "failed: no steps"
+    assert (
+        _status_text("failed", "ParameterError: it failed") == "failed: ParameterError: it failed"
+    )
+
+
+def test_what_is_left_out_has_no_number_no_text_and_a_count_of_none() -> None:
+    number, _ = _excluded(xr.DataArray([1.0]))
+    count, _ = _excluded(xr.DataArray([1]))
+    word, _ = _excluded(xr.DataArray(["x"]))
+    assert np.isnan(number)
+    assert count == 0
+    assert word == ""

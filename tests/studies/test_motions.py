@@ -114,6 +114,8 @@ def test_a_history_is_two_cycles_long() -> None:
     # its free swing lasts 0.14 s
     assert length_of(p.replace(Omega=0, k_p=200)) == pytest.approx(0.1)
     assert length_of(p.replace(Omega=0, k_p=0)) == pytest.approx(0.1)
+    # two releases in half a second, 0.2 s apart
+    assert length_of(p.replace(Omega=0.3)) == pytest.approx(0.1)
 
 
 def test_phases_of_a_history_are_those_of_its_samples() -> None:

@@ -59,6 +59,7 @@ def test_captions_of_grids_have_all_values_that_do_not_vary() -> None:
     for more, told in (
         ({}, "N = 200 N, Ω = 20 rad/s"),
         ({"k": 4e5, "n_diameters": 2}, "N = 200 N, Ω = 20 rad/s, k = 400 kN/m, n_diameters = 2"),
+        ({"k_p": 0}, "N = 200 N, Ω = 20 rad/s, k_p = 0 kN/m"),
     ):
         study = parse_study(GRID | {"base": place | more})
         [entry] = study.entries(study.grids()[0]).values()
@@ -208,3 +209,16 @@ def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
     assert asked == ("small",)
     assert grids["small"].n_points == 3
     assert grids["small"].options.horizon == 7  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(
+    ("count", "last"), [(50, "fault 49"), (51, "and 1 more"), (60, "and 10 more")]
+)
+def test_faults_beyond_fifty_are_only_counted(count: int, last: str) -> None:
+    faults = [f"fault {i}" for i in range(count)]
+    error = StudyError(*faults, source="mine.yaml")
+    first, *lines = str(error).splitlines()
+    assert first == f"mine.yaml: {count} faults"
+    shown = [line.strip() for line in lines]
+    assert shown[49] == "fault 49"
+    assert shown[-1] == last

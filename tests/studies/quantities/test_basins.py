@@ -1,17 +1,20 @@
 """Shares of what many starts come to, and the critical energy of separation."""
 
-from typing import ClassVar
+from types import SimpleNamespace
+from typing import Any, ClassVar
 
 import numpy as np
 import pytest
 
 from disc_model.data.variables import Outcome
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.outcome import Attractor, OutcomeResult
+from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
-from disc_model.studies.quantity import Point
+from disc_model.studies.quantity import STATUSES, Point
 from tests.stability.test_attractor import stretch
 from tests.studies.conftest import compute
 
@@ -166,3 +169,51 @@ def test_attractors_of_a_case_are_found_once_for_all_its_starts(
     compute(AttractorBasins(), points)
     assert cases == [14, 15]
     assert known == [2] * 4, "what a point gives depends on none before it"
+
+
+LOST: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+
+
+@pytest.mark.parametrize(("failed", "status"), [(1, Status.OK), (3, Status.NON_FINITE)])
+def test_a_point_fails_if_all_its_starts_do(
+    made: None, failed: int, status: Status, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    results = {i: OutcomeResult(None, 1.0, failed=LOST) for i in range(failed)}
+    monkeypatch.setattr(Made, "classes", results)
+    table = found(energies=[0.01], n_starts=3)
+    [code] = table.arrays["status"]
+    assert STATUSES[code] == status
+    assert table.messages == [f"{failed} of 3 starts failed, such as lost"]
+    share = table.arrays["basin_fraction"][0, basins.CLASSES.index("failed")]
+    assert share == pytest.approx(failed / 3)
+
+
+@pytest.mark.parametrize(("directions", "least"), [(1, 0.04), (2, 0.01)])
+def test_the_critical_energy_is_the_least_of_the_directions_that_are_bisected(
+    made: None, directions: int, least: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ends = (0.04, 0.01)
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: ends[i]))
+    table = found(
+        energies=[0.05], n_starts=2, precision=0.01, n_bisection_directions=directions
+    ).arrays
+    low = table["critical_energy_lower"][0]
+    high = table["critical_energy"][0]
+    assert low <= least < high
+
+
+def test_a_bisection_from_a_small_energy_gives_up_as_many_halvings_below_it(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 0.0))
+    first = 2.0**-10
+    table = found(energies=[first], n_starts=1).arrays
+    assert 0 < table["critical_energy"][0] < first * 2.0**-37
+
+
+def test_starts_of_all_energies_cost_alike() -> None:
+    unit = UnitCosts(1e-3, 1e-2)
+    two = AttractorBasins(energies=[0.1, 0.2], n_starts=10)
+    one = AttractorBasins(energies=[0.1], n_starts=20)
+    assert two.starts == one.starts == 20
+    assert two.cost(unit) == one.cost(unit)

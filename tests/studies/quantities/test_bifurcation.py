@@ -1,8 +1,10 @@
 """What a motion settles to, sampled at switches or once a turn of the drive."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from disc_model.analysis.classify import Settling
@@ -12,6 +14,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Poincare, Start
 from disc_model.simulation.starts import make_initial_state
 from disc_model.stability import attractors
+from disc_model.studies.quantities import bifurcation
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import SMALL
@@ -171,3 +174,41 @@ def test_samples_at_events_are_the_last_of_the_five_seconds_after_the_transient(
     assert values["phase"] == ["stick"] * 4
     assert values["kind"] is Outcome.UNDECIDED
     assert values["stick_fraction"] == pytest.approx(begun.statistics["time_stick"] / 0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize(("releases", "residual"), [(4, 1e-3), (3, np.nan)])
+def test_a_residual_needs_an_interval_more_than_the_period(releases: int, residual: float) -> None:
+    """Of a cycle of two releases, whose second interval has changed by 1 ms."""
+    times = np.array([0.0, 0.1, 0.201, 0.302])[:releases]
+    run = SimpleNamespace(
+        events=pd.DataFrame({"time": times, "kind": "stick_to_slip"}),
+        final_state=SimpleNamespace(time=0.5),
+    )
+    cycle = SimpleNamespace(releases=2, separations=0)
+    near = SimpleNamespace(cycle=cycle, kind=Outcome.QUIET)
+    reached = attractors.Arrival(Settling(), near=near)
+    found = bifurcation._motion_reached(SMALL, reached, run, 1e-10)
+    assert found.period == 2
+    assert found.closure == pytest.approx(residual, nan_ok=True)
+
+
+def test_all_separations_of_a_transient_are_counted_whatever_its_legs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Contact is lost in each of three legs."""
+    p = Parameters(N=385, Omega=15.1, n_diameters=1)
+    start = Start(perturbation={"u": 0.02})
+    options = Bifurcation(section="event", transient=0.05, max_transient=0.2, samples=1)
+    unsettled = attractors.Arrival(Settling())
+    monkeypatch.setattr(attractors, "arrival", lambda p, legs: unsettled)
+    values, _ = options.compute_point(Point(p, start))
+    initial = make_initial_state(p, start, options.tol)
+    first = simulate(p, 0.05, tol=options.tol, initial_state=initial)
+    whole = simulate(p, 0.2, tol=options.tol, initial_state=initial)
+    assert values["transient_time"] == 0.2
+    lost = values["separations"]
+    early = first.statistics["separations"]
+    assert lost == whole.statistics["separations"]
+    assert early > 0
+    assert early < lost
+    assert values["first_separation"] == first.first_separation

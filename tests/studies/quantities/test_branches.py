@@ -1,14 +1,17 @@
 """Branches of cycles against one parameter, beside a sweep."""
 
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from disc_model.analysis.classify import Settled, Settling
 from disc_model.parameters import Parameters
-from disc_model.stability import attractors
+from disc_model.stability import attractors, cycle
 from disc_model.stability.attractors import Arrival
 from disc_model.stability.floquet import floquet
+from disc_model.stability.segments import Segment
 from disc_model.studies.quantities import branches
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantity import Point
@@ -143,3 +146,27 @@ def test_the_rising_sweep_begins_at_the_value_that_is_asked_for(
     assert asked == [("Omega", [14.75, 15.0, 15.25], 60, 90, 1, 1e-10, first)]
     assert values["n_branches"] == 0
     assert len(values["sliding_growth_rate"]) == 3
+
+
+def test_what_a_sweep_finds_is_stored_by_its_direction_and_value(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It ends at 15 rad/s on the way down."""
+    case = Parameters(N=385, Omega=15)
+    settled = Arrival(Settling(Settled.SETTLED))
+    values = {"u_max": 0.003, "separation_rate": 40.0, "separation_fraction": 0.2}
+    late = Segment(**dict.fromkeys(Segment.__dataclass_fields__, 0.0) | values)
+    good: Any = SimpleNamespace(parameters=case, message="")
+    lost: Any = SimpleNamespace(parameters=case, message="no steps")
+    steps = [((0, 2), good, late, settled), ((1, 1), lost, None, settled)]
+    monkeypatch.setattr(attractors, "sweep", lambda *how: steps)
+    none = SimpleNamespace(state=None)
+    monkeypatch.setattr(cycle, "find_cycle", lambda p: none)
+    options = Branches.model_validate(OPTIONS)
+    found, message = options.compute_point(Point(case))
+    assert message == "Omega=15: no steps"
+    assert found["status"] == "failed"
+    assert found["sweep_range"][0, 2] == 0.003
+    assert found["sweep_separation_rate"][0, 2] == 40.0
+    assert np.isfinite(found["sweep_range"]).sum() == 1
+    assert np.isfinite(found["sweep_separation_rate"]).sum() == 1

@@ -237,3 +237,14 @@ def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.Mon
     assert values["cycle_growth_rate"].tolist() == [3, 4, 5]
     assert values["mac"].tolist() == [6, 7, 8]
     assert values["forward_wave_fraction"].tolist() == [0.5, 0.5, 0.9]
+
+
+@pytest.mark.parametrize(("diameters", "count"), [(1, 0), (2, 1)])
+def test_turns_count_up_to_the_greatest_number_of_diameters(diameters: int, count: int) -> None:
+    """The mode has 100 Hz, and the drive 50 Hz at 10 rad/s."""
+    speeds = np.linspace(8, 12, 401)
+    none = np.full(401, np.nan)
+    numbers = np.full((401, 1), diameters)
+    turning = made_up(rotation_frequency=5 * speeds, stick_slip_frequency=none, diameters=numbers)
+    summary = Campbell().summarise(turning)
+    assert summary["n_crossings"] == count

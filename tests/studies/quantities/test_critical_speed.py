@@ -111,6 +111,26 @@ def test_all_simulations_are_counted_with_their_time(monkeypatch: pytest.MonkeyP
     assert found["simulated_time"].tolist() == [70.0 + 28.0]
 
 
+def test_simulations_of_the_bisection_are_counted_with_their_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Separation begins between 13 and 13.5 rad/s, five places of 0.1 rad/s apart."""
+
+    def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        first = np.nan
+        if p.Omega >= 13.4:
+            first = 10.0
+        return OutcomeResult(simulated=2.0, first_separation=first)
+
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
+    found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
+    count = int(found["simulations"][0])
+    assert count > 7
+    assert found["simulated_time"].tolist() == [2.0 * count]
+    assert found["critical_speed"].tolist() == [[13.4]]
+
+
 def test_a_separation_after_an_extrapolation_counts_and_has_no_time(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

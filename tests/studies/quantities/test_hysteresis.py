@@ -151,3 +151,12 @@ def test_on_ramps_at_385_N_onset_comes_late_and_the_end_is_far_below() -> None:
     assert onset[0] < onset[1]
     assert ((end > 8.5) & (end < 10)).all()
     assert (found["top_separation_rate"] > 100).all()
+
+
+def test_a_sweep_that_ends_says_at_which_speed(monkeypatch: pytest.MonkeyPatch) -> None:
+    lost: Any = SimpleNamespace(status=Status.NON_FINITE, message="no steps")
+    arrival = attractors.Arrival(Settling())
+    monkeypatch.setattr(attractors, "sweep", lambda *how: [((0, 3), lost, None, arrival)])
+    options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60})
+    table = compute(options, [Point(Parameters(N=200, Omega=0))])
+    assert table.messages == ["Omega=13.5: no steps"]

@@ -67,6 +67,13 @@ def test_the_rate_of_the_residual_is_that_of_its_natural_logarithm(
     assert words == ["growing"]
     assert arrays["return_map_residual_rate"][0] == pytest.approx(0.02, rel=1e-9)
     assert arrays["return_map_residual"][0] == changes[-1]
+    # nor does one at which nothing had changed
+    last = changes[-1]
+    changes[-1] = 0.0
+    arrays, _ = outcomes([Parameters(N=300, Omega=20)], horizon=200)
+    assert np.isnan(arrays["return_map_residual_rate"][0])
+    assert arrays["return_map_residual"][0] == 0.0
+    changes[-1] = last
     # three checks give no rate
     del times[3:], changes[3:]
     arrays, _ = outcomes([Parameters(N=300, Omega=20)], horizon=200)

@@ -12,9 +12,11 @@ from disc_model.data.variables import CycleStatus, Outcome, flag_names
 from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
+from disc_model.simulation.states import static_start
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import grid, refinement
 from disc_model.studies.quantities.regions import Regions
+from disc_model.studies.quantity import Point
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
@@ -247,3 +249,14 @@ def test_a_cycle_that_is_passed_in_the_first_seconds_is_not_the_one_that_the_sta
     assert early["growth_rate"] == pytest.approx(passed, abs=5e-4)
     assert row["growth_rate"] == pytest.approx(left, abs=5e-4)
     assert row["outcome"] == "growing"
+
+
+def test_the_motion_of_a_separation_begins_five_seconds_after_it(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    p = Parameters(N=200, Omega=20, n_diameters=1)
+    state = static_start(p).replace(time=3.0)
+    reached = OutcomeResult(Outcome.SEPARATION, state=state, first_separation=3.0)
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: reached)
+    begin = Regions(horizon=500.0).state_at(Point(p))
+    assert begin.time == pytest.approx(8.0)

@@ -10,7 +10,7 @@ import xarray as xr
 from scipy import stats
 
 from disc_model.parameters import Parameters
-from disc_model.studies.distributions import BLOCK, quantile, unit_draws
+from disc_model.studies.distributions import BLOCK, TruncatedNormal, quantile, unit_draws
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
 from disc_model.studies.quantity import Row
@@ -135,3 +135,13 @@ def test_blocks_of_samples_double_their_number(samples: int, blocks: list[int]) 
     found = made.dimensions["sample"]
     assert [len(block) for block in found] == blocks
     assert [number for block in found for number in block] == list(range(samples))
+
+
+@pytest.mark.parametrize(("mean", "low", "high"), [(1.0, 0.8, 1.2), (0.4, 0.1, 0.6)])
+def test_rounding_takes_no_quantile_beyond_the_ends(mean: float, low: float, high: float) -> None:
+    """By the normal distribution alone they exceed both by 2e-16."""
+    made = TruncatedNormal(
+        distribution="truncated_normal", mean=mean, deviation=0.1, low=low, high=high
+    )
+    assert quantile(made, 1.0, 0.0) >= low
+    assert quantile(made, 1.0, 1.0) <= high
