@@ -119,6 +119,11 @@ def test_coverage_tells_lines_from_noise() -> None:
     # the skirt of a line beside the band is no line of the band
     beside = np.sin(2 * np.pi * 9.5 * TIME)
     assert spectra.coverage(TIME, beside, 10, 300) == 0.0
+    # a stronger one elsewhere does not make the lines of the band weak
+    within = signal(KNOWN)
+    elsewhere = 10 * np.sin(2 * np.pi * 450 * TIME)
+    alone = spectra.coverage(TIME, within, 10, 300)
+    assert spectra.coverage(TIME, within + elsewhere, 10, 300) == pytest.approx(alone, rel=0.1)
 
 
 SKIRTS = {
@@ -330,3 +335,13 @@ def test_the_shortest_record_of_a_spectrum_in_time_is_a_window_and_two_steps() -
     assert found.time[0] >= 0.5
     with pytest.raises(ValueError, match=r"^1\.09 s of samples are too few"):
         spectra.time_frequency(time[1:], values[1:])
+
+
+@pytest.mark.parametrize(
+    ("diameters", "bound", "senses"), [(0, True, {0}), (2, True, {0, -1, 1}), (2, False, {-1, 1})]
+)
+def test_a_mode_bound_to_the_slider_may_stand_or_travel(
+    diameters: int, bound: bool, senses: set[int]
+) -> None:
+    mode = spectra.ModeAtRest(100.0, diameters, bound)
+    assert {*spectra._senses(mode)} == senses

@@ -18,6 +18,7 @@ from PIL import Image
 from disc_model.data.variables import PHASES
 from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
+from disc_model.explorer.contents import _gaps
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.growth import growth_norm, isolated
 from disc_model.studies.motions import SAMPLES, Motions
@@ -211,6 +212,17 @@ def test_points_without_a_number_have_the_class_that_figures_show() -> None:
     unknown = contents()[1]["variables"][0]["gaps"]
     assert [look["label"] for look in unknown["looks"]] == ["no value"]
     assert numbers(unknown, "u1").tolist() == [0, 0, 1]
+
+
+def test_a_motion_that_did_not_separate_is_called_as_in_figures() -> None:
+    study = plane()
+    rates = study["growth_rate"]
+    nowhere = rates.copy(data=np.full(rates.shape, np.nan)).rename("first_separation")
+    study["first_separation"] = nowhere.assign_attrs(units="s")
+    gaps = _gaps(study, study["first_separation"])
+    assert gaps is not None
+    said = [look["label"] for look in gaps["looks"]]
+    assert "none within 200 s" in said
 
 
 def marked(variable: dict[str, Any], shape: tuple[int, ...]) -> dict[tuple[str, ...], np.ndarray]:

@@ -123,6 +123,10 @@ def test_linear_analysis_beside_the_motion() -> None:
         ]
     )
     assert [*agreement(rate, outcome)] == [*[*AGREEMENTS][:6], "unknown", "unknown"]
+    # without a damper sliding is neutral, and its rate is nothing but rounding
+    neutral = np.array([ROUNDING / 2, 2 * ROUNDING])
+    words = agreement(neutral, np.array(["quiet", "quiet"]))
+    assert [*words] == ["stable_quiet", "unstable_quiet"]
 
 
 def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:

@@ -1,12 +1,14 @@
 """Statements of Section 4.3 judged by made-up cases."""
 
 import math
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.analysis.spectra import Line
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
 from disc_model.paper import growth
@@ -31,6 +33,7 @@ from disc_model.paper.section43 import (
     stays_steady,
     stick_may_vanish,
     stiff_enough,
+    two_frequencies,
 )
 from disc_model.parameters import Parameters
 from tests.paper.evidence import grid
@@ -433,3 +436,30 @@ def test_stick_vanishes_where_it_was(stick: float, in_all: float, vanishes: bool
     found = stick_may_vanish(case, elsewhere, share=0.01)
     assert found.verdict == (TRUE if vanishes else FALSE)
     assert found.values["begun"] == [[("here", stick, in_all)], [("here", 0.0, 0.5)]]
+
+
+def with_line(frequency: float) -> Known:
+    """A case of the drive's frequency 2 Hz that slips at 10 Hz, with a line of the disc."""
+
+    def signal(window: str, start: float, stop: float, variable: str = "w") -> Any:
+        shown = 10.0 if variable == "psi" else frequency
+        line = Line(shown, 1.0)
+        return SimpleNamespace(lines=lambda *_, **__: [line])
+
+    time = xr.DataArray([0.0, 1.0], dims="time")
+    early = {"time": time}
+    return known({"first_separation": 50.0}, drive=2.0, signal=signal, samples=lambda _: early)
+
+
+@pytest.mark.parametrize(
+    ("frequency", "verdict", "with_rate"), [(12.0, TRUE, 1.0), (4.0, FALSE, 0.0)]
+)
+def test_multiples_of_the_drive_alone_are_no_two_frequencies(
+    frequency: float, verdict: str, with_rate: float
+) -> None:
+    """12 Hz are the rate of slip and the drive's; 4 Hz are twice the drive's alone."""
+    case = with_line(frequency)
+    found = two_frequencies(case, share=0.9, least=0.5)
+    assert found.verdict == verdict
+    assert found.values["part"] == 1.0
+    assert found.values["with_rate"] == with_rate
