@@ -63,6 +63,7 @@ try:
         source_hash,
     )
     from disc_model.studies.messages import RunMessages
+    from disc_model.studies.point_calls import call_of
     from disc_model.studies.study import (
         closing_lines,
         mapping,

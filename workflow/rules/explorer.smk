@@ -1,8 +1,6 @@
 # A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
-from disc_model.studies.point_calls import call_of
-
 # Studies of a whole plane come first.
 PLANES = ("outcome", "regions")
 EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in PLANES)
@@ -17,22 +15,6 @@ PICTURES = [
     for (study, name), figure in FIGURES.items()
     if study in (STUDY.name, *ASKED)
 ]
-
-
-def stated_of(grid):
-    """What a study's file says of its page; the units of the first figure that has any."""
-    units = {}
-    for plot in reversed(grid.plots.values()):
-        units.update(plot.units)
-    call = call_of(grid.quantity, grid.options)
-    return {
-        **call._asdict(),
-        "motion": grid.options.motion,
-        "units": units,
-        "has_figures": bool(grid.plots),
-    }
-
-
 EXPLORER = json.dumps(
     {
         "title": STUDY.title or STUDY.name,

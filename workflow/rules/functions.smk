@@ -67,3 +67,17 @@ def check_owner(files, owner):
             f"study={STUDY.name!r}: is also the name of the study in {', '.join(former)}, whose results are in"
             f" {RESULTS} and would be overwritten; give one of them another name, or another folder with --directory"
         )
+
+
+def stated_of(grid):
+    """What a study's file says of its page; the units of the first figure that has any."""
+    units = {}
+    for plot in reversed(grid.plots.values()):
+        units.update(plot.units)
+    call = call_of(grid.quantity, grid.options)
+    return {
+        **call._asdict(),
+        "motion": grid.options.motion,
+        "units": units,
+        "has_figures": bool(grid.plots),
+    }
