@@ -15,6 +15,7 @@ from scipy.stats import qmc
 from disc_model.analysis.classify import Settled, Settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
+from disc_model.engine.record import EVENT_ROW, STICK_TO_SLIP
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -22,7 +23,13 @@ from disc_model.simulation.states import State, slip_rate, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.outcome import Attractor, OutcomeResult, Stage, find_outcome, growing
-from disc_model.stability.segments import Segment, final_segment, segment_of
+from disc_model.stability.segments import (
+    Segment,
+    final_segment,
+    release_times,
+    segment_of,
+    switch_angles,
+)
 
 P14 = Parameters(N=385, Omega=14)
 SMALL = Parameters(N=200, Omega=20, n_diameters=1, c=20.0, D_star=1e-3)
@@ -468,8 +475,10 @@ def test_periods_of_up_to_half_the_late_releases_are_tried(
     monkeypatch.setattr(
         attractors, "find_close_return", lambda map_, x, period: asked.append(period)
     )
-    events = pd.DataFrame({"time": times, "kind": "stick_to_slip"})
-    leg: Any = SimpleNamespace(events=events, final_state=SimpleNamespace(time=20.0))
+    rows = np.zeros((times.size, len(EVENT_ROW)))
+    rows[:, EVENT_ROW.index("time")] = times
+    rows[:, EVENT_ROW.index("kind")] = STICK_TO_SLIP
+    leg: Any = SimpleNamespace(event_rows=rows, final_state=SimpleNamespace(time=20.0))
     assert attractors.cycle_reached(P14, leg, most) is None
     assert asked == [longest]
 
@@ -517,3 +526,17 @@ def test_a_segment_has_heights_from_static_equilibrium_and_shares_of_its_time() 
     assert found.slip_fraction == 0.625
     assert found.separation_fraction == 0.125
     assert found.separation_rate == 3.0
+
+
+@pytest.mark.compiled
+def test_switches_of_a_leg_are_its_releases_and_losses_of_contact() -> None:
+    leg = simulate(Parameters(N=385, Omega=15.1), 60)
+    table = leg.events
+    assert leg.statistics["separations"] > 0
+    released = table["kind"] == "stick_to_slip"
+    lost = table["kind"] == "separation"
+    times, angles = switch_angles(leg)
+    switches = table[released | lost]
+    np.testing.assert_array_equal(times, switches["time"])
+    np.testing.assert_array_equal(angles, switches["psi"])
+    np.testing.assert_array_equal(release_times(leg), table["time"][released])

@@ -42,7 +42,13 @@ from disc_model.stability.linear_motion import (
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
 from disc_model.stability.outcome import Attractor, OutcomeResult, find_equilibrium
 from disc_model.stability.return_map import Array, ReturnMap
-from disc_model.stability.segments import Segment, final_segment, segment_of, switch_angles
+from disc_model.stability.segments import (
+    Segment,
+    final_segment,
+    release_times,
+    segment_of,
+    switch_angles,
+)
 
 
 class Arrival(NamedTuple):
@@ -87,9 +93,9 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose
     contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, or of the whole
     leg if a slow motion has none there, and of up to `most` releases."""
-    released = leg.events[leg.events["kind"] == "stick_to_slip"]
-    late = released["time"] > leg.final_state.time - thresholds.FIRST_LEG
-    releases = int(late.sum()) or len(released)
+    times = release_times(leg)
+    late = times > leg.final_state.time - thresholds.FIRST_LEG
+    releases = int(late.sum()) or len(times)
     if not releases or not may_stick_and_slip(p):
         return None
     map_ = ReturnMap(p, patient=True)

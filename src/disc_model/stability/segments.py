@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from disc_model.arrays import Array
+from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT, STICK_TO_SLIP
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -11,6 +12,10 @@ from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
 from disc_model.stability import thresholds
 
+# columns of `Result.event_rows`: tables of pandas take longer than short legs
+TIME = EVENT_ROW.index("time")
+KIND = EVENT_ROW.index("kind")
+ANGLE = EVENT_ROW.index("psi")
 RANGE_TOL = 1e-10  # of the simulation of a cycle whose range is measured
 
 
@@ -121,5 +126,13 @@ def shares(result: Result) -> Shares:
 def switch_angles(leg: Result) -> Array:
     """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
     n)."""
-    switches = leg.events[leg.events["kind"].isin(["stick_to_slip", "separation"])]
-    return switches[["time", "psi"]].to_numpy(dtype=float).T
+    rows = leg.event_rows
+    kinds = rows[:, KIND]
+    switches = rows[(kinds == STICK_TO_SLIP) | (kinds == LOSS_OF_CONTACT)]
+    return switches[:, [TIME, ANGLE]].T
+
+
+def release_times(leg: Result) -> Array:
+    """Times of releases of a leg, s."""
+    rows = leg.event_rows
+    return rows[rows[:, KIND] == STICK_TO_SLIP, TIME]
