@@ -11,6 +11,7 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
+from disc_model.figures import selection
 from disc_model.figures.drawing import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -158,3 +159,19 @@ def test_the_peak_of_a_line_has_a_mark_and_a_legend_can_be_asked_for() -> None:
     for line, rate in zip(figure.axes[0].lines, rates, strict=True):
         assert int(np.argmax(rate)) in line.get_markevery()
     assert len(figure.legends[0].get_texts()) == 2
+
+
+@pytest.mark.parametrize(
+    ("rate", "word"),
+    [(-0.1, "steady_sliding"), (0.0, "unstable_sliding"), (0.1, "unstable_sliding")],
+)
+def test_sliding_without_stick_is_told_by_its_growth(rate: float, word: str) -> None:
+    flags = {"flag_meanings": "ok no_stick_slip"}
+    study = xr.Dataset(
+        {
+            "status": ("N", np.array([0, 1], np.int8), flags),
+            "sliding_growth_rate": ("N", [rate, rate]),
+        }
+    )
+    found = selection.statuses(study)
+    assert found.values.tolist() == ["ok", word]
