@@ -8,8 +8,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from disc_model.analysis.classify import Motion
 from disc_model.analysis.spectra import Line
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import Outcome
 from disc_model.paper import paper_tables, section44
+from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_TESTED, PART, TRUE
 from disc_model.paper.section44 import (
     caused_by_friction,
@@ -22,10 +26,14 @@ from disc_model.paper.section44 import (
     higher,
     inplane_contribution,
     inplane_frequency,
+    later_periodic,
+    reattaches,
     rest_late,
+    soft_enough,
     when_it_separates,
 )
 from disc_model.parameters import Parameters
+from tests.paper.evidence import grid
 from tests.paper.known import Known, known
 
 
@@ -302,3 +310,95 @@ def test_separations_follow_a_frequency_of_the_slider_on_its_spring(
         separations = {"separation": intervals}
         cases.append(known({"k": stiffness}, parameters=p, intervals=separations.get))
     assert section44._vertical_branch(*cases, within=0.1)["contributes"] == follows
+
+
+# ---- Conclusions
+
+
+def separating(begins: list[float], ends: list[float]) -> Known:
+    """Return a case with these separations, which keeps its events from 90 to 100 s."""
+    times = {"separation": np.array(begins), "reattachment": np.array(ends)}
+    return known(kept_span=Range(90.0, 100.0), times_of=times.get)
+
+
+def test_separations_end_with_contact_the_longest_of_all_cases_in_milliseconds() -> None:
+    """One that begins within half a second of the end does not count."""
+    long = separating([91.0, 93.0, 99.9], [91.25, 93.125])
+    short = separating([95.0], [95.0625])
+    found = reattaches(long, short, longest=0.5)
+    assert found.verdict == TRUE
+    assert found.values["cases"] == 2
+    assert found.values["begins"] == 3
+    assert found.values["ends"] == 3
+    assert found.values["lasts"] == 250.0
+
+
+def test_a_separation_that_goes_on_is_none_that_ends() -> None:
+    short = separating([95.0], [95.0625])
+    apart = separating([95.0], [])
+    found = reattaches(short, apart, longest=0.5)
+    assert found.verdict == PART
+    assert found.values["begins"] == 2
+    assert found.values["ends"] == 1
+    assert found.values["lasts"] == 62.5
+    alone = reattaches(apart, longest=0.5)
+    assert alone.verdict == FALSE
+    with pytest.raises(Missing, match="keeps no separation"):
+        reattaches(separating([], []), longest=0.5)
+
+
+def test_growth_without_friction_is_the_largest_of_all_cases(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rates = {20.0: -0.1, 30.0: -0.3}
+    monkeypatch.setattr(section44.growth_rates, "sliding_growth", lambda p: rates[p.Omega])
+    cases = [
+        known(separates=True, parameters=Parameters(N=385, Omega=20)),
+        known(separates=False, parameters=Parameters(N=385, Omega=30)),
+    ]
+    found = caused_by_friction(*cases, growth=-0.2)
+    assert found.verdict == FALSE
+    assert found.values["most"] == -0.1
+    both = caused_by_friction(*cases, growth=0.0)
+    assert both.verdict == TRUE
+
+
+QUIET = "quiet"
+APART = "separation"
+
+
+@pytest.mark.parametrize(
+    ("rows", "verdict", "quiet", "softer"),
+    [
+        ([[QUIET, QUIET], [QUIET, APART], [APART, APART]], TRUE, [100], []),
+        ([[APART, QUIET], [QUIET, QUIET], [APART, APART]], PART, [150], [100]),
+        ([[QUIET, QUIET], [QUIET, QUIET], [QUIET, QUIET]], FALSE, [100, 150, 200], []),
+        ([[APART, QUIET], [APART, QUIET], [APART, APART]], FALSE, [], []),
+    ],
+)
+def test_a_disc_is_soft_enough_if_no_softer_one_separates(
+    rows: list[list[str]], verdict: str, quiet: list[float], softer: list[float]
+) -> None:
+    """Of moduli in GPa, at two speeds."""
+    axes = {"E": [1.0e11, 1.5e11, 2.0e11], "Omega": [10.0, 20.0], "normalization": ["as_published"]}
+    words = np.array(rows)[..., None]
+    rates = np.zeros(words.shape)
+    study = grid(axes, outcome=words, growth_rate=rates)
+    found = soft_enough(study, slow=10.0)
+    assert found.verdict == verdict
+    assert found.values["quiet"] == pytest.approx(quiet)
+    assert found.values["softer"] == pytest.approx(softer)
+
+
+def test_a_late_motion_without_separation_is_told_if_it_repeats() -> None:
+    span = Range(90.0, 100.0)
+    repeats = Motion(Outcome.OTHER_CYCLE, 3)
+    wanders = Motion(Outcome.QUASI_PERIODIC)
+    periodic = known(late_motion=repeats, motion="it repeats", kept_span=span)
+    torus = known(late_motion=wanders, motion="it does not", kept_span=span)
+    both = later_periodic(periodic, periodic)
+    assert both.verdict == TRUE
+    assert both.values["other"] == "it repeats"
+    without = later_periodic(periodic, torus)
+    assert without.values["other"] == ""
+    assert later_periodic(torus, periodic).verdict == FALSE
