@@ -11,7 +11,7 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
-from disc_model.figures import selection
+from disc_model.figures import curve, selection
 from disc_model.figures.drawing import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -175,3 +175,28 @@ def test_sliding_without_stick_is_told_by_its_growth(rate: float, word: str) -> 
     )
     found = selection.statuses(study)
     assert found.values.tolist() == ["ok", word]
+
+
+@pytest.mark.parametrize(("count", "columns"), [(4, 3), (5, 1)])
+def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) -> None:
+    figure = Figure(figsize=(7, 3), layout="constrained")
+    ax = figure.subplots()
+    for number in range(count):
+        ax.plot([0, 1], [number, number], label=f"{number} N")
+    curve._name_lines(figure, [ax], several=False, in_legend=True)
+    [legend] = figure.legends
+    assert legend._ncols == columns
+    assert len(legend.get_texts()) == count
+
+
+@pytest.mark.parametrize(
+    ("lowest", "highest", "text"), [(-0.5, 0.3, "-0.2"), (-50.0, 0.3, ""), (-0.5, 30.0, "")]
+)
+def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, text: str) -> None:
+    ax = Figure().subplots()
+    ax.plot([0, 1], [lowest, highest])
+    curve.scale_rates(ax)
+    assert ax.get_yscale() == "symlog"
+    between = ax.yaxis.get_minor_formatter()
+    assert between(-0.2, 0) == text
+    assert between(-0.3, 0) == ""

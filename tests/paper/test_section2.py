@@ -14,6 +14,7 @@ from disc_model.paper.section2 import (
     BASE,
     additional,
     different,
+    moving_load,
     moving_load_speed,
     reduced,
     slip_condition,
@@ -173,3 +174,16 @@ def test_friction_lowers_growth_where_sliding_is_unstable_without_it(
     assert found.verdict == verdict
     assert found.values["counts"] == counts
     assert found.values["size"] == 3
+
+
+def test_a_wrong_critical_speed_may_be_that_of_the_next_number_of_diameters() -> None:
+    modes = plate_modes(BASE)
+    speeds = [mode.omega / (mode.diameters + 1) for mode in modes.itertuples()]
+    critical = moving_load_speed(BASE)
+    wrong = moving_load(printed=0.5 * critical, within=1.0)
+    assert wrong.verdict == FALSE
+    assert wrong.values["ours"] == critical
+    assert wrong.values["shifted"] == pytest.approx(min(speeds))
+    right = moving_load(printed=critical + 0.5, within=1.0)
+    assert right.verdict == TRUE
+    assert right.values["shifted"] == ""
