@@ -11,7 +11,7 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
-from disc_model.figures import curve, selection
+from disc_model.figures import curve, heat_map, selection
 from disc_model.figures.drawing import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -200,3 +200,16 @@ def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, 
     between = ax.yaxis.get_minor_formatter()
     assert between(-0.2, 0) == text
     assert between(-0.3, 0) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "kind"),
+    [
+        ("m", [0.01, 0.1, 1.0], "log"),
+        ("D_star", [0.0, 1e-6, 1e-4], "linear"),
+        ("Omega", [1.0, 10.0, 100.0], "linear"),
+    ],
+)
+def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
+    along = xr.DataArray(values, name=name)
+    assert heat_map.scale(along) == kind

@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures
+from disc_model.paper import measures, section2
 from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.section2 import (
@@ -18,9 +18,10 @@ from disc_model.paper.section2 import (
     moving_load_speed,
     reduced,
     slip_condition,
+    survive,
     truncation,
 )
-from tests.paper.evidence import sliding_growths
+from tests.paper.evidence import grid, sliding_growths
 from tests.paper.known import known
 
 
@@ -187,3 +188,30 @@ def test_a_wrong_critical_speed_may_be_that_of_the_next_number_of_diameters() ->
     right = moving_load(printed=critical + 0.5, within=1.0)
     assert right.verdict == TRUE
     assert right.values["shifted"] == ""
+
+
+@pytest.mark.parametrize(
+    ("lowest", "verdict"), [((10.0, 10.0), TRUE), ((10.0, 2000.0), PART), ((2000.0, 2000.0), FALSE)]
+)
+def test_separating_cases_are_counted_with_both_sets_of_modes(
+    lowest: tuple[float, float], verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of four, one separates with normalised modes, one grows, and two are quiet."""
+    norms = ["as_published", "orthonormal"]
+    later = ["separation", "growing", "quiet", "quiet"]
+    points = {}
+    for number, word in enumerate(later):
+        words = ["separation", word]
+        points[str(number)] = grid({"normalization": norms}, {"horizon": 1000.0}, outcome=words)
+    monkeypatch.setattr(section2, "separating_points", lambda maps: points)
+    speeds = np.array([10.0, 2000.0])
+    planes = []
+    for speed in lowest:
+        planes.append([["separation" if each >= speed else "quiet"] for each in speeds])
+    axes = {"normalization": norms, "Omega": speeds, "N": [300.0]}
+    plane = grid(axes, outcome=planes).assign_attrs(study="map_N")
+    found = survive(plane, share=0.5)
+    assert found.verdict == verdict
+    assert found.values["counts"] == (4, 4, 1, 2, 1)
+    assert found.values["until"] == Range(1000.0, 1000.0)
+    assert found.values["lowest"] == list(lowest)

@@ -344,6 +344,7 @@ def test_a_case_separates_far_below_the_speed_of_a_moving_load() -> None:
         ([-0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], FALSE),  # grows at high speed only
         ([0.1, -0.1, 0.2], ["quiet", "quiet", "separation"], FALSE),
         ([0.1, NAN, 0.2], ["quiet", "separation", "quiet"], TRUE),
+        ([0.1, NAN, 0.2], ["separation", "quiet", "quiet"], TRUE),
     ],
 )
 def test_growth_and_separation_are_both_found_at_low_speed(

@@ -16,6 +16,7 @@ from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_TESTED, PART, TRUE, Ans
 from disc_model.paper.section43 import (
     LOADS,
     SPEEDS,
+    _mostly,
     bounded,
     critical_speed,
     damping_at_large_preloads,
@@ -520,3 +521,23 @@ def test_a_period_is_told_in_turns_of_the_drive() -> None:
     assert found.values["points"] == 2
     assert found.values["turns"] == pytest.approx(3.0)
     assert found.values["near"] == "repeats after 3 releases"
+
+
+@pytest.mark.parametrize(
+    ("holding", "counted", "verdict"),
+    [
+        (20, 20, TRUE),
+        (19, 20, PART),
+        (11, 20, PART),
+        (10, 20, FALSE),
+        (0, 20, FALSE),
+        (0, 0, FALSE),
+    ],
+)
+def test_what_holds_in_more_than_half_of_the_steps_is_true_in_part(
+    holding: int, counted: int, verdict: str
+) -> None:
+    numbers = np.arange(20)
+    holds = numbers < holding
+    counts = numbers < counted
+    assert _mostly(holds, counts) == verdict

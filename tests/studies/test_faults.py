@@ -249,3 +249,14 @@ def test_a_run_says_in_the_end_what_has_no_result(
         f"s: 1 of 4 points have no result, see {file}",
         f"s: 1 of 4 points have a remark, see {file}",
     ]
+
+
+def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    grids = parse_study(GRID).grids()[0]
+    folder = tmp_path / "results" / "s"
+    folder.mkdir(parents=True)
+    file = folder / "s.failed.txt"
+    file.write_text("start = broken: paradox\nstart = smoke: failed: no steps\n")
+    [line] = closing_lines(grids)
+    assert line.startswith("s: 2 of 4 points have no result")

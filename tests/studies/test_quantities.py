@@ -11,7 +11,7 @@ import pytest
 
 from disc_model import floquet
 from disc_model.data.variables import Variable, flag_names
-from disc_model.errors import Status
+from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
@@ -237,3 +237,13 @@ def test_a_rule_that_cannot_be_evaluated_does_not_hold(rule: str, kept: bool) ->
     """Neither a division by zero, nor a word that would be repeated."""
     values = {"mu_k": 0.2, "mu_s": 0.4, "c_p": 0.0, "n_diameters": 2, "normalization": "x"}
     assert holds([rule], values) is kept
+
+
+def test_an_axis_has_a_hundred_thousand_values_at_most() -> None:
+    made = Range(start=0, stop=1, count=100_000)
+    assert made.intervals == 99_999
+    rule = "must be at most 100000 values"
+    with pytest.raises(ParameterError, match=rule):
+        Range(start=0, stop=1, count=100_001)
+    with pytest.raises(ParameterError, match=rule):
+        Range(start=0, stop=1, step=1e-5)
