@@ -19,6 +19,7 @@ from disc_model.paper.section44 import (
     caused_by_friction,
     close_to_natural,
     constant_by_separation,
+    errs,
     explained_by_slider,
     fuzz_goes,
     fuzz_stays,
@@ -402,3 +403,95 @@ def test_a_late_motion_without_separation_is_told_if_it_repeats() -> None:
     without = later_periodic(periodic, torus)
     assert without.values["other"] == ""
     assert later_periodic(torus, periodic).verdict == FALSE
+
+
+def test_a_rise_below_the_floor_is_none_without_separation_either() -> None:
+    """Of five times, from a hundred-thousandth."""
+    case = with_shares({50.0: 1e-3, 54.0: 5e-3})
+    bilateral = with_shares({50.0: 1e-5, 54.0: 5e-5})
+    options = {"windows": "zoom", "spans": [50.0, 58.0]}
+    found = higher(case, bilateral, factor=2, floor=1e-4, **options)
+    assert found.verdict == TRUE
+
+
+@pytest.mark.parametrize(
+    ("chance", "apart", "verdict"), [(4e-4, 0.2, TRUE), (6e-4, 0.2, FALSE), (4e-4, 0.6, FALSE)]
+)
+def test_lines_are_found_unless_noise_has_one_of_them(
+    chance: float, apart: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The chances of two lines add up."""
+    table = pd.DataFrame(
+        {
+            "ours_Hz": [65.0, 70.0 - apart],
+            "paper_Hz": [65.0, 70.0],
+            "ours_is": ["1 f_s", paper_tables.UNNAMED],
+        }
+    )
+    both = [Line(65.0, 1.0), Line(70.0, 1.0)]
+    monkeypatch.setattr(paper_tables, "table_2_lines", lambda case: both)
+    monkeypatch.setattr(paper_tables, "table_2", lambda case: table)
+    monkeypatch.setattr(paper_tables, "stick_slip_rate", lambda case: 67.0)
+    monkeypatch.setattr(section44.spectra, "chance", lambda *_: chance)
+    samples = SimpleNamespace(time=None, values=None)
+    case = known(signal=lambda *_: samples)
+    found = section44.lines(case, bound=0.5)
+    assert found.verdict == verdict
+    assert found.values["named"] == 1
+    assert found.values["off"] == pytest.approx(apart)
+    assert found.values["rate"] == 67.0
+
+
+def test_growth_needs_twenty_seconds_on_both_sides_of_the_separation() -> None:
+    usual = {"first_separation": 20.0, "time_reached": 40.0}
+    case = known(usual, slope=lambda *_: 0.1)
+    found = growth_stages(case, factor=2, least=0.05)
+    assert found.verdict == FALSE
+    for name, value in (("first_separation", 19.9), ("time_reached", 39.9)):
+        short = known({**usual, name: value}, slope=lambda *_: 0.1)
+        with pytest.raises(Missing, match="does not run for 20 s both before and after"):
+            growth_stages(short, factor=2, least=0.05)
+
+
+def with_ranges(disc: float, psi: float) -> Known:
+    """Return a case with ranges of its disc and of the slider in the plane."""
+    ranges = {"psi": Range(0.0, psi)}
+    return known(disc=Range(0.0, disc), late_range=ranges.get)
+
+
+def test_errors_without_separation_are_counted_on_both_sides_and_on_both_discs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of ranges that are twice and half as large, and equal ones."""
+    usual = with_ranges(1.0, 1.0)
+    pairs = [
+        (usual, with_ranges(2.0, 0.5)),
+        (usual, with_ranges(1.0, 2.0)),
+        (usual, with_ranges(1.1, 0.5)),
+    ]
+    monkeypatch.setattr(section44.measures, "pairs", lambda cases: pairs)
+    axes = {
+        "disc": ["surface"],
+        "contact": ["unilateral", "bilateral"],
+        "Omega": [10.0, 20.0, 30.0, 40.0],
+    }
+    tops = [[1.0, 1.0, 1.0, 1.0], [2.0, 0.5, 2.0, 9.0]]
+    words = [
+        ["separation", "separation", "separation", "quiet"],
+        ["growing", "quiet", "growing", "growing"],
+    ]
+    study = grid(
+        axes, {"after_separation": 5.0}, u_max=[tops], u_min=np.zeros((1, 2, 4)), outcome=[words]
+    )
+    found = errs(study, within=0.2, share=0.5)
+    assert found.verdict == TRUE
+    values = found.values
+    assert values["wider"] == (1, 3)
+    assert values["narrower"] == (0, 3)
+    assert values["more"] == (1, 3)
+    assert values["less"] == (2, 3)
+    assert values["brake"] == (2, 1)
+    assert values["of"] == 3
+    assert values["kept"] == 1
+    assert values["unsettled"] == 2
+    assert values["after"] == 5.0
