@@ -13,11 +13,13 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
+from disc_model.analysis.spectra import TimeFrequency
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures import stages
 from disc_model.figures.drawing import PHASE_COLOURS, save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
+from disc_model.figures.spectrogram import span_of
 from disc_model.figures.stages import SECTIONS, stages_of
 from tests.damages import damaged
 from tests.figures.reading import assert_fit_for_print
@@ -211,3 +213,16 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
         assert any(
             "has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase))
         )
+
+
+@pytest.mark.parametrize(
+    ("first", "last", "span"),
+    [(0.5, 9.5, (0.0, 9.5)), (0.96, 9.5, (1.0, 9.5)), (38.52, 47.48, (38.5, 47.5))],
+)
+def test_a_spectrum_in_time_at_the_start_of_a_run_begins_at_zero(
+    first: float, last: float, span: tuple[float, float]
+) -> None:
+    time = np.linspace(first, last, 50)
+    frequency = np.zeros(0)
+    spectrum = TimeFrequency(time, frequency, np.zeros((0, 50)))
+    assert span_of(spectrum) == pytest.approx(span)

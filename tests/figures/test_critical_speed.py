@@ -66,6 +66,19 @@ def test_a_line_does_not_jump_to_another_branch() -> None:
     ]
 
 
+def test_a_branch_that_ends_above_the_lower_speed_is_not_joined() -> None:
+    """Speeds that fall with load, and an end at 14 rad/s of either load."""
+    lower = np.array([13.0])
+    higher = np.array([15.0])
+    end = [14.0]
+    falling = (higher, lower)
+    rising = (lower, higher)
+    assert branches(falling, ([], end)) == []
+    assert branches(falling, (end, [])) == [(0, 15.0, 13.0)]
+    assert branches(rising, (end, [])) == []
+    assert branches(rising, ([], end)) == [(0, 13.0, 15.0)]
+
+
 def test_the_panel_beside_shows_where_both_motions_last(
     chart: Callable[..., Figure], sweep: xr.Dataset
 ) -> None:

@@ -11,6 +11,7 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
+from disc_model.figures import curve, heat_map, selection
 from disc_model.figures.drawing import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -158,3 +159,57 @@ def test_the_peak_of_a_line_has_a_mark_and_a_legend_can_be_asked_for() -> None:
     for line, rate in zip(figure.axes[0].lines, rates, strict=True):
         assert int(np.argmax(rate)) in line.get_markevery()
     assert len(figure.legends[0].get_texts()) == 2
+
+
+@pytest.mark.parametrize(
+    ("rate", "word"),
+    [(-0.1, "steady_sliding"), (0.0, "unstable_sliding"), (0.1, "unstable_sliding")],
+)
+def test_sliding_without_stick_is_told_by_its_growth(rate: float, word: str) -> None:
+    flags = {"flag_meanings": "ok no_stick_slip"}
+    study = xr.Dataset(
+        {
+            "status": ("N", np.array([0, 1], np.int8), flags),
+            "sliding_growth_rate": ("N", [rate, rate]),
+        }
+    )
+    found = selection.statuses(study)
+    assert found.values.tolist() == ["ok", word]
+
+
+@pytest.mark.parametrize(("count", "columns"), [(4, 3), (5, 1)])
+def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) -> None:
+    figure = Figure(figsize=(7, 3), layout="constrained")
+    ax = figure.subplots()
+    for number in range(count):
+        ax.plot([0, 1], [number, number], label=f"{number} N")
+    curve._name_lines(figure, [ax], several=False, in_legend=True)
+    [legend] = figure.legends
+    assert legend._ncols == columns
+    assert len(legend.get_texts()) == count
+
+
+@pytest.mark.parametrize(
+    ("lowest", "highest", "text"), [(-0.5, 0.3, "-0.2"), (-50.0, 0.3, ""), (-0.5, 30.0, "")]
+)
+def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, text: str) -> None:
+    ax = Figure().subplots()
+    ax.plot([0, 1], [lowest, highest])
+    curve.scale_rates(ax)
+    assert ax.get_yscale() == "symlog"
+    between = ax.yaxis.get_minor_formatter()
+    assert between(-0.2, 0) == text
+    assert between(-0.3, 0) == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "values", "kind"),
+    [
+        ("m", [0.01, 0.1, 1.0], "log"),
+        ("D_star", [0.0, 1e-6, 1e-4], "linear"),
+        ("Omega", [1.0, 10.0, 100.0], "linear"),
+    ],
+)
+def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
+    along = xr.DataArray(values, name=name)
+    assert heat_map.scale(along) == kind

@@ -11,7 +11,14 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import to_hex, to_rgba
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures.cells import Edges, edges_of, lay_over
+from disc_model.figures.cells import (
+    Edges,
+    decades_between,
+    edges_of,
+    lay_over,
+    scale_of,
+    unresolved,
+)
 from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.drawing import save
 from disc_model.studies.quantities.regions import Regions
@@ -39,6 +46,24 @@ def test_edges_of_cells_are_halfway_on_the_scale_of_the_axis() -> None:
     across, up = edges_of(xr.DataArray(np.zeros((3, 4)), axes, ("N", "c_p")))
     np.testing.assert_allclose(up, [100.0, 150.0, 300.0, 400.0], rtol=1e-12)
     np.testing.assert_allclose(across, 10.0 ** np.array([-2, -1.5, -0.5, 0.5, 1]), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [
+        ([1.0, 2.0, 15.0], "linear"),
+        ([1.0, 2.0, 16.0], "log"),
+        ([0.0, 1.0, 16.0, 20.0, 100.0], "symlog"),
+        ([1.0, 10.0, 16.0], "linear"),
+    ],
+)
+def test_values_over_more_than_a_decade_are_on_a_logarithmic_scale(
+    values: list[float], scale: str
+) -> None:
+    """From a ratio of more than 15 on, if most values lie at the lower end."""
+    places = np.array(values)
+    assert scale_of("m", places) == scale
+    assert scale_of("Omega", places) == "linear"
 
 
 def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
@@ -216,3 +241,32 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     named = {"8 kN", "with separation", "separates", "beyond linear plate theory"}
     assert named <= set(labels(figure))
     assert not [ax for ax in figure.axes if ax.texts], "lines would lie on it"
+
+
+def test_ticks_of_decades_begin_and_end_at_the_values() -> None:
+    values = np.array([0.01, 0.1, 1.0])
+    ticks = decades_between(values)
+    assert ticks[0] == pytest.approx(0.01)
+    assert ticks[-1] == pytest.approx(1.0)
+    assert len(ticks) == 7
+    from_zero = np.array([0.0, 0.01, 0.1])
+    assert decades_between(from_zero)[0] == pytest.approx(0.01)
+
+
+@pytest.mark.parametrize(
+    ("words", "marked"),
+    [
+        (["quiet", "growing", "quiet"], [False, True, False]),
+        (["quiet", "growing", "growing"], [False, False, False]),
+        (["", "growing", ""], [False, False, False]),
+        (["quiet", "", "quiet"], [False, True, False]),
+    ],
+)
+def test_a_cell_between_two_others_that_are_alike_is_unresolved(
+    words: list[str], marked: list[bool]
+) -> None:
+    across = np.array([words])
+    [row] = unresolved(across).tolist()
+    assert row == marked
+    [column] = unresolved(across.T).T.tolist()
+    assert column == marked

@@ -19,9 +19,12 @@ from disc_model.figures.branch import _mark_special_points
 from disc_model.figures.disc import Motion, scale_of
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
+from disc_model.simulation.states import static_start
 from disc_model.stability.critical import Critical
 from disc_model.stability.curves import NeutralCurves, StabilityCurve
 from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.lyapunov import Lyapunov
+from disc_model.stability.sliding import SlidingStatus, SteadySliding
 from tests.figures.described import drawn
 from tests.figures.every_kind import flag
 from tests.figures.measured import Shown, assert_shows, drawn_values
@@ -466,3 +469,37 @@ def test_the_note_of_a_picture_stands_at_the_left() -> None:
     slow = FloquetResult(P, 1e-12, CycleStatus.OK, "", 1.5, np.array([0.5 + 0j]))
     said = " ".join(figure_of(slow.plot()).axes[0].get_title(loc="left").split())
     assert said.endswith("period 1.5 s")
+
+
+def test_growing_eigenvalues_are_named_by_their_frequencies() -> None:
+    upper = 2j * np.pi * np.array([40.0, 100.0]) + np.array([3.0, -2.0])
+    values = np.concatenate([upper, upper.conj()])
+    sliding = SteadySliding(SlidingStatus.OK, "made up", eigenvalues=values)
+    figure = figure_of(sliding.plot())
+    figure.draw_without_rendering()
+    [ax] = figure.axes
+    names = {text.get_text() for text in ax.texts}
+    assert names == {"40 Hz"}
+    shown = lines(ax)
+    assert shown["grows"].get_ydata() == pytest.approx([40.0])
+    assert shown["decays"].get_ydata() == pytest.approx([100.0])
+
+
+def test_exponents_that_have_not_converged_are_told_from_others() -> None:
+    made = Lyapunov(
+        status=dm.Status.OK,
+        exponents=np.array([0.5, -0.1, -np.inf]),
+        errors=np.array([0.1, 0.2, np.nan]),
+        duration=20.0,
+        separations=1,
+        converged=np.array([True, False, False]),
+        final_state=static_start(P),
+    )
+    figure = figure_of(made.plot())
+    [ax] = figure.axes
+    numbers = {}
+    for bars in ax.containers:
+        [points, *_] = bars
+        numbers[bars.get_label()] = points.get_xdata().tolist()
+    assert numbers == {"converged": [1], "not converged": [2]}
+    assert ax.get_title(loc="left") == "over 20 s, 1 separation"

@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures.runs import spans_between, spans_in
+from disc_model.figures.runs import _course, spans_between, spans_in
 
 TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s
 WORDS = ["slip", "stick", "slip", "slip", "separation"]
@@ -52,3 +52,11 @@ def test_samples_stand_in_for_events_that_were_not_kept() -> None:
     assert spans["stick"] == [(1.0, 2.0)], "halfway between samples"
     assert spans["slip"] == [(0.5, 1.0), (2.0, 4.0)]
     assert spans["separation"] == [(4.0, 4.5)]
+
+
+def test_ramps_are_told_in_the_order_of_their_times() -> None:
+    up = {"parameter": "Omega", "to": 16.0, "start": 0.0}
+    down = {"parameter": "Omega", "to": 8.0, "start": 0.2}
+    other = {"parameter": "N", "to": 300.0, "start": 0.1}
+    said = _course("Omega", 15.1, [down, other, up])
+    assert said == "Ω = 15.1 to 16 to 8 rad/s"

@@ -148,3 +148,27 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
     assert figure.legends[0].get_title().get_text() == "Motions of 600 s. Steady sliding is"
     assert f"{AGREEMENTS['unstable_separates'].label}: {100 * growing:.0f}\u00a0%" in texts
+
+
+@pytest.mark.parametrize(
+    ("rate", "outcome", "word"),
+    [
+        (-1.0, "quiet", "stable_quiet"),
+        (1e-12, "at_rest", "stable_quiet"),
+        (1.0, "at_rest", "unstable_quiet"),
+        (1.0, "steady_sliding", "unstable_quiet"),
+        (-1.0, "other_cycle", "stable_grows"),
+        (1.0, "growing", "unstable_grows"),
+        (-1.0, "separation", "stable_separates"),
+        (1.0, "undecided", "unknown"),
+        (np.nan, "quiet", "unknown"),
+    ],
+)
+def test_sliding_is_compared_with_what_the_motion_does(
+    rate: float, outcome: str, word: str
+) -> None:
+    """Growth of undamped modes by rounding is none."""
+    rates = np.array([rate])
+    outcomes = np.array([outcome])
+    [found] = agreement(rates, outcomes)
+    assert found == word

@@ -180,6 +180,21 @@ def test_the_slope_of_a_range_is_a_growth_rate() -> None:
         CaseView("flat", flat).slope("P", 10.0, 50.0)
 
 
+def test_four_bins_are_enough_for_a_slope_if_none_is_still() -> None:
+    case = view()
+    slope = case.slope("w_point", 10.0, 12.0)
+    assert slope == pytest.approx(0.02, rel=1e-10)
+    node = case.node.copy(deep=True)
+    history = node["history"].to_dataset()
+    low = history["w_point_min"].copy()
+    low[21] = history["w_point_max"][21]
+    still = history.assign(w_point_min=low)
+    node["history"] = xr.DataTree(still)
+    one = CaseView("one", node)
+    with pytest.raises(Missing, match="has no vibration in w_point from 10 to 50 s"):
+        one.slope("w_point", 10.0, 50.0)
+
+
 def test_a_range_has_a_width_and_one_number_if_its_ends_are_equal() -> None:
     assert Range(-2.0, 3.5).width == 5.5
     assert f"{Range(-2.0, 3.5):.1f}" == "-2.0 to 3.5"
@@ -202,6 +217,13 @@ def test_a_case_is_told_by_place_contact_and_drive() -> None:
     assert case.from_rest
     assert not case.is_grid
     assert not case.bilateral
+
+
+def test_a_place_has_the_numbers_that_differ_from_table_1_and_no_words() -> None:
+    case = view()
+    other = P.replace(c=0.1, normalization="orthonormal")
+    case.node.attrs["parameters"] = other.canonical_json
+    assert case.place == "385 N, 20 rad/s, c = 0.1 N s/m"
 
 
 @pytest.mark.parametrize(

@@ -7,19 +7,21 @@ import pytest
 import xarray as xr
 
 from disc_model.disc.plate import plate_modes
-from disc_model.paper import measures
+from disc_model.paper import measures, section2
 from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
 from disc_model.paper.section2 import (
     BASE,
     additional,
     different,
+    moving_load,
     moving_load_speed,
     reduced,
     slip_condition,
+    survive,
     truncation,
 )
-from tests.paper.evidence import sliding_growths
+from tests.paper.evidence import grid, sliding_growths
 from tests.paper.known import known
 
 
@@ -173,3 +175,43 @@ def test_friction_lowers_growth_where_sliding_is_unstable_without_it(
     assert found.verdict == verdict
     assert found.values["counts"] == counts
     assert found.values["size"] == 3
+
+
+def test_a_wrong_critical_speed_may_be_that_of_the_next_number_of_diameters() -> None:
+    modes = plate_modes(BASE)
+    speeds = [mode.omega / (mode.diameters + 1) for mode in modes.itertuples()]
+    critical = moving_load_speed(BASE)
+    wrong = moving_load(printed=0.5 * critical, within=1.0)
+    assert wrong.verdict == FALSE
+    assert wrong.values["ours"] == critical
+    assert wrong.values["shifted"] == pytest.approx(min(speeds))
+    right = moving_load(printed=critical + 0.5, within=1.0)
+    assert right.verdict == TRUE
+    assert right.values["shifted"] == ""
+
+
+@pytest.mark.parametrize(
+    ("lowest", "verdict"), [((10.0, 10.0), TRUE), ((10.0, 2000.0), PART), ((2000.0, 2000.0), FALSE)]
+)
+def test_separating_cases_are_counted_with_both_sets_of_modes(
+    lowest: tuple[float, float], verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Of four, one separates with normalised modes, one grows, and two are quiet."""
+    norms = ["as_published", "orthonormal"]
+    later = ["separation", "growing", "quiet", "quiet"]
+    points = {}
+    for number, word in enumerate(later):
+        words = ["separation", word]
+        points[str(number)] = grid({"normalization": norms}, {"horizon": 1000.0}, outcome=words)
+    monkeypatch.setattr(section2, "separating_points", lambda maps: points)
+    speeds = np.array([10.0, 2000.0])
+    planes = []
+    for speed in lowest:
+        planes.append([["separation" if each >= speed else "quiet"] for each in speeds])
+    axes = {"normalization": norms, "Omega": speeds, "N": [300.0]}
+    plane = grid(axes, outcome=planes).assign_attrs(study="map_N")
+    found = survive(plane, share=0.5)
+    assert found.verdict == verdict
+    assert found.values["counts"] == (4, 4, 1, 2, 1)
+    assert found.values["until"] == Range(1000.0, 1000.0)
+    assert found.values["lowest"] == list(lowest)

@@ -27,6 +27,7 @@ from disc_model.paper.section41 import (
     quiet,
     releases_regularly,
     separations_are_short,
+    smaller_range,
     upward,
 )
 from disc_model.parameters import Parameters
@@ -343,6 +344,7 @@ def test_a_case_separates_far_below_the_speed_of_a_moving_load() -> None:
         ([-0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], FALSE),  # grows at high speed only
         ([0.1, -0.1, 0.2], ["quiet", "quiet", "separation"], FALSE),
         ([0.1, NAN, 0.2], ["quiet", "separation", "quiet"], TRUE),
+        ([0.1, NAN, 0.2], ["separation", "quiet", "quiet"], TRUE),
     ],
 )
 def test_growth_and_separation_are_both_found_at_low_speed(
@@ -384,3 +386,43 @@ def test_without_separation_the_vibration_keeps_growing(
     assert found.verdict == verdict
     assert found.values["also"] == int(verdict == PART)
     assert found.values["of"] == 1
+
+
+def test_of_two_cases_one_may_stay_bounded_without_separation(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    grows = known(last_widths=lambda name, length, count: [2.0, 1.0])
+    stays = known(last_widths=lambda name, length, count: [1.0, 1.0])
+    both = [(known(), grows), (known(), stays)]
+    monkeypatch.setattr(section41, "pairs", lambda cases: both)
+    found = bounded_by_separation(known(), known(), factor=1.5)
+    assert found.verdict == PART
+    assert found.values["also"] == 1
+    assert found.values["of"] == 2
+
+
+def ranged(width: float) -> Known:
+    """Return a case whose disc has a range in m."""
+    return known(disc=Range(0.0, width))
+
+
+@pytest.mark.parametrize(("shown", "verdict"), [(1, TRUE), (2, FALSE)])
+def test_ranges_are_compared_in_the_cases_that_the_paper_shows(
+    shown: int, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A fifth of that without separation in the first case, and as much in another one."""
+    first = (ranged(0.002), ranged(0.010))
+    second = (ranged(0.010), ranged(0.010))
+    monkeypatch.setattr(section41, "pairs", lambda cases: [first, second])
+    found = smaller_range(known(), known(), ratio=0.5, shown=shown)
+    assert found.verdict == verdict
+    parts = [row[1] for row in found.values["rows"]]
+    assert parts == pytest.approx([0.2, 1.0])
+
+
+def test_without_a_preload_nothing_but_the_spring_closes_the_gap() -> None:
+    samples = xr.Dataset({"u": ("time", [0.002]), "phase": ("time", [SEPARATION])})
+    case = known({"N": 0.0}, samples=lambda name: samples)
+    found = preload_closes(case, share=0.5)
+    assert found.verdict == FALSE
+    assert found.values["part"] == 0

@@ -8,15 +8,17 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.analysis.classify import Motion
 from disc_model.analysis.spectra import Line
 from disc_model.data.dataset import Missing
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import PHASES, Outcome
 from disc_model.paper import growth
 from disc_model.paper.measures import Range
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_TESTED, PART, TRUE, Answer
 from disc_model.paper.section43 import (
     LOADS,
     SPEEDS,
+    _mostly,
     bounded,
     critical_speed,
     damping_at_large_preloads,
@@ -24,6 +26,7 @@ from disc_model.paper.section43 import (
     faster_and_sooner,
     growth_over_steps,
     hardly_moves,
+    inplane_damping,
     only_between,
     plane,
     seen_in_section,
@@ -34,6 +37,8 @@ from disc_model.paper.section43 import (
     stick_may_vanish,
     stiff_enough,
     two_frequencies,
+    undamped_separates_lower,
+    wanders,
 )
 from disc_model.parameters import Parameters
 from tests.paper.evidence import grid
@@ -463,3 +468,106 @@ def test_multiples_of_the_drive_alone_are_no_two_frequencies(
     assert found.verdict == verdict
     assert found.values["part"] == 1.0
     assert found.values["with_rate"] == with_rate
+
+
+# ---- Dampers of single cases
+
+
+def at_speed(speed: float, damping: float, separates: bool) -> Known:
+    """Return a case by its speed and the damping of its disc."""
+    scalars = {"Omega": speed, "D_star": damping}
+    contact = "lost" if separates else "kept"
+    return known(scalars, separates=separates, contact=contact)
+
+
+@pytest.mark.parametrize(
+    ("undamped", "damped", "verdict", "lowest"),
+    [
+        (12.0, 14.0, TRUE, [12.0, 14.0]),
+        (14.0, 14.0, FALSE, [14.0, 14.0]),
+        (14.0, 12.0, FALSE, [14.0, 12.0]),
+        (12.0, math.inf, TRUE, [12.0, math.inf]),
+        (math.inf, math.inf, FALSE, [math.inf, math.inf]),
+    ],
+)
+def test_the_lowest_speeds_with_and_without_damping_are_compared(
+    undamped: float, damped: float, verdict: str, lowest: list[float]
+) -> None:
+    """Of three speeds each, of which those from a given one on separate."""
+    cases = []
+    for speed in (12.0, 13.0, 14.0):
+        cases.append(at_speed(speed, 0.0, speed >= undamped))
+        cases.append(at_speed(speed, 1e-5, speed >= damped))
+    found = undamped_separates_lower(*cases)
+    assert found.verdict == verdict
+    assert found.values["lowest"] == lowest
+    assert len(found.values["contacts"]) == 3
+    assert found.values["contacts"][0].endswith(" at 12 rad/s")
+
+
+@pytest.mark.parametrize(
+    ("separates", "verdict"),
+    [((False, True), TRUE), ((True, True), FALSE), ((False, False), FALSE)],
+)
+def test_in_plane_damping_makes_a_quiet_case_separate(
+    separates: tuple[bool, bool], verdict: str
+) -> None:
+    """At one of four preloads of the map it does at 0.1 N s/m, and at one more at 0.5."""
+    letters = "sqs qqs qqq sss"
+    rows = letters.split()
+    words = [["separation" if one == "s" else "quiet" for one in row] for row in rows]
+    before, after = separates
+    without = known(separates=before, fate="before")
+    case = known({"c_p": 0.1}, separates=after, fate="after")
+    found = inplane_damping(without, case, plane_of(words))
+    assert found.verdict == verdict
+    assert found.values["newly"] == [200]
+    assert found.values["size"] == 4
+    assert found.values["fates"] == ("before", "after")
+    alone = inplane_damping(without, case, None)
+    assert alone.verdict == verdict
+    assert alone.values["newly"] == []
+
+
+def test_a_period_is_told_in_turns_of_the_drive() -> None:
+    """Of three releases in 0.6 s, at 5 turns a second."""
+    points = xr.Dataset(
+        {
+            "w_point": ("time", [0.0, 1.0, 0.0, 1.0]),
+            "w_point_velocity": ("time", [0.0, 1.0, 0.0, 1.0]),
+        }
+    )
+    intervals = np.array([0.1, 0.2, 0.3, 0.1, 0.2])
+    motion = Motion(Outcome.OTHER_CYCLE, 3)
+    case = known(
+        samples=lambda window: points,
+        intervals=lambda: intervals,
+        late_motion=motion,
+        separates=True,
+        drive=5.0,
+    )
+    found = wanders(case, case, last=4)
+    assert found.verdict == FALSE
+    assert found.values["points"] == 2
+    assert found.values["turns"] == pytest.approx(3.0)
+    assert found.values["near"] == "repeats after 3 releases"
+
+
+@pytest.mark.parametrize(
+    ("holding", "counted", "verdict"),
+    [
+        (20, 20, TRUE),
+        (19, 20, PART),
+        (11, 20, PART),
+        (10, 20, FALSE),
+        (0, 20, FALSE),
+        (0, 0, FALSE),
+    ],
+)
+def test_what_holds_in_more_than_half_of_the_steps_is_true_in_part(
+    holding: int, counted: int, verdict: str
+) -> None:
+    numbers = np.arange(20)
+    holds = numbers < holding
+    counts = numbers < counted
+    assert _mostly(holds, counts) == verdict

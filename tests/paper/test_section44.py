@@ -8,13 +8,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from disc_model.analysis.classify import Motion
 from disc_model.analysis.spectra import Line
+from disc_model.data.dataset import Missing
+from disc_model.data.variables import Outcome
 from disc_model.paper import paper_tables, section44
+from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_TESTED, PART, TRUE
 from disc_model.paper.section44 import (
     caused_by_friction,
     close_to_natural,
     constant_by_separation,
+    errs,
     explained_by_slider,
     fuzz_goes,
     fuzz_stays,
@@ -22,10 +27,14 @@ from disc_model.paper.section44 import (
     higher,
     inplane_contribution,
     inplane_frequency,
+    later_periodic,
+    reattaches,
     rest_late,
+    soft_enough,
     when_it_separates,
 )
 from disc_model.parameters import Parameters
+from tests.paper.evidence import grid
 from tests.paper.known import Known, known
 
 
@@ -302,3 +311,187 @@ def test_separations_follow_a_frequency_of_the_slider_on_its_spring(
         separations = {"separation": intervals}
         cases.append(known({"k": stiffness}, parameters=p, intervals=separations.get))
     assert section44._vertical_branch(*cases, within=0.1)["contributes"] == follows
+
+
+# ---- Conclusions
+
+
+def separating(begins: list[float], ends: list[float]) -> Known:
+    """Return a case with these separations, which keeps its events from 90 to 100 s."""
+    times = {"separation": np.array(begins), "reattachment": np.array(ends)}
+    return known(kept_span=Range(90.0, 100.0), times_of=times.get)
+
+
+def test_separations_end_with_contact_the_longest_of_all_cases_in_milliseconds() -> None:
+    """One that begins within half a second of the end does not count."""
+    long = separating([91.0, 93.0, 99.9], [91.25, 93.125])
+    short = separating([95.0], [95.0625])
+    found = reattaches(long, short, longest=0.5)
+    assert found.verdict == TRUE
+    assert found.values["cases"] == 2
+    assert found.values["begins"] == 3
+    assert found.values["ends"] == 3
+    assert found.values["lasts"] == 250.0
+
+
+def test_a_separation_that_goes_on_is_none_that_ends() -> None:
+    short = separating([95.0], [95.0625])
+    apart = separating([95.0], [])
+    found = reattaches(short, apart, longest=0.5)
+    assert found.verdict == PART
+    assert found.values["begins"] == 2
+    assert found.values["ends"] == 1
+    assert found.values["lasts"] == 62.5
+    alone = reattaches(apart, longest=0.5)
+    assert alone.verdict == FALSE
+    with pytest.raises(Missing, match="keeps no separation"):
+        reattaches(separating([], []), longest=0.5)
+
+
+def test_growth_without_friction_is_the_largest_of_all_cases(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    rates = {20.0: -0.1, 30.0: -0.3}
+    monkeypatch.setattr(section44.growth_rates, "sliding_growth", lambda p: rates[p.Omega])
+    cases = [
+        known(separates=True, parameters=Parameters(N=385, Omega=20)),
+        known(separates=False, parameters=Parameters(N=385, Omega=30)),
+    ]
+    found = caused_by_friction(*cases, growth=-0.2)
+    assert found.verdict == FALSE
+    assert found.values["most"] == -0.1
+    both = caused_by_friction(*cases, growth=0.0)
+    assert both.verdict == TRUE
+
+
+QUIET = "quiet"
+APART = "separation"
+
+
+@pytest.mark.parametrize(
+    ("rows", "verdict", "quiet", "softer"),
+    [
+        ([[QUIET, QUIET], [QUIET, APART], [APART, APART]], TRUE, [100], []),
+        ([[APART, QUIET], [QUIET, QUIET], [APART, APART]], PART, [150], [100]),
+        ([[QUIET, QUIET], [QUIET, QUIET], [QUIET, QUIET]], FALSE, [100, 150, 200], []),
+        ([[APART, QUIET], [APART, QUIET], [APART, APART]], FALSE, [], []),
+    ],
+)
+def test_a_disc_is_soft_enough_if_no_softer_one_separates(
+    rows: list[list[str]], verdict: str, quiet: list[float], softer: list[float]
+) -> None:
+    """Of moduli in GPa, at two speeds."""
+    axes = {"E": [1.0e11, 1.5e11, 2.0e11], "Omega": [10.0, 20.0], "normalization": ["as_published"]}
+    words = np.array(rows)[..., None]
+    rates = np.zeros(words.shape)
+    study = grid(axes, outcome=words, growth_rate=rates)
+    found = soft_enough(study, slow=10.0)
+    assert found.verdict == verdict
+    assert found.values["quiet"] == pytest.approx(quiet)
+    assert found.values["softer"] == pytest.approx(softer)
+
+
+def test_a_late_motion_without_separation_is_told_if_it_repeats() -> None:
+    span = Range(90.0, 100.0)
+    repeats = Motion(Outcome.OTHER_CYCLE, 3)
+    wanders = Motion(Outcome.QUASI_PERIODIC)
+    periodic = known(late_motion=repeats, motion="it repeats", kept_span=span)
+    torus = known(late_motion=wanders, motion="it does not", kept_span=span)
+    both = later_periodic(periodic, periodic)
+    assert both.verdict == TRUE
+    assert both.values["other"] == "it repeats"
+    without = later_periodic(periodic, torus)
+    assert without.values["other"] == ""
+    assert later_periodic(torus, periodic).verdict == FALSE
+
+
+def test_a_rise_below_the_floor_is_none_without_separation_either() -> None:
+    """Of five times, from a hundred-thousandth."""
+    case = with_shares({50.0: 1e-3, 54.0: 5e-3})
+    bilateral = with_shares({50.0: 1e-5, 54.0: 5e-5})
+    options = {"windows": "zoom", "spans": [50.0, 58.0]}
+    found = higher(case, bilateral, factor=2, floor=1e-4, **options)
+    assert found.verdict == TRUE
+
+
+@pytest.mark.parametrize(
+    ("chance", "apart", "verdict"), [(4e-4, 0.2, TRUE), (6e-4, 0.2, FALSE), (4e-4, 0.6, FALSE)]
+)
+def test_lines_are_found_unless_noise_has_one_of_them(
+    chance: float, apart: float, verdict: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The chances of two lines add up."""
+    table = pd.DataFrame(
+        {
+            "ours_Hz": [65.0, 70.0 - apart],
+            "paper_Hz": [65.0, 70.0],
+            "ours_is": ["1 f_s", paper_tables.UNNAMED],
+        }
+    )
+    both = [Line(65.0, 1.0), Line(70.0, 1.0)]
+    monkeypatch.setattr(paper_tables, "table_2_lines", lambda case: both)
+    monkeypatch.setattr(paper_tables, "table_2", lambda case: table)
+    monkeypatch.setattr(paper_tables, "stick_slip_rate", lambda case: 67.0)
+    monkeypatch.setattr(section44.spectra, "chance", lambda *_: chance)
+    samples = SimpleNamespace(time=None, values=None)
+    case = known(signal=lambda *_: samples)
+    found = section44.lines(case, bound=0.5)
+    assert found.verdict == verdict
+    assert found.values["named"] == 1
+    assert found.values["off"] == pytest.approx(apart)
+    assert found.values["rate"] == 67.0
+
+
+def test_growth_needs_twenty_seconds_on_both_sides_of_the_separation() -> None:
+    usual = {"first_separation": 20.0, "time_reached": 40.0}
+    case = known(usual, slope=lambda *_: 0.1)
+    found = growth_stages(case, factor=2, least=0.05)
+    assert found.verdict == FALSE
+    for name, value in (("first_separation", 19.9), ("time_reached", 39.9)):
+        short = known({**usual, name: value}, slope=lambda *_: 0.1)
+        with pytest.raises(Missing, match="does not run for 20 s both before and after"):
+            growth_stages(short, factor=2, least=0.05)
+
+
+def with_ranges(disc: float, psi: float) -> Known:
+    """Return a case with ranges of its disc and of the slider in the plane."""
+    ranges = {"psi": Range(0.0, psi)}
+    return known(disc=Range(0.0, disc), late_range=ranges.get)
+
+
+def test_errors_without_separation_are_counted_on_both_sides_and_on_both_discs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Of ranges that are twice and half as large, and equal ones."""
+    usual = with_ranges(1.0, 1.0)
+    pairs = [
+        (usual, with_ranges(2.0, 0.5)),
+        (usual, with_ranges(1.0, 2.0)),
+        (usual, with_ranges(1.1, 0.5)),
+    ]
+    monkeypatch.setattr(section44.measures, "pairs", lambda cases: pairs)
+    axes = {
+        "disc": ["surface"],
+        "contact": ["unilateral", "bilateral"],
+        "Omega": [10.0, 20.0, 30.0, 40.0],
+    }
+    tops = [[1.0, 1.0, 1.0, 1.0], [2.0, 0.5, 2.0, 9.0]]
+    words = [
+        ["separation", "separation", "separation", "quiet"],
+        ["growing", "quiet", "growing", "growing"],
+    ]
+    study = grid(
+        axes, {"after_separation": 5.0}, u_max=[tops], u_min=np.zeros((1, 2, 4)), outcome=[words]
+    )
+    found = errs(study, within=0.2, share=0.5)
+    assert found.verdict == TRUE
+    values = found.values
+    assert values["wider"] == (1, 3)
+    assert values["narrower"] == (0, 3)
+    assert values["more"] == (1, 3)
+    assert values["less"] == (2, 3)
+    assert values["brake"] == (2, 1)
+    assert values["of"] == 3
+    assert values["kept"] == 1
+    assert values["unsettled"] == 2
+    assert values["after"] == 5.0

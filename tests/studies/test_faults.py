@@ -249,3 +249,35 @@ def test_a_run_says_in_the_end_what_has_no_result(
         f"s: 1 of 4 points have no result, see {file}",
         f"s: 1 of 4 points have a remark, see {file}",
     ]
+
+
+def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    grids = parse_study(GRID).grids()[0]
+    folder = tmp_path / "results" / "s"
+    folder.mkdir(parents=True)
+    file = folder / "s.failed.txt"
+    file.write_text("start = broken: paradox\nstart = smoke: failed: no steps\n")
+    [line] = closing_lines(grids)
+    assert line.startswith("s: 2 of 4 points have no result")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "fault"),
+    [
+        ("outcome", "options.horizon: is required: number > 0 (s), longest simulated time"),
+        (
+            "bifurcation",
+            "options.transient: is required: number > 0 (s), time left out at the beginning; at"
+            " events it is doubled until the motion has settled",
+        ),
+    ],
+)
+def test_a_missing_option_is_told_with_its_unit_and_meaning(quantity: str, fault: str) -> None:
+    raw = {
+        "study": "s",
+        "quantity": quantity,
+        "base": {"N": 200, "Omega": 20},
+        "axes": {"c": [0.0]},
+    }
+    assert faults_of(parse_study, raw) == [fault]

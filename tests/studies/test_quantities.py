@@ -11,11 +11,20 @@ import pytest
 
 from disc_model import floquet
 from disc_model.data.variables import Variable, flag_names
-from disc_model.errors import Status
+from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
-from disc_model.studies.quantity import STATUS, STATUSES, Point, Quantity, Range, holds, with_ends
+from disc_model.studies.quantity import (
+    STATUS,
+    STATUSES,
+    Point,
+    Quantity,
+    Range,
+    holds,
+    units_of,
+    with_ends,
+)
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.studies.conftest import compute, computed
 
@@ -205,3 +214,36 @@ def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.Monk
     assert [words[i] for i in values["converged"]] == ["yes", "no", "unknown"]
     assert values["averaging_time"] == 7.0
     assert values["separations"] == 3
+
+
+@pytest.mark.parametrize(
+    ("parameter", "units"), [("Omega", "rad s-1"), ("mu_k_over_mu_s", "1"), ("omega_2_0", "")]
+)
+def test_numbers_of_modes_have_no_unit_in_datasets(parameter: str, units: str) -> None:
+    assert units_of(parameter) == units
+
+
+@pytest.mark.parametrize(
+    ("rule", "kept"),
+    [
+        ("mu_k <= mu_s", True),
+        ("mu_k > mu_s", False),
+        ("mu_k / c_p > 0", False),
+        ("n_diameters * normalization != 'x'", False),
+        ("n_diameters == 2", True),
+    ],
+)
+def test_a_rule_that_cannot_be_evaluated_does_not_hold(rule: str, kept: bool) -> None:
+    """Neither a division by zero, nor a word that would be repeated."""
+    values = {"mu_k": 0.2, "mu_s": 0.4, "c_p": 0.0, "n_diameters": 2, "normalization": "x"}
+    assert holds([rule], values) is kept
+
+
+def test_an_axis_has_a_hundred_thousand_values_at_most() -> None:
+    made = Range(start=0, stop=1, count=100_000)
+    assert made.intervals == 99_999
+    rule = "must be at most 100000 values"
+    with pytest.raises(ParameterError, match=rule):
+        Range(start=0, stop=1, count=100_001)
+    with pytest.raises(ParameterError, match=rule):
+        Range(start=0, stop=1, step=1e-5)

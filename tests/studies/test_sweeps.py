@@ -434,3 +434,11 @@ def test_a_speed_that_is_searched_is_no_value_of_the_case(
     assert "Omega" not in json.loads(found.attrs["base"])
     assert dm.plot_sweep(found).figure.get_suptitle() == "N = 385 N"
     pyplot.close("all")
+
+
+def test_whole_numbers_along_a_sweep_are_floats() -> None:
+    """So that they are drawn as numbers, and not as counts."""
+    swept = sweep(lambda case: {"x": case.N}, P, n_diameters=[1, 2])
+    numbers = swept["n_diameters"]
+    assert numbers.dtype.kind == "f"
+    assert numbers.values.tolist() == [1.0, 2.0]

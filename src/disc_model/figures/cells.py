@@ -76,7 +76,7 @@ def decades_between(values: Array) -> list[float]:
 def unresolved(words: Words) -> Mask:
     """Cells between two that have one other word: single ones, and strips that are one cell
     wide."""
-    around = np.pad(words, 1)
+    around = np.pad(words, 1, constant_values="")  # "0" by default
     vertical = (around[:-2, 1:-1], around[2:, 1:-1])
     horizontal = (around[1:-1, :-2], around[1:-1, 2:])
     found = np.zeros(words.shape, dtype=bool)

@@ -1,0 +1,102 @@
+"""Words of figures for values and horizons."""
+
+import pytest
+import xarray as xr
+
+from disc_model.figures.multipliers import period_text
+from disc_model.figures.names import name_of
+from disc_model.figures.words import horizon_text, missing_text, named_value, value_text
+
+
+def along(name: str, value: float) -> xr.DataArray:
+    """A number at one value of a parameter."""
+    return xr.DataArray(1.0, {name: value})
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "text"),
+    [
+        ("contact_compliance", 0.0, "rigid contact"),
+        ("contact_compliance", 2.6e-7, "compliance 0.26 µm/N"),
+        ("contact_arc", 0.0, "contact at a point"),
+        ("contact_arc", 0.1, "a pad over 0.1 rad"),
+        ("friction_offset", 0.0, "friction in the middle plane"),
+        ("friction_offset", 0.001, "friction 1 mm above the middle plane"),
+        ("contact_force", "normal", "normal contact force"),
+        ("contact_force", "vertical", "vertical contact force"),
+    ],
+)
+def test_laws_of_contact_name_themselves(name: str, value: float, text: str) -> None:
+    data = along(name, value)
+    assert value_text(data, name) == text
+    assert named_value(data, name) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "text"),
+    [
+        ("N", 385.0, "385 N"),
+        ("k_p", 2e4, "20 kN/m"),
+        ("h", 0.002, "2 mm"),
+        ("mu_s", 0.4, "0.4"),
+        ("mu_s", 0.0, "0"),
+    ],
+)
+def test_other_values_have_the_unit_of_figures(name: str, value: float, text: str) -> None:
+    data = along(name, value)
+    assert value_text(data, name) == text
+    assert named_value(data, name).endswith(f" = {text}")
+
+
+@pytest.mark.parametrize(
+    ("options", "text"),
+    [
+        ('{"horizon": 500}', "500 s"),
+        ('{"horizon": 12.5}', "12.5 s"),
+        ('{"horizon": "20 min"}', "20 min"),
+        ('{"horizon": [1, 2]}', ""),
+        ("{}", ""),
+    ],
+)
+def test_the_horizon_of_a_study_has_its_unit(options: str, text: str) -> None:
+    study = xr.Dataset(attrs={"options": options})
+    assert horizon_text(study) == text
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "text"),
+    [
+        ("first_separation", '{"horizon": 500}', "none within 500 s"),
+        (
+            "first_separation",
+            '{"horizon": 500, "extrapolate": true}',
+            "none within 500 s, or not timed",
+        ),
+        ("first_separation", "{}", "no value"),
+        ("period", '{"horizon": 500}', "no value"),
+    ],
+)
+def test_points_without_a_separation_are_called_so(name: str, options: str, text: str) -> None:
+    study = xr.Dataset(attrs={"options": options})
+    assert missing_text(study, name) == text
+
+
+@pytest.mark.parametrize(
+    ("period", "text"), [(0.0144, "14.4 ms"), (0.75, "750 ms"), (2.5, "2.5 s")]
+)
+def test_periods_of_more_than_a_second_are_in_seconds(period: float, text: str) -> None:
+    assert period_text(period) == text
+
+
+@pytest.mark.parametrize(
+    ("diameters", "name"),
+    [
+        ((0,), "l = 0"),
+        ((2, 0), "l = 0, 2"),
+        ((3, 3), "l = 3"),
+        ((-1,), "in-plane"),
+        ((2, -1), "in-plane, l = 2"),
+    ],
+)
+def test_modes_are_named_by_their_nodal_diameters(diameters: tuple[int, ...], name: str) -> None:
+    assert name_of(*diameters) == name
