@@ -119,12 +119,12 @@ class State:
         if not changes.keys() <= {"time", "time_low", "drive_angle"}:
             implied["case_key"] = ""
         known = [each.name for each in dataclasses.fields(self)]
-        require(
-            *(
-                (x in known, x, value, f"is not of a state{suggestion(x, known)}")
-                for x, value in changes.items()
-            )
-        )
+        unknown = []
+        for name, value in changes.items():
+            if name not in known:
+                rule = f"is not of a state{suggestion(name, known)}"
+                unknown.append(Fault.of((name,), value, rule))
+        raise_faults(unknown)
         require(
             *(
                 (is_finite(x), name, x, "must be finite")

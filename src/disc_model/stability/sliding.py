@@ -154,6 +154,13 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
+    return _find_sliding(case, lambda jacobian: np.asarray(np.linalg.eigvals(jacobian)))
+
+
+def _find_sliding(
+    case: Parameters, eigenvalues_of: Callable[[Array], ComplexArray]
+) -> SteadySliding:
+    """As `steady_sliding`, by a function that returns the eigenvalues of a matrix."""
     raise_faults(foreign_case(case))
     if case.Omega == 0:
         return _absent(case, SlidingStatus.AT_REST)
@@ -189,7 +196,7 @@ def steady_sliding(case: Parameters) -> SteadySliding:
         return _absent(case, SlidingStatus.NO_SPRING)
     _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
     jacobian = rates.imag / LAWS.TINY
-    eigenvalues = np.linalg.eigvals(jacobian).astype(complex)
+    eigenvalues = eigenvalues_of(jacobian).astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     symbol = "R" if case.contact_force == "normal" else "P"
     message = f"steady sliding with {symbol} = {force:.6g} N, {_verdict(eigenvalues)}"
@@ -399,8 +406,28 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
     """Modes of steady sliding by ascending frequency; none without steady sliding, which is
     computed if not given."""
     if sliding is None:
-        sliding = steady_sliding(p)
-    values, vectors = np.linalg.eig(sliding.jacobian)
+        return _sliding_and_modes(p)[1]
+    return _modes_of(p, *np.linalg.eig(sliding.jacobian))
+
+
+def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
+    """Steady sliding and its modes, of which there are none without it. Values and shapes come from
+    one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
+    solutions: list[tuple[ComplexArray, ComplexArray]] = []
+
+    def eigenvalues_of(jacobian: Array) -> ComplexArray:
+        values, vectors = np.linalg.eig(jacobian)
+        solutions.append((values, vectors))
+        return np.asarray(values)
+
+    sliding = _find_sliding(p, eigenvalues_of)
+    if not solutions:
+        solutions.append((np.zeros(0, complex), np.zeros((0, 0), complex)))
+    return sliding, _modes_of(p, *solutions[0])
+
+
+def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:
+    """The modes of eigenvalues, (n,), and eigenvectors, (n, n), by ascending frequency."""
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     values = values[order]
     vectors = np.asarray(vectors[:, order], dtype=complex)
@@ -463,8 +490,7 @@ def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
     shapes = list[ComplexArray]()  # of each number, the last one
     before: Parameters | None = None
     for p in cases:
-        sliding = steady_sliding(p)
-        modes = sliding_modes(p, sliding)
+        sliding, modes = _sliding_and_modes(p)
         numbers, mac = _numbered(shapes, before, p, modes, HALVINGS)
         followed.append(FollowedModes(sliding, modes, numbers, mac))
         before = p
