@@ -325,6 +325,18 @@ def test_a_case_separates_below_a_share_of_the_critical_speed() -> None:
     assert rows == [(separating.place, pytest.approx(part))]
 
 
+def test_a_damper_is_said_to_settle_the_cycles_that_grew() -> None:
+    """Of four that grew, it settles two and slows one; two did not grow before."""
+    without = np.array([[-0.1, 0.1, 0.2], [-0.1, 0.1, 0.2]])
+    damped = np.array([[-0.2, -0.1, 0.1], [-0.2, -0.1, 0.3]])
+    found = survival.normal_damping(damping("c", without, damped)["damping"])
+    values = found.values
+    assert found.verdict == FALSE
+    assert values["compared"] == 4
+    assert values["lowered"] == 3
+    assert values["stable"] == 2
+
+
 @pytest.mark.parametrize(("above", "few"), [(1, True), (3, False)])
 def test_a_damper_that_destabilises_a_tenth_of_the_points_does_at_few(
     above: int, few: bool
