@@ -215,6 +215,19 @@ def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdi
     assert judged(title, **grids).verdict == verdict
 
 
+def test_separations_are_counted_by_the_cycle_they_left() -> None:
+    """Of six points, one leaves a growing cycle, and one has none; three keep a stable one."""
+    grids = onset("qqsqgs", *STABLE_AND_NOT)
+    points = grids["outcome"]
+    rates = grids["growth"]
+    found = survival.onset(points, rates, grids["curves"], fold_distance=0.5)
+    values = found.values
+    assert values["points"] == (2, 6)
+    assert values["kinds"] == (1, 1, 0)
+    assert values["keep"] == 3
+    assert values["early"] == []
+
+
 def test_a_map_of_growth_that_lacks_points_decides_nothing() -> None:
     grids = onset("qqsqgs", *MORE_STABLE)
     grids["growth"] = grids["growth"].isel(N=[0])
