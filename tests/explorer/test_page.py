@@ -18,6 +18,7 @@ from PIL import Image
 from disc_model.data.variables import PHASES
 from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, page
 from disc_model.explorer import study_contents as contents_of
+from disc_model.explorer.contents import runs
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.growth import growth_norm
 from disc_model.studies.motions import SAMPLES, Motions
@@ -210,6 +211,11 @@ def test_points_without_a_number_have_the_class_that_figures_show() -> None:
     unknown = contents()[1]["variables"][0]["gaps"]
     assert [look["label"] for look in unknown["looks"]] == ["no value"]
     assert numbers(unknown, "u1").tolist() == [0, 0, 1]
+
+
+def test_the_first_run_of_phases_begins_at_the_first_point() -> None:
+    phases = np.array([0, 0, 2, 2, 0])
+    assert runs(phases) == [[0, 0], [2, 2], [4, 0]]
 
 
 def test_growth_rates_have_the_colours_of_figures() -> None:
