@@ -18,7 +18,7 @@ from PIL import Image
 from disc_model.data.variables import PHASES
 from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.explorer.contents import _gaps
+from disc_model.explorer.contents import _gaps, runs
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.growth import growth_norm, isolated
 from disc_model.studies.motions import SAMPLES, Motions
@@ -290,6 +290,11 @@ def test_no_label_ends_within_a_sentence() -> None:
     dims = {dim["name"]: dim for dim in contents()[0]["dims"]}
     label = dims["normalization"]["label"]
     assert label == "Scale of the mode shapes: coefficient of Jₗ equal to 1, or Eq. (17)"
+
+
+def test_the_first_run_of_phases_begins_at_the_first_point() -> None:
+    phases = np.array([0, 0, 2, 2, 0])
+    assert runs(phases) == [[0, 0], [2, 2], [4, 0]]
 
 
 def test_growth_rates_have_the_colours_of_figures() -> None:

@@ -113,6 +113,19 @@ def test_phases_are_shaded_in_their_colours_while_they_last(window: str, phase: 
     np.testing.assert_array_equal(inside, flag_names(samples["phase"]) == phase)
 
 
+def test_a_section_small_in_one_direction_only_is_not_enlarged() -> None:
+    """A narrow column of points says that it is narrow."""
+    large = simulated(True)
+    samples = large["poincare"].to_dataset()
+    narrow = 0.01 * samples["w_point"]
+    samples = samples.assign(w_point=narrow)
+    small = damaged(large, lambda groups: groups | {"poincare": samples})
+    plot = kind_of("poincare")(case="A", below=("B",))
+    figure = render(plot, {"A": large, "B": small})
+    said = [text.get_text() for ax in figure.axes for text in ax.texts]
+    assert not any("enlarged" in text for text in said)
+
+
 def test_sections_of_several_cases_share_their_axes() -> None:
     """Contact is kept in one, whose points take a small part of the axes of the other."""
     plot = kind_of("poincare")(case="A", below=("B",))

@@ -215,6 +215,19 @@ def test_conclusions_about_grids(title: str, grids: dict[str, xr.Dataset], verdi
     assert judged(title, **grids).verdict == verdict
 
 
+def test_separations_are_counted_by_the_cycle_they_left() -> None:
+    """Of six points, one leaves a growing cycle, and one has none; three keep a stable one."""
+    grids = onset("qqsqgs", *STABLE_AND_NOT)
+    points = grids["outcome"]
+    rates = grids["growth"]
+    found = survival.onset(points, rates, grids["curves"], fold_distance=0.5)
+    values = found.values
+    assert values["points"] == (2, 6)
+    assert values["kinds"] == (1, 1, 0)
+    assert values["keep"] == 3
+    assert values["early"] == []
+
+
 def test_a_map_of_growth_that_lacks_points_decides_nothing() -> None:
     grids = onset("qqsqgs", *MORE_STABLE)
     grids["growth"] = grids["growth"].isel(N=[0])
@@ -323,6 +336,18 @@ def test_a_case_separates_below_a_share_of_the_critical_speed() -> None:
     assert survival.below_critical(separating, share=0.99 * part).verdict == NOT_COMPUTED
     rows = survival.below_critical(separating, share=1.01 * part).values["rows"]
     assert rows == [(separating.place, pytest.approx(part))]
+
+
+def test_a_damper_is_said_to_settle_the_cycles_that_grew() -> None:
+    """Of four that grew, it settles two and slows one; two did not grow before."""
+    without = np.array([[-0.1, 0.1, 0.2], [-0.1, 0.1, 0.2]])
+    damped = np.array([[-0.2, -0.1, 0.1], [-0.2, -0.1, 0.3]])
+    found = survival.normal_damping(damping("c", without, damped)["damping"])
+    values = found.values
+    assert found.verdict == FALSE
+    assert values["compared"] == 4
+    assert values["lowered"] == 3
+    assert values["stable"] == 2
 
 
 @pytest.mark.parametrize(("above", "few"), [(1, True), (3, False)])

@@ -144,8 +144,9 @@ def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
     slips = known and kind == SLIPPING
     fits = not (slips and counts) or releases == 1
     rule = "must be a whole number >= 1, and 1 without a state to look near"
+    hint = ", such as its attribute state" if hasattr(guess, "state") else ""
     return violations(
-        (isinstance(guess, State | None), "guess", guess, "must be a State"),
+        (isinstance(guess, State | None), "guess", guess, f"must be a State{hint}"),
         (counts, "releases", releases, rule),
         (known, "kind", kind, f"must be one of {', '.join(KINDS)}"),
         (fits, "releases", releases, "must be left out of a cycle that never sticks"),

@@ -1,6 +1,8 @@
 """Branches of stick-slip cycles: compared with shorter steps, with `floquet`, with simulations, and
 their ends with the margins of the events."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -339,3 +341,12 @@ def test_nothing_is_said_of_values_that_are_all_reached() -> None:
     bounds = (14.8, 15)
     branch = continue_cycle(FOLDED, "Omega", bounds, values=[14.85])
     assert "not reached" not in repr(branch)
+
+
+def test_a_special_point_given_for_its_state_is_told_so() -> None:
+    case = Parameters(N=385, Omega=14.9)
+    point = SimpleNamespace(state=None)
+    with pytest.raises(
+        ParameterError, match=r"guess=.*must be a State, such as its attribute state"
+    ):
+        continue_cycle(case, "Omega", (14.8, 15.0), guess=point)  # type: ignore[arg-type]
