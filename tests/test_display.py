@@ -81,6 +81,7 @@ def test_a_choice_of_modes_is_shown_with_what_it_was_compared_with() -> None:
         "n_circles": "1",
         "modes": "26, a pair counts as two",
         "chosen by": "growth",
+        "at": "15 rad/s, 385 N; other speeds may need more modes",
         "error": "0.004, relative; 0.01 was asked for",
         "largest model compared": "8 diameters, 1 circle",
         "growth with 4 diameters, 0 circles": "-0.1",

@@ -233,3 +233,13 @@ def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
     for name in ("file", "file/below", "a\0b"):
         with pytest.raises(dm.ParameterError, match=r"^path=.*: must be the name of a folder"):
             save_csv({"all": RUN["all"]}, f"{tmp_path}/{name}")
+
+
+def test_a_table_or_a_run_given_for_a_dataset_is_told_what_to_do(tmp_path: Path) -> None:
+    table = tmp_path / "growth.csv"
+    table.write_text("N,Omega\n1,2\n")
+    with pytest.raises(dm.ParameterError, match=r"tables are for pandas"):
+        dm.load(table)
+    run = dm.simulate(dm.Parameters(N=200, Omega=20), 1e-4)
+    with pytest.raises(dm.ParameterError, match=r"it has a method save of its own"):
+        dm.save(run, tmp_path / "run.nc")  # type: ignore[arg-type]

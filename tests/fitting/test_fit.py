@@ -196,6 +196,18 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert dict(fit.summary())["consistent"].startswith("no")
 
 
+def test_a_failed_search_without_degrees_of_freedom_is_inconsistent() -> None:
+    """As many parameters as measurements fit exactly, unless a bound keeps them away."""
+    measured = {"frequency_0_0": (250.0, 0.5)}
+    free = dm.fit(DISC, ["E"], measured)
+    assert free.freedom == 0
+    assert free.consistent
+    near = {"E": (0.999 * DISC.E, 1.001 * DISC.E)}
+    held = dm.fit(DISC, ["E"], measured, bounds=near)
+    assert held.chi_squared > 100
+    assert not held.consistent
+
+
 def test_bounds_hold_the_parameters() -> None:
     measured = {"frequency_2_0": (300.0, 1.0)}
     fit = dm.fit(DISC, ["E"], measured, bounds={"E": ("120 GPa", "152 GPa")})

@@ -24,6 +24,8 @@ COMPLEX_PART = "complex_part"
 """Attribute of such a variable: which part it is."""
 DISCS = "json_of_disc"
 """Attribute of a variable of texts, each of which is a disc in JSON: yes."""
+TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
+"""Suffixes of files that are certainly no datasets."""
 
 
 def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
@@ -61,6 +63,8 @@ def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
     rule = "must be an xarray.Dataset or xarray.DataTree"
     if hasattr(data, "to_dataset"):
         rule = f"{rule}, such as its method to_dataset() returns"
+    elif hasattr(data, "save"):
+        rule = f"{rule}; it has a method save of its own"
     require((isinstance(data, xr.Dataset | xr.DataTree), "data", data, rule))
     file = check_suffix(regular_file(path))
     tree = xr.DataTree(data) if isinstance(data, xr.Dataset) else data
@@ -104,6 +108,8 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     ['events', 'final_state', 'late']
     """
     file = regular_file(path)
+    readable = file.suffix not in TEXTS
+    require((readable, "path", path, "must be a netCDF or .mat file; tables are for pandas"))
     stored = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
     groups = {path: _with_discs(group) for path, group in stored.items()}
     if len(groups) == 1:

@@ -187,10 +187,12 @@ class Fit(Summarised, Drawn):
     @property
     def consistent(self) -> bool:
         """Whether chi squared is as small as it is in 95 % of fits if the model and the
-        uncertainties are right; True without degrees of freedom."""
+        uncertainties are right; without degrees of freedom, where it is 0 unless the search failed, as
+        with one."""
         from scipy import stats
 
-        return not self.freedom or bool(self.chi_squared <= stats.chi2.ppf(0.95, self.freedom))
+        freedom = max(self.freedom, 1)
+        return bool(self.chi_squared <= stats.chi2.ppf(0.95, freedom))
 
     @property
     def correlation(self) -> Array:

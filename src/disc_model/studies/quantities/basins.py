@@ -86,7 +86,7 @@ class AttractorBasins(Start, Quantity):
     """Attractors of the last point's case, for points of a batch that differ only in their starts."""
 
     _rules = (
-        (lambda o: [*o.energies] == sorted({*o.energies}), "energies must ascend"),
+        (lambda o: [*o.energies] == sorted({*o.energies}), "energies={0.energies} must ascend"),
         (lambda o: o.n_starts == 1 or 0.0 not in o.energies, _ONE_START),
     )
     COLUMNS: ClassVar = {
