@@ -111,7 +111,7 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
-        figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right upper")
+        figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right center")
     else:
         figure_legend(figure, [*unnamed.values()], columns=3)
 

@@ -20,6 +20,13 @@ function number(value, digits = 5) {
   return String(Number(value.toPrecision(digits))).replace("-", "−");
 }
 
+/** Significant digits that tell numbers apart, at least two; four of a number alone. */
+function digitsOf(numbers) {
+  if (numbers.length === 1) return 4;
+  const apart = (digits) => new Set(numbers.map((x) => number(x, digits))).size === numbers.length;
+  return [2, 3, 4, 5].find(apart) ?? 6;
+}
+
 const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
 const axisLabel = (thing) => (thing.unit ? `${thing.label} (${thing.unit})` : thing.label);
 const heading = (thing) => (thing.unit ? `${thing.name} (${thing.unit})` : thing.name);

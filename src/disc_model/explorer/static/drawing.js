@@ -103,7 +103,11 @@ function colouring(numbers, scale) {
   return {
     map,
     colour: (x) => colourAt(map, place(x)),
-    ticks: (size) => (size < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1]).map((at) => [at, found(at)]),
+    ticks: (pixels) => {
+      if (size === 0) return [[0.5, least]]; // one number alone
+      const places = pixels < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1];
+      return places.map((at) => [at, found(at)]);
+    },
   };
 }
 

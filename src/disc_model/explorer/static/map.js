@@ -104,9 +104,11 @@ function colourBar(ink, box, colours, title) {
     ink.fillRect(box.left + (i / colours.map.length) * size, box.top, size / colours.map.length + 0.5, box.bottom - box.top);
   });
   ink.fillStyle = style("--text");
-  for (const [share, found] of colours.ticks(size)) {
+  const ticks = colours.ticks(size);
+  const digits = digitsOf(ticks.map(([, found]) => found));
+  for (const [share, found] of ticks) {
     const align = share === 0 ? "left" : share === 1 ? "right" : "center";
-    write(ink, number(found, 2), box.left + share * size, box.bottom + 5, align, "top");
+    write(ink, number(found, digits), box.left + share * size, box.bottom + 5, align, "top");
   }
   writeLines(ink, title, box.left, box.top - 4);
 }
