@@ -96,6 +96,7 @@ def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
         # neither of the two points in the middle has a rate; the next are above and below
         assert re.search(r"N = (100|385) N, Ω = (10|15.1) rad/s", shown.text("point"))
         draws_gaps_and_scale(shown)
+        moves_by_arrow_keys(shown)
         keeps_what_is_chosen_in_the_link(shown)
         draws_dots_on_curves(shown)
 
@@ -180,6 +181,17 @@ def test_the_call_of_every_point_runs(tmp_path: Path) -> None:
         found = eval(call, {"dm": dm})
         assert isinstance(found, xr.Dataset if name in SEARCHES else dm.Parameters), name
     assert calls["critical_speed"].startswith("dm.critical_speed(dm.Parameters(N=200, n_diam")
+
+
+def moves_by_arrow_keys(shown: Explorer) -> None:
+    """The chosen point goes where the key points, and stays inside the map."""
+    press = "view.place = {...view.place}; move({key: arguments[0], preventDefault() {}});"
+    where = "return [view.place[view.x], view.place[view.y]];"
+    shown.page.run("choose({...view.place, [view.x]: 0, [view.y]: 0});")
+    steps = {"ArrowUp": [0, 1], "ArrowRight": [1, 1], "ArrowDown": [1, 0], "ArrowLeft": [0, 0]}
+    for key, expected in steps.items():
+        assert shown.page.run(press + where, key) == expected, key
+    assert shown.page.run(press + where, "ArrowLeft") == [0, 0]
 
 
 def draws_gaps_and_scale(shown: Explorer) -> None:

@@ -540,3 +540,17 @@ def test_switches_of_a_leg_are_its_releases_and_losses_of_contact() -> None:
     np.testing.assert_array_equal(times, switches["time"])
     np.testing.assert_array_equal(angles, switches["psi"])
     np.testing.assert_array_equal(release_times(leg), table["time"][released])
+
+
+@pytest.mark.compiled
+def test_stays_are_doubled_up_to_the_longest(monkeypatch: pytest.MonkeyPatch) -> None:
+    """0.1, 0.2 and 0.4 s, where 0.4 s are allowed."""
+    counts: list[int] = []
+
+    def undecided(_case: Parameters, legs: list[Any]) -> Arrival:
+        counts.append(len(legs))
+        return Arrival(Settling())
+
+    monkeypatch.setattr(attractors, "arrival", undecided)
+    [*_] = attractors.sweep(P14, "Omega", [14.0], 0.1, 0.4, 0.1, 1e-8)
+    assert counts == [1, 2, 3] * 2
