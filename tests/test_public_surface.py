@@ -207,7 +207,8 @@ def test_help_shows_what_a_reader_knows(model: type) -> None:
     text = pydoc.render_doc(model, renderer=pydoc.plaintext)
     assert text.count("pydantic") == 1, "in the order of classes"
     assert "model_post_init" not in text
-    assert len(text.splitlines()) < 200
+    # newer versions of Python give each argument of a long signature a line
+    assert len(text.splitlines()) < 250
     assert {"replace", "model_validate_json"} <= {*dir(model)}
     assert not [name for name in dir(model) if name.startswith("_")]
 
