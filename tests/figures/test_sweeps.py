@@ -337,3 +337,18 @@ def test_a_sweep_of_three_dimensions_is_to_be_narrowed_by_its_reader() -> None:
     study = xr.Dataset({"growth_rate": rates}, axes)
     with pytest.raises(dm.ParameterError, match=r"study='N, Omega, m': must vary along at most"):
         dm.plot_sweep(study)
+
+
+def test_many_paired_samples_are_joined_by_no_line() -> None:
+    """They have no order; more than sixty of them were joined all the same."""
+    places = np.random.default_rng(1).random((2, 100))
+    first, second = places
+    attrs = {"units": "m", "long_name": "height"}
+    coordinates = {"N": ("pair", first), "m": ("pair", second)}
+    study = xr.Dataset({"height": ("pair", first * second, attrs)}, coordinates)
+    ax = dm.plot_sweep(study)
+    dots, *others = [line for line in ax.lines if len(line.get_xdata()) == 100]
+    assert dots.get_marker() == "."
+    for line in (dots, *others):
+        assert line.get_linestyle() == "None"
+    pyplot.close("all")

@@ -379,6 +379,17 @@ def test_a_bar_counts_the_calls_that_are_done(capsys: pytest.CaptureFixture[str]
     assert re.search(r"products .*3/3", printed.err)
 
 
+def test_a_function_that_has_the_name_of_one_of_the_package_is_another() -> None:
+    """It ended with a KeyError, as it has no parameter to search."""
+
+    def critical(case: dm.Parameters) -> float:
+        return case.N
+
+    found = sweep(critical, P, N=[1.0, 2.0])
+    assert found["value"].values.tolist() == [1.0, 2.0]
+    assert json.loads(found.attrs["base"])["Omega"] == P.Omega
+
+
 def test_a_notebook_without_widgets_has_a_bar_of_text(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

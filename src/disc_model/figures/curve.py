@@ -151,16 +151,15 @@ def draw_lines(
     jumps = rates and "sliding" not in array.attrs.get("long_name", "")
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts, marks), parts, titles_of(parts), strict=True):
-        shape = marks[part.name]
         heights = part.data.values
-        look = {"color": colour, "label": title or None, **_look()}
+        look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
+        look["marker"] = marks[part.name]
         if gapless:
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
-            look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line))
-            if len(marks) == 1:  # a mark on some of the dots would tell it from no other line
-                shape = ""
-        ax.plot(*_pieces(across.values, heights, jumps), f"{shape}{line}", **look)
+            alone = len(marks) == 1
+            look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line), alone=alone)
+        ax.plot(*_pieces(across.values, heights, jumps), **look)
 
     # scales and labels
     if log:
@@ -190,11 +189,13 @@ def _marked(heights: np.ndarray) -> list[int]:
 
 
 def _draw_dots(
-    ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any, joined: bool
+    ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any, *, joined: bool, alone: bool
 ) -> dict[str, Any]:
     """Draw each of many points as a dot, so that those by themselves stay visible; returns the look
-    of the marks beside them."""
+    of the marks beside them, of which a line that is alone has none."""
     ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
+    if alone:
+        return {"marker": ""}
     if joined:
         return {"markevery": heights.size // MARKED}
     return {"markersize": mark(DOT)}

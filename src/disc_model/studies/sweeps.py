@@ -92,7 +92,7 @@ def sweep(
     chosen = {**call.defaults, **call.options}
     options = json.dumps(chosen, sort_keys=True, default=repr)
     stated = {**case.stated, "disc": case.canonical.get("disc")}
-    for name in _searched(call.title, chosen):
+    for name in _searched(function, call.title, chosen):
         stated.pop(name, None)
     base = canonical_json(stated)
     attrs = {
@@ -104,13 +104,14 @@ def sweep(
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
 
 
-def _searched(function: str, options: Mapping[str, Any]) -> set[str]:
-    """Parameters that a function varies by itself, so that their values in the case mean nothing: of
-    `critical` the one that it searches, of quantities of studies those of their scans."""
-    if function == "critical":
+def _searched(function: Any, title: str, options: Mapping[str, Any]) -> set[str]:
+    """Parameters that a function of this package varies by itself, so that their values in the case
+    mean nothing: of `critical` the one that it searches, of a quantity those of its scan."""
+    ours = str(getattr(function, "__module__", "")).startswith("disc_model.")  # None in some shells
+    if ours and title == "critical":
         return {options["name"]}
-    if function in quantity_names():
-        return {options.get(name, name) for name in quantity_of(function).scans}
+    if ours and title in quantity_names():
+        return {*quantity_of(title).scans}
     return set()
 
 
