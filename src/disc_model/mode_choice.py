@@ -61,8 +61,9 @@ class ModeChoice(Summarised):
     def __repr__(self) -> str:
         p = self.parameters
         size = (p.n_diameters, p.n_circles) if p.disc is None else (len(p.disc.omega),)
-        at = number_text(p.Omega, "rad/s")
-        by = f"{self.quantity} at {at}"
+        by = self.quantity
+        if by != FREQUENCIES:  # which are those at rest
+            by = f"{by} at {number_text(p.Omega, 'rad/s')}"
         return f"ModeChoice({self._size_text(size)}, by {by}, error {self.error:.2g})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:

@@ -105,9 +105,10 @@ def _known_hashes() -> dict[str, str]:
     """Hashes of what Python files do, by those of their contents, kept from earlier processes: to
     read the whole package takes half a second at each start of the workflow."""
     known = {}
+    file = _hashes_file()
     with contextlib.suppress(OSError):
-        _hashes_file().parent.mkdir(parents=True, exist_ok=True)
-        for line in _hashes_file().read_text().splitlines():
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for line in file.read_text().splitlines():
             of_content, _, of_code = line.partition(" ")
             if len(of_content) == len(of_code) == HASH_LENGTH:
                 known[of_content] = of_code

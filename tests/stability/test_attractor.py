@@ -25,8 +25,8 @@ from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.outcome import Attractor, OutcomeResult, Stage, find_outcome, growing
 from disc_model.stability.segments import (
     Segment,
+    event_times,
     final_segment,
-    release_times,
     segment_of,
     switch_angles,
 )
@@ -539,7 +539,7 @@ def test_switches_of_a_leg_are_its_releases_and_losses_of_contact() -> None:
     switches = table[released | lost]
     np.testing.assert_array_equal(times, switches["time"])
     np.testing.assert_array_equal(angles, switches["psi"])
-    np.testing.assert_array_equal(release_times(leg), table["time"][released])
+    np.testing.assert_array_equal(event_times(leg, STICK_TO_SLIP), table["time"][released])
 
 
 @pytest.mark.compiled

@@ -82,12 +82,14 @@ def test_the_nearest_place_on_a_curve_lies_between_its_points(
     assert period_there == pytest.approx(period, rel=1e-12)
 
 
+def refuse(*_args: object, **_named: object) -> None:
+    """In place of a continuation that does not succeed."""
+    raise ParameterError("no cycle there")
+
+
 def test_a_curve_that_cannot_be_followed_is_told_with_both_its_values(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def refuse(*_args: object, **_named: object) -> None:
-        raise ParameterError("no cycle there")
-
     monkeypatch.setattr(curves, "continue_border", refuse)
     plane = {"Omega": (10.0, 20.0), "N": (100.0, 400.0)}
     case = Parameters(N=300, Omega=15)
@@ -100,9 +102,6 @@ def test_a_curve_that_cannot_be_followed_is_told_with_both_its_values(
 def test_a_point_of_a_line_without_a_branch_is_told_with_its_value(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def refuse(*_args: object, **_named: object) -> None:
-        raise ParameterError("no cycle there")
-
     monkeypatch.setattr(curves, "continue_cycle", refuse)
     case = Parameters(N=300, Omega=15)
     failures: list[str] = []

@@ -137,8 +137,8 @@ def _variables(section: str) -> dict[str, Variable]:
 
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-SERIES, SCALARS, PERTURBATIONS, _OF_GRIDS = map(
-    _variables, ("series", "scalars", "perturbations", "of_grids")
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS = map(
+    _variables, ("series", "scalars", "perturbations", "modal", "of_grids")
 )
 COUNTS = {
     "steps": "steps",

@@ -108,15 +108,15 @@ def _fixed(name: str, value: Any) -> dict[str, Any]:
     has this value unless it is given."""
     field = Parameters.model_fields.get(name)
     usual = field is not None and value in (field.default, str(field.default))
-    unit, factor = _unit_of(xr.DataArray(0.0, name=name, attrs=attributes(name)))
+    attrs = attributes(name)
+    _, factor = _unit_of(xr.DataArray(0.0, name=name, attrs=attrs))
     shown: Any = value
     match value:
         case int() | float():
             shown = value * factor
         case Mapping():  # a disc, of which the page has the call
             shown = f"{len(value['omega'])} modes"
-    names = _named(name, attributes(name))
-    return {**names, "unit": unit, "value": value, "shown": shown, "usual": usual}
+    return {**_named(name, attrs), "value": value, "shown": shown, "usual": usual}
 
 
 def _messages(study: xr.Dataset) -> dict[str, Any] | None:

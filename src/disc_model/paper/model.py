@@ -25,11 +25,8 @@ AMBIGUOUS = "ambiguous in the paper"
 NOT_TESTED = "cause not tested"
 NOT_COMPUTED = "not computed"
 VERDICTS = (TRUE, PART, FALSE, AMBIGUOUS, NOT_TESTED, NOT_COMPUTED)
-
-
-_LOADER = getattr(
-    yaml, "CSafeLoader", yaml.SafeLoader
-)  # in a tenth of the time, where there is one
+# that of C, where there is one, takes a tenth of the time
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
 def read_texts(name: str) -> Any:

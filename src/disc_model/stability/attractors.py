@@ -26,6 +26,7 @@ from disc_model.analysis.classify import (
 )
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays, tangential_amplitudes
+from disc_model.engine.record import STICK_TO_SLIP
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -44,8 +45,8 @@ from disc_model.stability.outcome import Attractor, OutcomeResult, find_equilibr
 from disc_model.stability.return_map import Array, ReturnMap
 from disc_model.stability.segments import (
     Segment,
+    event_times,
     final_segment,
-    release_times,
     segment_of,
     switch_angles,
 )
@@ -93,7 +94,7 @@ def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose
     contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, or of the whole
     leg if a slow motion has none there, and of up to `most` releases."""
-    times = release_times(leg)
+    times = event_times(leg, STICK_TO_SLIP)
     late = times > leg.final_state.time - thresholds.FIRST_LEG
     releases = int(late.sum()) or len(times)
     if not releases or not may_stick_and_slip(p):

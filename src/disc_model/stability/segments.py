@@ -132,7 +132,7 @@ def switch_angles(leg: Result) -> Array:
     return switches[:, [TIME, ANGLE]].T
 
 
-def release_times(leg: Result) -> Array:
-    """Times of releases of a leg, s."""
+def event_times(leg: Result, kind: int) -> Array:
+    """Times of the events of a kind of `engine.record`, s."""
     rows = leg.event_rows
-    return rows[rows[:, KIND] == STICK_TO_SLIP, TIME]
+    return rows[rows[:, KIND] == kind, TIME]

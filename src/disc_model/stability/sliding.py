@@ -154,22 +154,35 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    return _find_sliding(case, lambda jacobian: np.asarray(np.linalg.eigvals(jacobian)))
+    found = _linearised(case)
+    if isinstance(found, SlidingStatus):
+        return _absent(case, found)
+    return _described(case, found, np.linalg.eigvals(found.jacobian))
 
 
-def _find_sliding(
-    case: Parameters, eigenvalues_of: Callable[[Array], ComplexArray]
-) -> SteadySliding:
-    """As `steady_sliding`, by a function that returns the eigenvalues of a matrix."""
+class _Linearised(NamedTuple):
+    """The equilibrium and its Jacobian, by the names of `SteadySliding`."""
+
+    contact_force: float
+    psi: float
+    a: Array
+    b: Array
+    alpha: Array
+    beta: Array
+    jacobian: Array
+
+
+def _linearised(case: Parameters) -> _Linearised | SlidingStatus:
+    """The equations of slip about their equilibrium, or why there is none."""
     raise_faults(foreign_case(case))
     if case.Omega == 0:
-        return _absent(case, SlidingStatus.AT_REST)
+        return SlidingStatus.AT_REST
     modes = mode_arrays(case)
     model = engine_case(case).model
     compliance = contact_compliance(case)
     a, b, vertical, rate = _equilibrium(case, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
-        return _absent(case, SlidingStatus.NO_CONTACT)
+        return SlidingStatus.NO_CONTACT
     alpha = -modes.diameters * rate * b
     beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()
@@ -182,7 +195,7 @@ def _find_sliding(
     i, _ = _slip(case, rows_at(0.0)[:, None])
     friction = float(LAWS.friction_coefficient(model, 1.0, rate))
     if LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
-        return _absent(case, SlidingStatus.PARADOX)
+        return SlidingStatus.PARADOX
     # V and H of a unit force
     share, braking, _ = (float(part[0]) for part in LAWS.slip_rates(model, i, friction, np.ones(1)))
     force = vertical / share
@@ -193,26 +206,25 @@ def _find_sliding(
         psi = math.nan
         rows = rows_at(0.0)
     else:
-        return _absent(case, SlidingStatus.NO_SPRING)
+        return SlidingStatus.NO_SPRING
     _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
     jacobian = rates.imag / LAWS.TINY
-    eigenvalues = eigenvalues_of(jacobian).astype(complex)
+    return _Linearised(force, psi, a, b, alpha, beta, jacobian)
+
+
+def _described(case: Parameters, found: _Linearised, values: np.ndarray) -> SteadySliding:
+    """Steady sliding with the eigenvalues of its Jacobian, in any order."""
+    eigenvalues = values.astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     symbol = "R" if case.contact_force == "normal" else "P"
-    message = f"steady sliding with {symbol} = {force:.6g} N, {_verdict(eigenvalues)}"
+    force = f"{symbol} = {found.contact_force:.6g} N"
     return SteadySliding(
         status=SlidingStatus.OK,
-        message=message,
-        contact_force=force,
-        psi=psi,
-        a=a,
-        b=b,
-        alpha=alpha,
-        beta=beta,
+        message=f"steady sliding with {force}, {_verdict(eigenvalues)}",
         eigenvalues=eigenvalues,
         growth_rate=float(eigenvalues[0].real),
-        jacobian=jacobian,
         parameters=case,
+        **found._asdict(),
     )
 
 
@@ -413,17 +425,12 @@ def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> Slidin
 def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
     """Steady sliding and its modes, of which there are none without it. Values and shapes come from
     one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
-    solutions: list[tuple[ComplexArray, ComplexArray]] = []
-
-    def eigenvalues_of(jacobian: Array) -> ComplexArray:
-        values, vectors = np.linalg.eig(jacobian)
-        solutions.append((values, vectors))
-        return np.asarray(values)
-
-    sliding = _find_sliding(p, eigenvalues_of)
-    if not solutions:
-        solutions.append((np.zeros(0, complex), np.zeros((0, 0), complex)))
-    return sliding, _modes_of(p, *solutions[0])
+    found = _linearised(p)
+    if isinstance(found, SlidingStatus):
+        absent = _absent(p, found)
+        return absent, sliding_modes(p, absent)
+    values, vectors = np.linalg.eig(found.jacobian)
+    return _described(p, found, values), _modes_of(p, values, vectors)
 
 
 def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import SCALARS, Variable
+from disc_model.data.variables import COORDINATES, SCALARS, Variable
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -57,10 +57,7 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
             "growth_rate": of_cycle["sliding_growth_rate"],
             "psi": Variable("rad", "angle of the drive point ahead of the slider"),
             "eigenvalues": Variable("s-1", "eigenvalue of disturbances of steady sliding"),
-            "a": Variable("kg0.5 m", "cosine coordinate of a mode"),
-            "b": Variable("kg0.5 m", "sine coordinate of a mode"),
-            "alpha": Variable("kg0.5 m s-1", "rate of the cosine coordinate of a mode"),
-            "beta": Variable("kg0.5 m s-1", "rate of the sine coordinate of a mode"),
+            **COORDINATES,
         }
     elif name == "Lyapunov":
         columns = {

@@ -10,7 +10,7 @@ from disc_model.errors import Fault, raise_faults, require, suggestion, violatio
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import State, is_finite_array
 from disc_model.stability.continuation import ends, special
-from disc_model.stability.continuation.branch import Branch, SpecialPoint
+from disc_model.stability.continuation.branch import CHANGES, Branch, SpecialPoint
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
@@ -20,7 +20,6 @@ from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
-STOPS = (special.FOLD, special.PERIOD_DOUBLING, special.NEIMARK_SACKER)
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
@@ -111,13 +110,13 @@ def continue_cycle(  # noqa: PLR0913
     listed = isinstance(values, Sequence | np.ndarray)
     wanted: Any = values_in_si(name, list(values)) if listed else None
     ways = is_number(direction) and direction in (-1, 0, 1)
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at in STOPS)
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
     wrong = violations(
         (span is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
         (wanted == [] or is_finite_array(wanted), "values", values, "must be finite numbers"),
-        (stops, "stop_at", stop_at, f"must be None or one of {', '.join(STOPS)}"),
+        (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))

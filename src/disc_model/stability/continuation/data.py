@@ -8,9 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import SERIES, Variable, attributes
+from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.simulation.states import MODAL
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -42,10 +41,7 @@ SPECIAL = {
 STATE = {name: SERIES[name] for name in ("psi", "f", "u", "u_velocity")} | {
     "phase": Variable("", "phase of the motion"),
     "direction": Variable("1", "sign of the slip speed"),
-    "a": Variable("kg0.5 m", "cosine coordinate of a mode"),
-    "b": Variable("kg0.5 m", "sine coordinate of a mode"),
-    "alpha": Variable("kg0.5 m s-1", "rate of the cosine coordinate of a mode"),
-    "beta": Variable("kg0.5 m s-1", "rate of the sine coordinate of a mode"),
+    **COORDINATES,
 }
 """Values of the cycle's state on the section, at time 0."""
 
@@ -107,7 +103,7 @@ class _Columns:
         """Add columns by their names; a second dimension is that of the multipliers or modes."""
         for name, column in columns.items():
             values = np.asarray(values_of(name))
-            second = "mode" if name in MODAL else "multiplier"
+            second = "mode" if name in COORDINATES else "multiplier"
             dims = (self.dim, second)[: values.ndim]
             self.variables[self.begin + name] = xr.Variable(dims, values, column.attributes)
 

@@ -49,10 +49,14 @@ class Hysteresis(Quantity):
             "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
         ),
         "u_min": Variable(
-            "m", "lowest displacement of the slider at the end of the stay at a speed", dims=_DIMS
+            "m",
+            "lowest position of the slider at the end of the stay at a speed, from static equilibrium",
+            dims=_DIMS,
         ),
         "u_max": Variable(
-            "m", "highest displacement of the slider at the end of the stay at a speed", dims=_DIMS
+            "m",
+            "highest position of the slider at the end of the stay at a speed, from static equilibrium",
+            dims=_DIMS,
         ),
         "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
         "P_max": Variable(

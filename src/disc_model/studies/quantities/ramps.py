@@ -84,11 +84,10 @@ class Ramps(Quantity):
 def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], Result | None]:
     """Columns, as far as they are known, of one run, with a dwell at both speeds, and its part that
     failed, if any."""
-    from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT
+    from disc_model.engine.record import LOSS_OF_CONTACT
     from disc_model.simulation.api import simulate
+    from disc_model.stability.segments import event_times
 
-    time = EVENT_ROW.index("time")
-    kind = EVENT_ROW.index("kind")
     top = (options.high - options.low) / rate
     down = top + options.dwell
     bottom = down + top
@@ -115,7 +114,7 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
     while run.final_state.time < end:
         # events of all of the way would fill hundreds of MB
         run = on(run.final_state, min(run.final_state.time + 100.0, end), events=True)
-        lost = run.event_rows[run.event_rows[:, kind] == LOSS_OF_CONTACT, time]
+        lost = event_times(run, LOSS_OF_CONTACT)
         if lost.size:
             last = float(lost[-1])
         if not run.status.complete:
