@@ -135,8 +135,9 @@ class NearCycle:
         """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
         describes it, no later than at a time (s); None if it leaves faster, or is there already.
 
-        The growth rate's excess over the leading multiplier's is measured at that distance. It rises
-        with the square of the distance, so that half of it has come together on the way.
+        The growth rate's excess over the leading multiplier's is measured at larger and larger
+        distances, as the motion might settle on a torus at any of them. It rises with the square of
+        the distance, so that half of it has come together on the way.
         """
         cycle = self.cycle
         if cycle.growth_rate > thresholds.SLOW_DEPARTURE:
@@ -145,21 +146,27 @@ class NearCycle:
         # the test after it ends within `NEAR`
         tested = thresholds.TEST_TIMES[-1][-1]
         factor = math.exp(cycle.growth_rate * tested)
+        last = self.periods_left(latest)
+        departure: Departure | None = None
         for share in thresholds.DEPARTURES:
             size = share * thresholds.NEAR / factor * self.map.deflection
-            periods = math.floor(math.log(size / self.leading_part) / growth)
-            periods = min(periods, self.periods_left(latest))
+            periods = min(math.floor(math.log(size / self.leading_part) / growth), last)
             if periods <= 0:
-                return None
-            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
-            if not np.linalg.norm(distance) <= thresholds.NEAR * self.map.deflection:
                 continue
+            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+            if self._share_outside(distance) > thresholds.LARGEST_OUTSIDE:
+                continue  # parts of other multipliers have not decayed yet
+            if not np.linalg.norm(distance) <= thresholds.NEAR * self.map.deflection:
+                break
             excess = self._excess_rate(distance)
-            if excess is not None and abs(excess) <= thresholds.LARGEST_EXCESS:
-                time = self.time + periods * cycle.period
-                gained = excess * tested / (factor**2 - 1)
-                return Departure(self.x + distance, time - gained, periods)
-        return None
+            if excess is None or abs(excess) > thresholds.LARGEST_EXCESS:
+                break
+            time = self.time + periods * cycle.period
+            gained = excess * tested / (factor**2 - 1)
+            departure = Departure(self.x + distance, time - gained, periods)
+            if periods == last:
+                break
+        return departure
 
     def periods_left(self, horizon: float) -> int:
         """Periods of the cycle from `time` to the horizon (s)."""
@@ -192,9 +199,6 @@ class NearCycle:
         """Relative excess of the growth rate over the leading multiplier's; None unless the motion
         departs. Its phase, which drifts with the amplitude long before the growth rate does and
         matters only near borders, is ignored."""
-        right = self.right / (self.leading @ self.right)
-        is_real = self.cycle.multipliers[0].imag == 0
-        eigenspace = right if is_real else 2 * right  # with that of the conjugate multiplier
         part = self.leading @ distance
         count = 0
         before = float(abs(part))
@@ -204,11 +208,19 @@ class NearCycle:
             apart = orbit.end - self.x
             count += periods
             part = self.leading @ apart
-            outside = float(np.linalg.norm(apart - np.real(part * eigenspace)))
-            if not outside <= thresholds.LARGEST_OUTSIDE * np.linalg.norm(apart):
+            if not self._share_outside(apart) <= thresholds.LARGEST_OUTSIDE:
                 return None
         rate = math.log(abs(part) / before) / (count * self.cycle.period)
         return float(rate / self.cycle.growth_rate - 1)
+
+    def _share_outside(self, distance: Array) -> float:
+        """Share of a distance from the cycle that lies outside the leading multiplier's
+        eigenspace."""
+        right = self.right / (self.leading @ self.right)
+        is_real = self.cycle.multipliers[0].imag == 0
+        eigenspace = right if is_real else 2 * right  # with that of the conjugate multiplier
+        within = np.real((self.leading @ distance) * eigenspace)
+        return float(np.linalg.norm(distance - within) / np.linalg.norm(distance))
 
 
 def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:

@@ -45,12 +45,12 @@ LARGEST_RATE_ERROR = (
 LARGEST_OUTSIDE = 0.25
 # growth rate, 1/s, up to which a departure is extrapolated: faster ones take little time
 SLOW_DEPARTURE = 0.2
-# shares of `NEAR` up to which it is, the first at which its growth rate differs from the
-# multiplier's by no more than this, relative
-DEPARTURES = (1.0, 0.5, 0.25, 0.1)
+# shares of `NEAR` up to which it is, as long as its growth rate differs from the multiplier's by no
+# more than this, relative
+DEPARTURES = (0.1, 0.25, 0.5, 1.0)
 LARGEST_EXCESS = 0.05
 # difference of a separation from a time with which it is compared, relative, up to which it is
-# simulated from the start: 97 of 100 extrapolated separations come within it, and most of the
+# simulated from the start: 98 of 100 extrapolated separations come within it, and most of the
 # others are of motions that nearly lose contact before, which another tolerance shifts as far
 BORDER = 0.01
 LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle: on a torus it would move

@@ -18,7 +18,6 @@ from disc_model.data.variables import (
     EXCLUDED,
     OUTCOMES_TO_HORIZON,
     SAMPLE,
-    SCALARS,
     STABLE_CYCLES,
     Variable,
     flag_names,
@@ -29,6 +28,7 @@ from disc_model.studies.distributions import BLOCK, Distribution, quantile, unit
 from disc_model.studies.quantity import (
     NUMBERS,
     STATUS,
+    TIMED_SEPARATION,
     Blocks,
     Coordinate,
     Dataset,
@@ -72,6 +72,8 @@ class Sensitivity(Quantity):
     """number of the first samples whose motion is simulated as well"""
     horizon: Seconds = 500.0
     """longest simulated time of a sample"""
+    extrapolate: bool = True
+    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
     motion_tol: Tolerance = 1e-10
@@ -102,7 +104,7 @@ class Sensitivity(Quantity):
         "outcome": Variable(
             "1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES
         ),
-        "first_separation": SCALARS["first_separation"],
+        "first_separation": TIMED_SEPARATION,
     }
     COORDINATES: ClassVar = {
         "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions))
@@ -248,6 +250,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
     from disc_model.stability.outcome import find_outcome
 
-    result = find_outcome(p, options.horizon, tol=options.motion_tol)
-    row = {"outcome": result.word, "first_separation": result.first_separation}
+    times = (options.horizon,) if options.extrapolate else ()
+    result = find_outcome(p, options.horizon, tol=options.motion_tol, compared_with=times)
+    row = {"outcome": result.word, "first_separation": result.timed_separation}
     return row, result.message
