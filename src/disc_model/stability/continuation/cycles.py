@@ -14,7 +14,12 @@ from disc_model.stability.continuation.branch import CHANGES, Branch, SpecialPoi
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
-from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
+from disc_model.stability.continuation.problem import (
+    CycleProblem,
+    growth_rate,
+    parameter_scale,
+    stretch_of,
+)
 from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
@@ -135,7 +140,13 @@ def continue_cycle(  # noqa: PLR0913
         (not outside, "values", next(iter(outside), None), rule),
     )
 
-    scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
+    scale = steps.scale
+    if scale is None:
+        scale = parameter_scale(case, name, max(map(abs, span)))
+        stretch = stretch_of(case, name)
+        scale *= stretch
+        shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch}
+        steps = steps.model_copy(update=shorter)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
@@ -172,7 +183,7 @@ def branch_of(
         multipliers=np.array(every),
         diameters=np.array([problem.leading_diameters(point) for point in points]),
         separations=np.array([point.orbit.counts.separations for point in points]),
-        points=np.array([point.z[: problem.n] * problem.size for point in points]),
+        points=np.array([problem.reference_point(point.z) for point in points]),
         folds=np.array(folds).reshape(-1, len(problem.names)),
         ended="; ".join(dict.fromkeys(reasons)),
         case=problem.base,
@@ -207,7 +218,7 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
                 multiplier=place.multiplier,
                 after=place.after,
                 case=case,
-                modal=z[: problem.n] * problem.size / problem.reference.scale,
+                modal=problem.reference_point(z) / problem.reference.scale,
                 make_map=problem.make_map,
             )
         )
