@@ -403,7 +403,9 @@ def test_one_coordinate_alone_compresses_a_compliant_contact() -> None:
     height = section_map.size - 2
     expected = np.zeros(section_map.size)
     expected[height] = 1 / section_map.scale[height]
-    assert changes == pytest.approx(expected, abs=1e-16)  # of rounding, over displacements of 1e-3 m
+    assert changes == pytest.approx(
+        expected, abs=1e-16
+    )  # of rounding, over displacements of 1e-3 m
 
 
 def test_rigid_contact_leaves_coordinates_as_they_are() -> None:

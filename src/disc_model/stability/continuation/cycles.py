@@ -37,17 +37,20 @@ def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     ]
 
 
-def interval_in_si(name: Any, bounds: Any) -> Any:
+def interval_in_si(name: Any, bounds: Any, faults: list[Fault] | None = None) -> Any:
     """Bounds of a parameter in SI units, from texts with units too; None unless they are two
-    ascending numbers."""
-    values = values_in_si(name, bounds)
+    ascending numbers. Units of another kind are added to the faults."""
+    values = values_in_si(name, bounds, faults, "bounds")
     return values if is_finite_array(values, 2) and values[0] < values[1] else None
 
 
-def values_in_si(name: Any, values: Any) -> Any:
-    """Values of a parameter in SI units, from texts with units too."""
+def values_in_si(
+    name: Any, values: Any, faults: list[Fault] | None = None, argument: str = "values"
+) -> Any:
+    """Values of a parameter in SI units, from texts with units too. Units of another kind are added
+    to the faults of the argument."""
     unit = Parameters.unit(name) if isinstance(name, str) else ""
-    return in_si(values, unit, [], ())
+    return in_si(values, unit, [] if faults is None else faults, (argument,))
 
 
 @compiling()
@@ -111,9 +114,10 @@ def continue_cycle(  # noqa: PLR0913
     >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
     [-0.1055, 0.5751]
     """
-    span = interval_in_si(name, bounds)
+    units = list[Fault]()
+    span = interval_in_si(name, bounds, units)
     listed = isinstance(values, Sequence | np.ndarray)
-    wanted: Any = values_in_si(name, list(values)) if listed else None
+    wanted: Any = values_in_si(name, list(values), units) if listed else None
     ways = is_number(direction) and direction in (-1, 0, 1)
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
     wrong = violations(
@@ -124,7 +128,7 @@ def continue_cycle(  # noqa: PLR0913
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
+    raise_faults(foreign_case(case) or units or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
     slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
