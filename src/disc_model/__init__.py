@@ -38,7 +38,7 @@ _NAMES = {
     "studies.functions": "outcome critical_speed basins hysteresis",
     "studies.whole_study": "run_study",
     "studies.sweeps": "sweep",
-    "stability.continuation": "continue_cycle",
+    "stability.continuation": "Branch continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
     "stability.floquet": "floquet",
@@ -75,7 +75,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.case import Poincare, Ramp, Window
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State, deflection
-    from disc_model.stability.continuation import continue_cycle
+    from disc_model.stability.continuation import Branch, continue_cycle
     from disc_model.stability.critical import critical
     from disc_model.stability.curves import neutral_curves
     from disc_model.stability.floquet import floquet

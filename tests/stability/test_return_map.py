@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
+from disc_model.disc.plate import mode_arrays
 from disc_model.engine import section, transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
@@ -387,3 +388,25 @@ def test_the_jacobian_is_that_of_simulated_motion_on_a_moving_surface(law: str) 
         expected = differences(lambda h, along=along: end(x + h * along), 4e-7)
         apart = np.linalg.norm(jacobian @ along - expected)
         assert apart < 1e-6 * np.linalg.norm(expected)
+
+
+def test_one_coordinate_alone_compresses_a_compliant_contact() -> None:
+    case = Parameters(N=385, Omega=14.9, contact_compliance=1e-8)
+    section_map = ReturnMap(case)
+    psi = mode_arrays(case).psi
+
+    def compressions(moved: np.ndarray) -> float:
+        state = section_map.state(np.linalg.solve(section_map.compression, moved))
+        return state.u - float(psi @ np.array(state.a))
+
+    changes = np.array([compressions(unit) for unit in np.eye(section_map.size)])
+    height = section_map.size - 2
+    expected = np.zeros(section_map.size)
+    expected[height] = 1 / section_map.scale[height]
+    assert changes == pytest.approx(
+        expected, abs=1e-16
+    )  # of rounding, over displacements of 1e-3 m
+
+
+def test_rigid_contact_leaves_coordinates_as_they_are() -> None:
+    assert np.array_equal(ReturnMap(P).compression, np.eye(ReturnMap(P).size))

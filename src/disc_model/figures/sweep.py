@@ -154,7 +154,10 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     across = x or numbers[0]
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
-    require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
+    rule = f"must be one of {', '.join(numbers)}"
+    if "free_parameters" in study.attrs:
+        rule += "; Branch.from_dataset makes a branch of this dataset, which has a method plot"
+    require((across in numbers, "x", across, rule))
     second = next((dim for dim in dims if dim != across), None)
     return Drawn(variable, across, second, mapped=len(numbers) == 2)
 

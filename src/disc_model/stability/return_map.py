@@ -151,6 +151,29 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
     return columns.input_column(model, scalars, stiffness, damping)
 
 
+def compression_coordinates(model: Model, rows: Array) -> Array:
+    """The matrix, (n, n), from coordinates, which are some rows of a column times their
+    `energy_scale`, to others in which the compression of a compliant contact stands for the
+    slider's height.
+
+    The force of a stiff contact changes by hundreds of newtons if the disc alone is displaced by a
+    micrometre: a single coordinate then has all of that effect. With rigid contact it is one.
+    """
+    matrix = np.eye(len(rows))
+    if not model.has_compliance:
+        return matrix
+    state = build_state(model)
+    motion.clear(state)
+    state.z[:] = -model.mode_amplitude
+    state.y[:] = -model.mode_amplitude0
+    gap = columns.column_of(state, model)
+    height = columns.coordinate_rows(model, ("u",))[-1]
+    gap[height] = 1.0
+    scale = columns.energy_scale(model)
+    matrix[rows == height] = gap[rows] * scale[height] / scale[rows]
+    return matrix
+
+
 class Counts(NamedTuple):
     """Number of events of each kind in an orbit, or in a period of a cycle."""
 
@@ -196,6 +219,8 @@ class SectionMap(Protocol):
     scale : (n,), units of its coordinates, which may depend on the case
     diameters : nodal diameters of the coordinates that belong to modes, which come first
     deflection : unit of distances
+    compression : (n, n), from these coordinates to some on which the map depends less steeply, see
+        `compression_coordinates`
     """
 
     parameters: Parameters
@@ -204,6 +229,9 @@ class SectionMap(Protocol):
     scale: Array
     diameters: Indices
     deflection: float
+
+    @property
+    def compression(self) -> Array: ...
 
     def evaluate(
         self,
@@ -315,6 +343,11 @@ class ReturnMap:
     def _coordinates(self) -> Array:
         column = columns.column_of(self._state, self.model)
         return np.asarray(column[self._section.rows] * self.scale, dtype=float)
+
+    @cached_property
+    def compression(self) -> Array:
+        """As `SectionMap` says."""
+        return compression_coordinates(self.model, self._section.rows)
 
     @property
     def longest(self) -> float:

@@ -12,6 +12,7 @@ stick-slip from those that come to steady sliding.
 
 import math
 from collections.abc import Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -39,6 +40,7 @@ from disc_model.stability.return_map import (
     VANISHED,
     Counts,
     Orbit,
+    compression_coordinates,
     integrate_in_pieces,
     longest_step,
     parameter_change,
@@ -116,6 +118,11 @@ class SlippingMap:
         static = float(np.linalg.norm(self._coordinates()))
         self.deflection = math.hypot(static, p.mu_s * p.N / math.sqrt(p.k_p))
         self._gradient = self._gradient_of_turn()
+
+    @cached_property
+    def compression(self) -> Array:
+        """As `SectionMap` says."""
+        return compression_coordinates(self.model, self._rows)
 
     def evaluate(
         self,

@@ -296,7 +296,7 @@ def test_branches_of_random_cases_are_those_of_shorter_steps(seed: int) -> None:
     folds = folds_with_periods(coarse)
     np.testing.assert_allclose(folds_with_periods(fine), folds, rtol=1e-6)
     assert fine.ended == coarse.ended
-    assert "no shorter step" not in coarse.ended
+    assert "no step from" not in coarse.ended
     assert "meets itself" not in coarse.ended
 
 
@@ -350,3 +350,37 @@ def test_a_special_point_given_for_its_state_is_told_so() -> None:
         ParameterError, match=r"guess=.*must be a State, such as its attribute state"
     ):
         continue_cycle(case, "Omega", (14.8, 15.0), guess=point)  # type: ignore[arg-type]
+
+
+STIFF = Parameters(N=385, Omega=14.9, contact_compliance=1e-8)
+
+
+@pytest.fixture(scope="module")
+def stiff() -> Branch:
+    return continue_cycle(STIFF, "Omega", (14.85, 15.3))
+
+
+def test_a_stiff_contact_is_followed_past_the_bends_of_its_vibration(stiff: Branch) -> None:
+    """It ended at 15.044 rad/s from 14.9 rad/s, and at 15.0402 rad/s from beyond, with branch points
+    that moved with the start."""
+    assert stiff.ended == "the bound Omega = 14.85 rad/s was reached"
+    beyond = continue_cycle(STIFF.replace(Omega=15.06), "Omega", (14.85, 15.3))
+    kinds = {special.kind for special in (*stiff.special, *beyond.special)}
+    assert kinds == {"end", "fold", "neimark_sacker"}
+    assert stiff.folds[:, 0] == pytest.approx(beyond.folds[:, 0], rel=1e-9)  # of the map's rounding
+
+    # a known compliance softens the contact: the fold moves away from that of the rigid one evenly
+    softer = continue_cycle(STIFF.replace(contact_compliance=2e-8), "Omega", (14.85, 15.3))
+    rigid = continue_cycle(FOLDED, "Omega", (14.85, 15.3))
+    moves = rigid.folds[0, 0] - np.array([stiff.folds[0, 0], softer.folds[0, 0]])
+    assert moves[1] / moves[0] == pytest.approx(2, rel=0.02)  # of the second order in it
+
+
+def test_cycles_of_a_stiff_contact_are_those_of_floquet(stiff: Branch) -> None:
+    for i in range(0, len(stiff), 12):
+        cycle = floquet(stiff.case_at(i), guess=stiff.state(i))
+        assert cycle.status is CycleStatus.OK
+        # floquet accepts residuals up to 1e-8 where rounding stops it: the contact's force changes by
+        # 100 N in a micrometre
+        assert cycle.period == pytest.approx(stiff.period[i], rel=1e-8)
+        assert cycle.growth_rate == pytest.approx(stiff.growth_rate[i], abs=1e-4)

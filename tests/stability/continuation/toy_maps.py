@@ -83,6 +83,10 @@ class ToyMap:
         """End, derivative by x, and derivatives by parameters, by their names."""
         raise NotImplementedError
 
+    @property
+    def compression(self):
+        return np.eye(self.size)
+
     def counts(self, x):
         return COUNTS
 

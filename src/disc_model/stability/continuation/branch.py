@@ -13,9 +13,10 @@ from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.data import VARIABLES, dataset_of
+from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.segments import range_of_cycle
+from disc_model.stability.slipping_map import SlippingMap
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -229,6 +230,56 @@ class Branch:
         """
         return dataset_of(self)
 
+    @classmethod
+    def from_dataset(cls, data: xr.Dataset) -> Branch:
+        """The branch of a dataset that `to_dataset` has made, also one that was saved and loaded, to
+        plot, and to start again from its cycles. Numbers differ by rounding at most.
+
+        Raises `ParameterError` if it is another dataset.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> case = dm.Parameters(N=385, Omega=14.9)
+        >>> dm.save(dm.continue_cycle(case, "Omega", (14.8, 15.2)).to_dataset(), "branch.nc")
+        >>> branch = dm.Branch.from_dataset(dm.load("branch.nc"))
+        >>> branch.plot("period").get_xlabel()
+        'Drive speed Ω (rad/s)'
+        >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
+        Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
+        """
+        stored = StoredBranch(data)
+        states = stored.states()
+        slips = bool(states) and states[0].phase == "slip"
+        make_map: MapFactory = SlippingMap if slips else ReturnMap
+        special = _stored_special_points(stored, make_map)
+        folds = [each.values for each in special if each.kind == "fold"]
+        values = stored.values()
+        scale = make_map(stored.case).scale
+        points = []
+        for state, row in zip(states, values, strict=True):
+            own = make_map(stored.case_at(row))
+            points.append(own.point(state) / own.scale * scale)
+        branch = cls(
+            parameters=stored.parameters,
+            values=values,
+            period=data["period"].values,
+            stick_fraction=data["stick_fraction"].values,
+            growth_rate=data["growth_rate"].values,
+            multipliers=data["multipliers"].values.astype(complex),
+            diameters=data["diameters"].values,
+            separations=data["separations"].values,
+            points=np.array(points),
+            folds=np.array(folds).reshape(-1, len(stored.parameters)),
+            ended=stored.ended,
+            case=stored.case,
+            special=special,
+            not_reached=stored.not_reached,
+            _make_map=make_map,
+        )
+        vars(branch)["range"] = data["range"].values  # which takes a simulation of each cycle
+        return branch
+
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle: the case followed with this cycle's values of the free
         parameters."""
@@ -332,3 +383,29 @@ class Branch:
         'Period of the cycle (ms)'
         """
         return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)
+
+
+def _stored_special_points(stored: StoredBranch, make_map: MapFactory) -> tuple[SpecialPoint, ...]:
+    """The special points of a branch's dataset."""
+    data = stored.data
+    points = []
+    for i, (state, values) in enumerate(
+        zip(stored.states("special_"), stored.values("special_"), strict=True)
+    ):
+        case = stored.case_at(values)
+        own = make_map(case)
+        point = SpecialPoint(
+            kind=str(data["special_kind"].values[i]),
+            values=values,
+            period=float(data["special_period"].values[i]),
+            stick_fraction=float(data["special_stick_fraction"].values[i]),
+            growth_rate=float(data["special_growth_rate"].values[i]),
+            multiplier=complex(data["special_multiplier"].values[i]),
+            after=int(data["special_after"].values[i]),
+            case=case,
+            modal=own.point(state) / own.scale,
+            make_map=make_map,
+        )
+        vars(point)["range"] = float(data["special_range"].values[i])
+        points.append(point)
+    return tuple(points)

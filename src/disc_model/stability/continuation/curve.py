@@ -34,6 +34,8 @@ DEFECT = 0.02
 # the last correction of a point whose residual is limited by rounding; a residual that is as small
 # but no zero, as beside a narrow fold, leads to corrections a hundred times as large
 UNCERTAIN = 1e-7
+EXACT = 1e-9  # length of a last correction after which derivatives are not computed anew
+LAST_CORRECTIONS = 3
 DIVERGES = "Newton's method does not converge"
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
 FARTHEST = 0.5  # of a single corrector's way, relative to the step, before it is given up
@@ -54,7 +56,8 @@ class StepControl(Strict):
     step, longest, shortest : arclength of the first, the longest and the shortest step
     max_points : largest number of points in each direction
     scale : value of the parameter that counts as one in the arclength; by default its own, or a tenth of the larger
-        bound if that is more. For one parameter only
+        bound if that is more. With a `contact_compliance` in m/N it is a hundred times that, and `step` and
+        `longest` are hundredths. For one parameter only
     growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
         `easy`; below `sharpest` the step is shortened
     beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
@@ -179,13 +182,23 @@ def solve(
     else:
         raise Rejected(DIVERGES)
 
-    # one more correction, now with the derivatives at this point, which are needed anyhow
-    found = problem.evaluate(z)
-    left = np.concatenate([found.residual, rows @ (z - guess)])
-    step = newton_step(np.vstack([found.by, rows]), left)
-    if not np.linalg.norm(z - step - guess) <= radius:  # as where two branches cross
-        raise Rejected("the corrector moves too far")
-    return z - step, found
+    # one more correction, now with the derivatives at this point, which are needed anyhow; further
+    # ones where these change within a short way, as on a stiff contact
+    last = np.inf
+    for _ in range(LAST_CORRECTIONS):
+        found = problem.evaluate(z)
+        left = np.concatenate([found.residual, rows @ (z - guess)])
+        step = newton_step(np.vstack([found.by, rows]), left)
+        length = float(np.linalg.norm(step))
+        if length > last:  # by rounding
+            break
+        z = z - step
+        if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
+            raise Rejected("the corrector moves too far")
+        if length <= EXACT:
+            break
+        last = length
+    return z, found
 
 
 def curve_point(z: Array, found: Evaluation, along: Array) -> CurvePoint:
@@ -230,17 +243,21 @@ def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
 
 
 def check_step(
-    before: CurvePoint, after: CurvePoint, sharpest: float, largest_defect: float = DEFECT
+    before: CurvePoint,
+    after: CurvePoint,
+    sharpest: float,
+    largest_defect: float = DEFECT,
+    slack: float = 0.0,
 ) -> None:
     """Raise `Rejected` unless two points are neighbours on a smooth curve: the tangents enclose an
     angle of a cosine of at least `sharpest`, and the chord differs from their mean by no more than
-    `largest_defect` of its length."""
+    `largest_defect` of its length and a `slack`."""
     chord = after.z - before.z
     length = float(np.linalg.norm(chord))
     if float(before.tangent @ after.tangent) < sharpest:
         raise Rejected("the curve bends too sharply")
     defect = chord - length / 2 * (before.tangent + after.tangent)
-    if np.linalg.norm(defect) > largest_defect * length:
+    if np.linalg.norm(defect) > largest_defect * length + slack:
         raise Rejected("the curve bends within the step")
 
 

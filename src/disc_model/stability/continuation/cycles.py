@@ -14,7 +14,12 @@ from disc_model.stability.continuation.branch import CHANGES, Branch, SpecialPoi
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
-from disc_model.stability.continuation.problem import CycleProblem, growth_rate, parameter_scale
+from disc_model.stability.continuation.problem import (
+    CycleProblem,
+    growth_rate,
+    parameter_scale,
+    stretch_of,
+)
 from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
@@ -32,17 +37,20 @@ def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     ]
 
 
-def interval_in_si(name: Any, bounds: Any) -> Any:
+def interval_in_si(name: Any, bounds: Any, faults: list[Fault] | None = None) -> Any:
     """Bounds of a parameter in SI units, from texts with units too; None unless they are two
-    ascending numbers."""
-    values = values_in_si(name, bounds)
+    ascending numbers. Units of another kind are added to the faults."""
+    values = values_in_si(name, bounds, faults, "bounds")
     return values if is_finite_array(values, 2) and values[0] < values[1] else None
 
 
-def values_in_si(name: Any, values: Any) -> Any:
-    """Values of a parameter in SI units, from texts with units too."""
+def values_in_si(
+    name: Any, values: Any, faults: list[Fault] | None = None, argument: str = "values"
+) -> Any:
+    """Values of a parameter in SI units, from texts with units too. Units of another kind are added
+    to the faults of the argument."""
     unit = Parameters.unit(name) if isinstance(name, str) else ""
-    return in_si(values, unit, [], ())
+    return in_si(values, unit, [] if faults is None else faults, (argument,))
 
 
 @compiling()
@@ -106,9 +114,10 @@ def continue_cycle(  # noqa: PLR0913
     >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
     [-0.1055, 0.5751]
     """
-    span = interval_in_si(name, bounds)
+    units = list[Fault]()
+    span = interval_in_si(name, bounds, units)
     listed = isinstance(values, Sequence | np.ndarray)
-    wanted: Any = values_in_si(name, list(values)) if listed else None
+    wanted: Any = values_in_si(name, list(values), units) if listed else None
     ways = is_number(direction) and direction in (-1, 0, 1)
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
     wrong = violations(
@@ -119,7 +128,7 @@ def continue_cycle(  # noqa: PLR0913
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
+    raise_faults(foreign_case(case) or units or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
     slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
@@ -135,7 +144,13 @@ def continue_cycle(  # noqa: PLR0913
         (not outside, "values", next(iter(outside), None), rule),
     )
 
-    scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
+    scale = steps.scale
+    if scale is None:
+        scale = parameter_scale(case, name, max(map(abs, span)))
+        stretch = stretch_of(case, name)
+        scale *= stretch
+        shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch}
+        steps = steps.model_copy(update=shorter)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
@@ -172,7 +187,7 @@ def branch_of(
         multipliers=np.array(every),
         diameters=np.array([problem.leading_diameters(point) for point in points]),
         separations=np.array([point.orbit.counts.separations for point in points]),
-        points=np.array([point.z[: problem.n] * problem.size for point in points]),
+        points=np.array([problem.reference_point(point.z) for point in points]),
         folds=np.array(folds).reshape(-1, len(problem.names)),
         ended="; ".join(dict.fromkeys(reasons)),
         case=problem.base,
@@ -207,7 +222,7 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
                 multiplier=place.multiplier,
                 after=place.after,
                 case=case,
-                modal=z[: problem.n] * problem.size / problem.reference.scale,
+                modal=problem.reference_point(z) / problem.reference.scale,
                 make_map=problem.make_map,
             )
         )

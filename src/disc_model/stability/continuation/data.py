@@ -1,4 +1,4 @@
-"""A branch as a dataset: its cycles along `point`, its special points along `special`."""
+"""A branch as a dataset, and from one: its cycles along `point`, its special points along `special`."""
 
 from __future__ import annotations
 
@@ -9,10 +9,11 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
+from disc_model.errors import require
 from disc_model.parameters import RATIOS, Parameters
+from disc_model.simulation.states import State
 
 if TYPE_CHECKING:
-    from disc_model.simulation.states import State
     from disc_model.stability.continuation.branch import Branch
 
 VARIABLES = {
@@ -75,11 +76,50 @@ def dataset_of(branch: Branch) -> xr.Dataset:
             {"long_name": "number of the special point along the branch"},
         ),
     }
-    attrs: dict[str, Any] = {"ended": branch.ended, "parameters": branch.case.canonical_json}
+    attrs: dict[str, Any] = {
+        "ended": branch.ended,
+        "parameters": branch.case.canonical_json,
+        "free_parameters": ", ".join(branch.parameters),
+    }
     if len(branch.not_reached):
         attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
     coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
     return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
+
+
+class StoredBranch:
+    """What a dataset of a branch holds; raises `ParameterError` if it is of something else."""
+
+    def __init__(self, data: xr.Dataset) -> None:
+        names = ["multipliers", "special_kind", "a", "special_a"]
+        known = isinstance(data, xr.Dataset) and all(name in data for name in names)
+        known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
+        rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
+        require((known, "data", type(data).__name__, rule))
+        self.data = data
+        self.case = Parameters.model_validate_json(data.attrs["parameters"])
+        self.parameters = tuple(data.attrs["free_parameters"].split(", "))
+        self.ended = str(data.attrs["ended"])
+
+    @property
+    def not_reached(self) -> np.ndarray:
+        """Values of the parameter at which the branch has no cycle."""
+        text = self.data.attrs.get("not_reached", "")
+        return np.array([float(value) for value in text.split(", ") if value])
+
+    def values(self, begin: str = "") -> np.ndarray:
+        """The free parameters along the points, or with the beginning "special_" along these."""
+        return np.column_stack([self.data[begin + name].values for name in self.parameters])
+
+    def case_at(self, values: np.ndarray) -> Parameters:
+        """The case with some values of the free parameters."""
+        return self.case.replace(**dict(zip(self.parameters, values.tolist(), strict=True)))
+
+    def states(self, begin: str = "") -> list[State]:
+        """The states on the section, as `values`."""
+        columns = {name: self.data[begin + name].values.tolist() for name in STATE}
+        rows = zip(*columns.values(), strict=True)
+        return [State(time=0.0, **dict(zip(columns, row, strict=True))) for row in rows]
 
 
 class _Columns:

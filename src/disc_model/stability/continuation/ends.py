@@ -15,7 +15,11 @@ import numpy as np
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.simulation.api import simulate
 from disc_model.stability.continuation.curve import CurvePoint, Rejected
-from disc_model.stability.continuation.problem import WITHOUT_RETURN, CycleProblem
+from disc_model.stability.continuation.problem import (
+    WITHOUT_RETURN,
+    CycleProblem,
+    has_own_vibration,
+)
 
 BOUND = "bound"
 CLOSED = "closed"
@@ -83,12 +87,17 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
         except ParameterError as fault:
             return End(LIMIT, f"beyond it the case is not valid: {fault}")
     cycle = _events(problem, last.z, last.orbit.period)
-    for distance in TRIED:
+    # a stiff contact's vibration needs no event to differ as much as farther motions do
+    tried = BEYOND if has_own_vibration(problem.base) else TRIED
+    for distance in tried:
         motion = _events(problem, last.z + distance * last.tangent, last.orbit.period)
         text = _first_difference(cycle, motion)
         if text:
             return End(GRAZED, text)
-    return End(LOST, f"no shorter step succeeds: {rejected}")
+    text = f"no step from {problem.words(last)} succeeds: {rejected}"
+    if str(rejected) not in WITHOUT_RETURN.values():
+        text += "; start again beyond it"
+    return End(LOST, text)
 
 
 def _events(problem: CycleProblem, z: np.ndarray, period: float) -> list[Event]:

@@ -1,9 +1,9 @@
 """F(x, q) = R(x, q) - x of a return map R: its zeros are cycles, as a curve or surface over the
 free parameters q.
 
-Unknowns are z = (x / size, q / scales). The map is a `SectionMap`: that of stick-slip cycles is
-`disc_model.stability.return_map.ReturnMap`, that of cycles that slip all the time
-`disc_model.stability.slipping_map.SlippingMap`.
+Unknowns are z = (C x / size, q / scales), where C is one but for a compliant contact. The map is a
+`SectionMap`: that of stick-slip cycles is `disc_model.stability.return_map.ReturnMap`, that of
+cycles that slip all the time `disc_model.stability.slipping_map.SlippingMap`.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from disc_model.errors import Fault, ModeError, ParameterError
-from disc_model.parameters import DEFAULTS, Parameters
+from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
 from disc_model.stability.cycle import FloquetResult
@@ -44,6 +44,9 @@ USUAL = {
 }
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
+# In a stiff contact a cycle bends within a millionth of the static deflection: a parameter then counts
+# for so much less that its folds are round, and steps are so much shorter.
+STRETCH = 100.0
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
 
 WITHOUT_RETURN = {
@@ -68,6 +71,18 @@ def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
     return max(value, typical, SMALLEST_OF_SPAN * abs(farthest)) or 1.0
 
 
+def stretch_of(p: Parameters, name: str) -> float:
+    """The factor of a parameter's scale in a case: the compliance itself, which changes the
+    frequency of the contact's vibration, has none."""
+    return STRETCH if has_own_vibration(p) and name != "contact_compliance" else 1.0
+
+
+def has_own_vibration(p: Parameters) -> bool:
+    """Whether the contact has a stiffness of its own, which may be so high that it vibrates alone:
+    that of the modes left out does not."""
+    return p.contact_compliance not in (0, RESIDUAL)
+
+
 def value_text(name: str, value: float) -> str:
     """A value of a parameter with its name and unit."""
     unit = Parameters.unit(name).removeprefix("1")
@@ -80,7 +95,9 @@ class CycleProblem:
     With an `order` of events cycles may lose contact, and have as many releases in a period; `scale`
     replaces a parameter's own. `points` of the section are over `size`, the norm of the static
     deflection, in the coordinates of the case `base`; those of another case differ from them where
-    the disc's frequencies do.
+    the disc's frequencies do. The compression of a compliant contact is one of the unknowns, in the
+    place of the slider's height: Newton's method and distances would otherwise be those of the
+    contact's vibration.
     """
 
     def __init__(
@@ -100,6 +117,8 @@ class CycleProblem:
         self.reference = self.make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
+        self._to_unknowns = self.reference.compression
+        self._from_unknowns = np.linalg.inv(self._to_unknowns)
         self.scales = np.array([scale or parameter_scale(base, name) for name in names])
         self._differentiable = tuple(name for name in names if name in PARAMETERS)
         self._plate: CompliantPlate | None = None
@@ -142,7 +161,11 @@ class CycleProblem:
 
     def section_point(self, z: Array) -> Array:
         """The point of the section, in the coordinates of the map at z."""
-        return z[: self.n] * self.size / self._turn(self.map_at(z))
+        return self.reference_point(z) / self._turn(self.map_at(z))
+
+    def reference_point(self, z: Array) -> Array:
+        """The point of the section, in the coordinates of the case `base`."""
+        return self._from_unknowns @ (z[: self.n] * self.size)
 
     def _turn(self, section_map: SectionMap) -> Array:
         """Factors from the coordinates of a map to those of the reference."""
@@ -167,8 +190,8 @@ class CycleProblem:
         orbit = self.follow(z, tangent=tangent, releases=releases)
         if not orbit.returned:
             raise Rejected(WITHOUT_RETURN[ENDS[orbit.outcome]])
-        residual = (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
-        return orbit, residual
+        change = (orbit.end - orbit.start) * self._turn(self.map_at(z))
+        return orbit, self._to_unknowns @ change / self.size
 
     def residual(self, z: Array, releases: int | None = None) -> Array:
         """F at z, of cycles with another number of releases if there is one."""
@@ -179,12 +202,13 @@ class CycleProblem:
         one."""
         orbit, residual = self._return(z, tangent=True, releases=releases)
         turn = self._turn(self.map_at(z))
-        jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
+        of_section = orbit.jacobian * turn[:, None] / turn[None, :]
+        jacobian = self._to_unknowns @ of_section @ self._from_unknowns
         by_parameters = np.zeros((self.n, len(self.names)))
         column = 0
         for i, name in enumerate(self.names):
             if name in self._differentiable:
-                change = orbit.by[:, column] * turn / self.size
+                change = self._to_unknowns @ (orbit.by[:, column] * turn) / self.size
                 by_parameters[:, i] = change * self.scales[i]
                 column += 1
             else:
@@ -197,12 +221,13 @@ class CycleProblem:
     def _difference(self, z: Array, i: int, releases: int | None) -> Array:
         """Derivative of F by the i-th scaled parameter, by a difference of two orbits."""
         move = np.zeros(len(z))
-        move[self.n + i] = DIFFERENCE
+        change = DIFFERENCE / stretch_of(self.base, self.names[i])
+        move[self.n + i] = change
         ends = []
         for side in (1, -1):
             # x stays the same point of the reference's coordinates
             ends.append(self.residual(z + side * move, releases))
-        return np.asarray((ends[0] - ends[1]) / (2 * DIFFERENCE), dtype=float)
+        return np.asarray((ends[0] - ends[1]) / (2 * change), dtype=float)
 
     def place(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
@@ -218,7 +243,7 @@ class CycleProblem:
     def place_at(self, x: Array) -> Array:
         """z of a point of the section of the case `base`."""
         values = np.array([self.base.numbers[name] for name in self.names])
-        return np.concatenate([x / self.size, values / self.scales])
+        return np.concatenate([self._to_unknowns @ x / self.size, values / self.scales])
 
     def start(self, cycle: FloquetResult, along: Array) -> CurvePoint:
         """A cycle of the case `base` as a point of the curve in one parameter, with the tangent

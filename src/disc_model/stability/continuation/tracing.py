@@ -11,6 +11,7 @@ resonance, and must lie where the step leads to expect it.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import product
 
 import numpy as np
 from scipy.optimize import brentq
@@ -28,7 +29,7 @@ from disc_model.stability.continuation.curve import (
     predict,
     solve,
 )
-from disc_model.stability.continuation.problem import CycleProblem
+from disc_model.stability.continuation.problem import CycleProblem, has_own_vibration
 from disc_model.stability.continuation.spectrum import Passing, passings, turns_between
 from disc_model.stability.return_map import Array
 
@@ -43,6 +44,15 @@ SMALLEST_PEAK = 1e-5  # the same, over the static deflection
 # may have a corner, as where a switch that is just touched changes nothing else: at a jump of the
 # map no corrector comes to a point so near.
 CORNER = 1e-5
+# distance within which a point of the curve is anywhere on a compliant contact: a stiff one's own
+# vibration has bends of that size, and rounding moves points by a tenth of it
+SLACK = 1e-6
+HALVINGS_OF_CORNER = 3  # of such a step, on each of which a branch point leaves the curve smooth
+# A stiff contact's own vibration has peaks that are narrower than any step. Where even the shortest
+# step fails, the branch is sought behind them, at these distances.
+LEAPS = tuple(1e-5 * 2.0**i for i in range(10))
+AT_BRANCH_POINT = 1e-3  # distance of the critical multiplier from one at such a step's ends
+BEHIND = (0.5, 4.0, np.inf)  # distances of the points from which it is expected there, over these
 PRECISION = 1e-11  # of the share of a step at which a point is located
 STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
 
@@ -56,12 +66,25 @@ class BranchTracer:
     ) -> None:
         self.problem = problem
         self.steps = steps
+        self.slack = SLACK if has_own_vibration(problem.base) else 0.0
         self.low = low
         self.high = high
 
     def advance(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The points of a step of arclength ds beyond the last of some, resonances within it
         included; raises `Rejected` if a shorter step is needed."""
+        try:
+            return self._step(points, ds)
+        except Rejected:
+            ahead = None
+            if ds / 2 < self.steps.shortest:
+                ahead = self._leap(points)
+            if ahead is None:
+                raise
+            return [ahead]
+
+    def _step(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
+        """As `advance`, by a step of this length."""
         current = points[-1]
         former = None
         if len(points) > 1:
@@ -76,10 +99,44 @@ class BranchTracer:
             guess.z[-1] = bound
             row = parameter_row(len(row), current.slope)
         ahead = self._solve(guess, current, row, FARTHEST * ds)
-        if ds > CORNER and np.linalg.norm(ahead.z - guess.z) > DRIFT * ds:
+        if ds > CORNER and np.linalg.norm(ahead.z - guess.z) > DRIFT * ds + self.slack:
             raise Rejected("the corrector moves far")
         self._check(current, ahead)
         return [*self._resonances(current, ahead, DEEPEST), ahead]
+
+    def _leap(self, points: Sequence[CurvePoint]) -> CurvePoint | None:
+        """A point on the branch beyond a peak that is too small to be followed, as those of a stiff
+        contact's own vibration; None if there is none. It lies where the points before the peak
+        lead to expect it, and has their order of events."""
+        if not self.slack:
+            return None
+        for distance, behind in product(LEAPS, BEHIND):
+            try:
+                return self._beyond_peak(points, distance, behind * distance)
+            except Rejected:
+                continue
+        return None
+
+    def _beyond_peak(
+        self, points: Sequence[CurvePoint], distance: float, behind: float
+    ) -> CurvePoint:
+        """The point at a distance beyond the last of some, predicted from those that are at least as
+        far `behind` it; raises `Rejected` if it is another branch's."""
+        last = points[-1]
+        current = _farther(points, last, behind)
+        former = _farther(points, current, behind)
+        ds = distance + float(np.linalg.norm(last.z - current.z))
+        guess = predict(former if former is not current else None, current, ds)
+        if not self.low <= guess.z[-1] <= self.high:
+            raise Rejected("the branch leaves the bounds")
+        row = _plane(current.tangent)
+        ahead = self._solve(guess, current, row, FARTHEST * ds)
+        if np.linalg.norm(ahead.z - guess.z) > max(PEAK * ds, SMALLEST_PEAK):
+            raise Rejected("the branch has a peak")
+        check_step(current, ahead, self.steps.sharpest, slack=self.slack)
+        if ahead.orientation != last.orientation or ahead.orbit.counts != last.orbit.counts:
+            raise Rejected("the orientation of the curve changes")
+        return ahead
 
     def between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
         """The point of the curve at a share of the way between two neighbours."""
@@ -127,7 +184,9 @@ class BranchTracer:
 
     def _solve(self, guess: Guess, nearby: CurvePoint, row: Array, radius: float) -> CurvePoint:
         """The point of the curve in the plane through a guess, with the sense of a point nearby."""
-        z, found = solve(self.problem, guess.z, row[None, :], np.vstack([guess.by, row]), radius)
+        z, found = solve(
+            self.problem, guess.z, row[None, :], np.vstack([guess.by, row]), radius + self.slack
+        )
         point = curve_point(z, found, row)
         same_sense = float(point.tangent @ nearby.tangent) >= 0
         return point if same_sense else point.reversed()
@@ -135,13 +194,34 @@ class BranchTracer:
     def _check(self, before: CurvePoint, after: CurvePoint) -> None:
         """Raise `Rejected` unless two points are neighbours on one part of the branch."""
         if np.linalg.norm(after.z - before.z) <= CORNER:
-            check_step(before, after, self.steps.sharpest, largest_defect=FARTHEST)
+            check_step(before, after, self.steps.sharpest, FARTHEST, self.slack)
+            turned = after.orientation != before.orientation
+            if self.slack and turned and after.orbit.counts == before.orbit.counts:
+                self._check_branch_point(before, after)
             return
-        check_step(before, after, self.steps.sharpest)
+        check_step(before, after, self.steps.sharpest, slack=self.slack)
         if after.orientation != before.orientation:
             raise Rejected("the orientation of the curve changes")
         if after.orbit.counts != before.orbit.counts:
             raise Rejected(order_change(before, after))
+
+    def _check_branch_point(self, before: CurvePoint, after: CurvePoint) -> None:
+        """Raise `Rejected` unless the curve is smooth between two neighbours of opposite
+        orientation, and a real multiplier passes one, as at a branch point: beside a fold that is
+        narrower than a step, they are on two parts of the curve."""
+        for _ in range(HALVINGS_OF_CORNER):
+            middle = self.between(before, after, 0.5)
+            check_step(before, middle, self.steps.sharpest)
+            check_step(middle, after, self.steps.sharpest)
+            if middle.orientation == before.orientation:
+                before = middle
+            else:
+                after = middle
+        for point in (before, after):
+            distances = np.abs(point.spectrum.values - 1)
+            critical = point.spectrum.values[np.argmin(distances)]
+            if critical.imag != 0 or abs(critical - 1) > AT_BRANCH_POINT:
+                raise Rejected("the orientation of the curve changes")
 
     def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
         """Points on the resonances between two neighbours; raises `Rejected` where one shows a peak
@@ -168,6 +248,16 @@ class BranchTracer:
             there,
             *self._resonances(there, after, deepest - 1),
         ]
+
+
+def _farther(points: Sequence[CurvePoint], last: CurvePoint, distance: float) -> CurvePoint:
+    """The last of some points that is at least at a distance from one of them and before it; the
+    first of all if there is none."""
+    for point in reversed(points):
+        behind = float((last.z - point.z) @ point.tangent)
+        if behind >= distance:
+            return point
+    return points[0]
 
 
 def _plane(tangent: Array) -> Array:
