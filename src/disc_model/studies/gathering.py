@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import COORDINATES, SCALARS, Variable
+from disc_model.data.variables import COORDINATES, SCALARS, TRUTH, Variable
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -87,11 +87,12 @@ def _attributes_of(result: Any, name: str) -> dict[str, Any]:
 
 
 def variables_of_result(result: Any) -> dict[str, xr.Variable]:
-    """Numbers, words and one-dimensional arrays of a result."""
+    """Numbers, words and one-dimensional arrays of a result; what else it holds is left out."""
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
-    for name, value in _named_values(result).items():
+    for key, value in _named_values(result).items():
+        name = str(key)
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
             variables[name] = xr.Variable(
@@ -131,7 +132,10 @@ def stacked(
         values = [row[name].values if name in row else None for row in rows]
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, variable.attrs)
+        attrs = variable.attrs
+        if variable.dtype.kind == "b" and array.dtype.kind == "f":
+            attrs = {**attrs, **TRUTH}
+        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)
     return stacked, fixed
 
 
