@@ -8,6 +8,7 @@ import xarray as xr
 from cmcrameri import cm
 
 from disc_model.figures.classes import name_of
+from disc_model.figures.colours import linear_to, needs_zero
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -141,7 +142,8 @@ def draw_lines(
     array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     across = measured(array[x])
-    rates = variable == RATE and not log
+    signed = log and needs_zero(array.values)
+    rates = variable == RATE and (signed or not log)
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
@@ -162,11 +164,16 @@ def draw_lines(
         ax.plot(*_pieces(across.values, heights, jumps), **look)
 
     # scales and labels
-    if log:
-        ax.set_yscale("log")
-        plain_decades(ax.yaxis)
     if rates:
         scale_rates(ax)
+    elif signed:
+        ax.set_yscale("symlog", linthresh=linear_to(array.values), subs=range(2, 10))
+        ax.yaxis.set_major_formatter("{x:g}")
+        if (array > 0).any():
+            ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+    elif log:
+        ax.set_yscale("log")
+        plain_decades(ax.yaxis)
     ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
     ax.set_ylabel(label_in(study, variable))

@@ -44,9 +44,11 @@ def plot_sweep(  # noqa: PLR0913
         several values
     variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
     x : the dimension, or the column of paired values, along the horizontal axis; the first of numbers if not given
-    log : whether the scale of the variable is logarithmic
+    log : whether the scale of the variable is logarithmic: on both sides of zero, and linear up to its least size, if
+        some values are negative or zero. Growth rates have such a scale in any case
     cmap : another colour map of matplotlib for a map of numbers; classes have the same colours in all pictures
-    ax, legend, labels, title : as in `Result.plot`
+    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar".
+        Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set
 
     Returns
     -------

@@ -165,8 +165,12 @@ def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
 
 
 def shown_words(flag: xr.DataArray, status: xr.DataArray) -> xr.DataArray:
-    """The words of a flag, and `EXCLUDED` at points that a study's rule leaves out."""
+    """The words of a flag, those of a gap where it has none, and `EXCLUDED` at points that a study's
+    rule leaves out."""
     words = flag.copy(data=flag_names(flag).astype(object))
+    if (words == "").any():
+        gaps_of = np.vectorize(class_of_gap, otypes=[object])
+        words = words.where(words != "", xr.apply_ufunc(gaps_of, status))
     return words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*flag.dims)
 
 

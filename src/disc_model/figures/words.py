@@ -127,7 +127,7 @@ def named(variable: xr.DataArray) -> Named:
 def _words_of(variable: xr.DataArray) -> str:
     """What a variable says that it is, without remarks."""
     own = str(variable.name)
-    long_name = str(variable.attrs.get("long_name", own))
+    long_name = str(variable.attrs.get("long_name", own.replace("_", " ")))
     return SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
 
 
@@ -215,10 +215,12 @@ def lowered(text: str) -> str:
 
 def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
     """Names of a flag's classes, none for other variables; and the variable with numbers for words,
-    their places."""
+    their places, nan where there is no word."""
     if variable.dtype.kind in "UO":
-        distinct, places = np.unique(flag_names(variable), return_inverse=True)
-        numbers = variable.copy(data=places.reshape(variable.shape).astype(float))
+        words = flag_names(variable)
+        distinct = np.unique(words[words != ""])
+        places = np.searchsorted(distinct, words).astype(float)
+        numbers = variable.copy(data=np.where(words == "", np.nan, places))
         return [name_of(word) for word in distinct], numbers
     words = variable.attrs.get("flag_meanings", "").split()
     return [name_of(word) for word in words if word != EXCLUDED], variable

@@ -48,7 +48,8 @@ def sweep(
     case : values of all parameters that do not vary
     *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
     zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
-        pandas.DataFrame of cases. They are one dimension, whose name joins theirs
+        pandas.DataFrame of cases. They are one dimension, whose name joins theirs. Columns of words under other names,
+        such as names of samples, stay beside them as coordinates
     workers : number of calls at a time; compiled code runs beside other threads
     processes : whether they are processes instead of threads: the function must then be importable
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
@@ -60,17 +61,18 @@ def sweep(
     -------
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
-        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic;
-        `message` then says which. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included) and the `parameters` of the case
+        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic,
+        or returned nothing; `message` then says which. Numbers are nan there, words "", and a variable of True and
+        False, such as `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes state the
+        `function`, its other arguments (`options`, in JSON, defaults included) and the `parameters` of the case
 
     Raises
     ------
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
-        by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
-        case break a rule together, the point has failed. Any other error of the function ends the sweep, with a note
-        of what varies at the point.
+        by itself; and if an argument of the function is missing, or refused at the first point, or the function
+        returns nothing there. Where values of the case break a rule together, the point has failed. Any other error of
+        the function ends the sweep, with a note of what varies at the point.
 
     Examples
     --------
