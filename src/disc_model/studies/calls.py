@@ -154,7 +154,7 @@ def _columns_of(zipped: Any) -> dict[str, list[Any]]:
     if not (isinstance(zipped, Mapping) or hasattr(zipped, "columns")):
         return {}
     table = dict(zipped.items())
-    index = getattr(zipped, "index", None)
+    index: Any = getattr(zipped, "index", None)
     if isinstance(getattr(index, "name", None), str):
         words = list(index)
         if _are_labels(words):

@@ -107,8 +107,9 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         return result.scalars()
     if is_dataclass(result):
         values = {field.name: getattr(result, field.name) for field in fields(result)}
-        if hasattr(result, "stable"):
-            values["stable"] = result.stable
+        for verdict in ("stable", "at_lower_bound"):
+            if hasattr(result, verdict):
+                values[verdict] = getattr(result, verdict)
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
