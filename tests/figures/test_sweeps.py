@@ -393,3 +393,33 @@ def test_words_and_truth_keep_their_classes_where_a_point_failed(
     assert [text.get_text() for text in line.texts] == ["failed"]
     assert [tick.get_text() for tick in line.get_yticklabels()] == [words[name == "size"]]
     pyplot.close("all")
+
+
+def searched(case: dm.Parameters) -> dict[str, Any]:
+    """A critical value as `critical` returns it: at the bound of 10 rad/s for small loads."""
+    return {"value": max(10.0, case.N / 20), "at_lower_bound": case.N < 210}
+
+
+def test_values_at_the_bound_of_a_search_are_told_from_those_found() -> None:
+    """35 of 60 samples stood at 10 rad/s as if they had been found there."""
+    line = dm.plot_sweep(dm.sweep(searched, CASE, N=[180, 200, 300, 385]), "value")
+    [arrows] = [each for each in line.lines if each.get_marker() == r"$\downarrow$"]
+    assert arrows.get_xdata().tolist() == [180, 200]
+    assert arrows.get_ydata().tolist() == [10, 10]
+    [legend] = line.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["at or below the lower bound"]
+    plane = dm.plot_sweep(dm.sweep(searched, CASE, N=[180, 200, 300], Omega=SPEEDS), "value")
+    [legend] = plane.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["at or below the lower bound"]
+    none = dm.plot_sweep(dm.sweep(searched, CASE, N=[300, 385]), "value")
+    assert not none.figure.legends
+    pyplot.close("all")
+
+
+def test_a_critical_speed_at_the_lowest_of_its_scan_is_marked() -> None:
+    speeds = {"critical_speed": ("N", [10.0, 12.0], {"units": "rad s-1"})}
+    study = xr.Dataset(speeds, {"N": [300.0, 385.0], "scan_Omega": [10.0, 11.0, 12.0]})
+    ax = dm.plot_sweep(study)
+    [arrows] = [each for each in ax.lines if each.get_marker() == r"$\downarrow$"]
+    assert arrows.get_xdata().tolist() == [300]
+    pyplot.close("all")

@@ -6,8 +6,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.transforms import ScaledTranslation
 
-from disc_model.figures.classes import name_of
+from disc_model.figures.classes import AT_BOUND, name_of
 from disc_model.figures.colours import linear_to, needs_zero
 from disc_model.figures.drawing import (
     BLACK,
@@ -26,6 +27,7 @@ from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import (
     Part,
+    at_lower_bound,
     broken,
     gaps,
     parts_along,
@@ -57,6 +59,8 @@ DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
+ARROW = 7.0  # points, size of an arrow below a point, and its distance
+ROOM = 0.12  # share of the panel beside its values that has room for them
 ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
 ROW = 0.05  # and the distance of two rows
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
@@ -108,7 +112,8 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        if names and (in_legend or not name_ends(ax)):
+        marked = AT_BOUND.label in names
+        if names and (in_legend or marked or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
@@ -163,6 +168,10 @@ def draw_lines(
             look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line), alone=alone)
         ax.plot(*_pieces(across.values, heights, jumps), **look)
 
+    bound = at_lower_bound(study, variable)
+    if bound is not None and bound.any():
+        _point_down(ax, across.values, array, bound, by, marks)
+
     # scales and labels
     if rates:
         scale_rates(ax)
@@ -179,6 +188,8 @@ def draw_lines(
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)
     ax.margins(0.03)
+    if bound is not None and bound.any():
+        ax.margins(y=ROOM)
     _mark_gaps(ax, study, array, x, marks)
 
 
@@ -246,6 +257,39 @@ def _look() -> dict[str, Any]:
         "markeredgewidth": wide(0.6),
         "linewidth": wide(0.7),
     }
+
+
+def _point_down(
+    ax: Axes,
+    along: np.ndarray,
+    array: xr.DataArray,
+    bound: xr.DataArray,
+    by: str | None,
+    marks: Mapping[str, str],
+) -> None:
+    """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
+    page: Any = ax.get_figure(root=True)
+    below = ScaledTranslation(0, -large(ARROW) / 72, page.dpi_scale_trans)
+    label = AT_BOUND.label
+    parts = parts_along(array, by)
+    masks = parts_along(bound, by)
+    for colour, part, mask in zip(_colours(parts, marks), parts, masks, strict=True):
+        here = mask.data.values
+        if not here.any():
+            continue
+        ax.plot(
+            along[here],
+            part.data.values[here],
+            linestyle="",
+            marker=r"$\downarrow$",
+            color=colour,
+            label=label,
+            markersize=mark(ARROW),
+            markeredgewidth=0,
+            transform=ax.transData + below,
+            clip_on=False,
+        )
+        label = "_nolegend_"
 
 
 def _mark_gaps(

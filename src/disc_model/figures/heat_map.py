@@ -12,11 +12,12 @@ from disc_model.figures.cells import (
     class_cells,
     edges_of,
     entries,
+    lay_over,
     looks_in,
     paint,
     scale_of,
 )
-from disc_model.figures.classes import LOOKS, UNRESOLVED
+from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
 from disc_model.figures.colours import colours_of, within_a_decade
 from disc_model.figures.drawing import COLUMN, letter, panels, set_label
 from disc_model.figures.growth import growth_panels, is_growth
@@ -24,6 +25,7 @@ from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
     Part,
+    at_lower_bound,
     classes_of_gaps,
     has_values,
     parts_along,
@@ -165,9 +167,14 @@ def number_panels(
         missing = classes_of_gaps(plane, array)
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
+        bound = at_lower_bound(plane, variable)
+        if bound is not None and bound.any():
+            cells = bound.transpose(*array.dims).values
+            lay_over(ax, edges, cells, AT_BOUND, mesh.to_rgba(values))
+            used.add(AT_BOUND.label)
 
     unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
-    looks = {**MARKED, NO_VALUE: unvalued}
+    looks = {**MARKED, NO_VALUE: unvalued, AT_BOUND.label: AT_BOUND}
     if not has_values(planes, variable):
         return entries(used, looks)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)

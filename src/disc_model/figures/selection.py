@@ -22,7 +22,8 @@ WITHOUT_CYCLE = (
     "at_rest",
 )
 """Statuses of points that were computed, and have no stick-slip cycle."""
-
+ROUNDING = 1e-9
+"""Relative difference of equal speeds in files."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -210,6 +211,17 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
         name = name_of(class_of_gap(word))
         masks[name] = here | masks.get(name, False)
     return masks
+
+
+def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose critical value is the lower bound of its search, and may lie below; None of other
+    variables."""
+    if variable == "value" and "at_lower_bound" in study:
+        return study["at_lower_bound"] == 1
+    if variable == "critical_speed" and "scan_Omega" in study.coords:
+        lowest = float(study["scan_Omega"].min())
+        return study[variable] <= lowest * (1 + ROUNDING)
+    return None
 
 
 # ---- Stretches along an axis

@@ -11,11 +11,12 @@ from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.cells import entries, is_colormap, recolour
+from disc_model.figures.classes import LOOKS
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import label_of, measured, what_case
+from disc_model.figures.words import horizon_text, label_of, measured, what_case
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -26,6 +27,7 @@ PREFERRED = (
     "critical_speed",
     "separation_rate",
     "scan_first_separation",
+    "value",
     "kind",
 )
 """Variables that are drawn unless another one is asked for, the first that there is."""
@@ -205,4 +207,6 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     ax.set_xlabel(across.label)
     ax.set_ylabel(label_of(shares)[0])
     ax.set_xmargin(0.04)
-    return entries(classes)
+    within = horizon_text(study) or "the horizon"
+    undecided = LOOKS["undecided"]._replace(label=f"undecided within {within}: raise horizon")
+    return entries(classes, {**LOOKS, "undecided": undecided})

@@ -144,8 +144,8 @@ def critical(
     kind: str = STICK_SLIP,
     progress: bool = False,
 ) -> Critical:
-    """The least parameter value with unstable motion near the static start, or unstable steady
-    sliding, and all stability changes above it.
+    """The least parameter value with unstable motion near the static start, and all stability
+    changes above it; or those of steady sliding.
 
     The motion near the static start is the stick-slip cycle, or steady sliding or rest if there is
     no cycle. It is computed at equal steps, which alone limit what can be overlooked. Instability

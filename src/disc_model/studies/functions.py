@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.progress import progress_bar
@@ -261,7 +262,8 @@ def basins(  # noqa: PLR0913
     Returns
     -------
     xarray.Dataset
-        `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors
+        `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors.
+        The attribute `message` says how many starts are undecided within the horizon
 
     Raises
     ------
@@ -287,7 +289,12 @@ def basins(  # noqa: PLR0913
         "confidence": confidence,
         "tol": tol,
     }
-    return _quantity("basins", case, options, start, progress=progress)
+    found = _quantity("basins", case, options, start, progress=progress)
+    undecided = int((found["kind"] == "undecided").sum())
+    if undecided and not found.attrs["message"]:
+        of_all = f"{undecided} of {counted(found['kind'].size, 'start')}"
+        found.attrs["message"] = f"{of_all} undecided within the horizon: raise it"
+    return found
 
 
 @renamed(scan="bounds")
