@@ -72,6 +72,8 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
+IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
+"""Units of numbers of cycles in all pictures."""
 RANGE_END = re.compile("_(min|max)$")
 """The end of the name of a bound of a sampled variable's range."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
@@ -121,7 +123,11 @@ def named(variable: xr.DataArray) -> Named:
     ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
-    return Named(phrase, unit_text(str(variable.attrs.get("units", "1"))), 1.0)
+    units = str(variable.attrs.get("units", "1"))
+    base = str(variable.name).removeprefix("attractor_")
+    if IN_THOUSANDTHS.get(base) == f"m{units}":
+        return Named(phrase, IN_THOUSANDTHS[base], 1e3)
+    return Named(phrase, unit_text(units), 1.0)
 
 
 def _words_of(variable: xr.DataArray) -> str:
