@@ -215,9 +215,9 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
     plane = dm.sweep(dm.floquet, P, Omega=[10, 12, 14], N=[300, 385])
     ax = dm.plot_sweep(plane, "period", x="N")
-    np.testing.assert_allclose(ax.collections[0].get_array(), plane["period"])
+    np.testing.assert_allclose(ax.collections[0].get_array(), 1e3 * plane["period"])
     assert ax.get_ylabel() == "Speed Ω (rad/s)"
-    assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (s)"
+    assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (ms)"
     outcomes = plane.assign(
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )

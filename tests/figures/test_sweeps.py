@@ -167,7 +167,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
     ("variable", "label"),
     [
         ("growth_rate", "Growth rate of the stick-slip cycle (1/s)"),
-        ("period", "Period of the stick-slip cycle (s)"),
+        ("period", "Period of the stick-slip cycle (ms)"),
     ],
 )
 def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: bool) -> None:
@@ -262,7 +262,7 @@ def test_paired_samples_are_points_over_one_of_their_columns(x: str) -> None:
     points, *gaps = ax.lines
     assert points.get_linestyle() == "None"
     np.testing.assert_array_equal(points.get_xdata(), pairs[x].values)
-    np.testing.assert_array_equal(points.get_ydata(), pairs["period"].values)
+    np.testing.assert_array_equal(points.get_ydata(), 1e3 * pairs["period"].values)
     marked = np.concatenate([line.get_xdata() for line in gaps])
     missing = pairs["period"].isnull().values
     assert missing.any()
