@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 
 from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves, sweep
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.progress import Bar
+from disc_model.display import Bar
 from disc_model.stability import critical
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding

@@ -39,6 +39,7 @@ from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
+    WORDS,
     as_numbers,
     label_in,
     measured,
@@ -147,6 +148,10 @@ def draw_lines(
     array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     across = measured(array[x])
+    words = array[x].dtype.kind in "UO"
+    if words:
+        across = across._replace(values=_named_words(array[x]))
+        joined = False
     signed = log and needs_zero(array.values)
     rates = variable == RATE and (signed or not log)
 
@@ -183,7 +188,10 @@ def draw_lines(
     elif log:
         ax.set_yscale("log")
         plain_decades(ax.yaxis)
-    ax.set_xscale(scale(array[x]))
+    if words:
+        _turn_words(ax, across.values)
+    else:
+        ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)
@@ -191,6 +199,19 @@ def draw_lines(
     if bound is not None and bound.any():
         ax.margins(y=ROOM)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _named_words(coordinate: xr.DataArray) -> np.ndarray:
+    """The names of words along a dimension."""
+    return np.array([WORDS.get(str(word), str(word)) for word in coordinate.values])
+
+
+def _turn_words(ax: Axes, words: np.ndarray) -> None:
+    """Turn words along the horizontal axis if they have no room beside each other."""
+    page: Any = ax.get_figure(root=True)
+    room = page.get_figwidth() * ax.get_position().width
+    if CHARACTER * sum(map(len, words)) > room:
+        ax.tick_params(axis="x", labelrotation=90)
 
 
 def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
@@ -299,6 +320,8 @@ def _mark_gaps(
     named on the left of its rows."""
     by = remaining(array, [x])
     across = measured(array[x]).values
+    if array[x].dtype.kind in "UO":
+        across = _named_words(array[x])
     top = ABOVE
     for name, gone in gaps(study, array).items():
         first = top

@@ -127,7 +127,9 @@ def as_classes(array: xr.DataArray) -> xr.DataArray:
 
 
 def scale(coordinate: xr.DataArray) -> str:
-    """Scale of an axis, as in maps of regions, but linear from 0 on."""
+    """Scale of an axis, as in maps of regions, but linear from 0 on and along words."""
+    if coordinate.dtype.kind in "UO":
+        return "linear"
     known = scale_of(str(coordinate.name), coordinate.values)
     return "linear" if known == "symlog" else known
 

@@ -56,7 +56,7 @@ def plot_sweep(  # noqa: PLR0913
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
-    varying, column = _along_pairs(whole, x)
+    varying, column = _along_pairs(_ascending(whole), x)
     drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
     if column:
         drawn = replace(drawn, mapped=False, joined=False)
@@ -97,6 +97,13 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
     )
 
 
+def _ascending(study: xr.Dataset) -> xr.Dataset:
+    """The study with the numbers along its dimensions in their order: lines would go back and
+    forth, and cells of a map lie on each other."""
+    numbers = [name for name in study.dims if name in study.coords]
+    return study.sortby([name for name in numbers if study[name].dtype.kind in "fi"])
+
+
 def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
     """The study with names for the discs along its dimensions, by their order and frequencies."""
     named = {}
@@ -111,13 +118,13 @@ def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
 
 def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
     """The study along one of the columns of numbers that vary together, the first of them unless
-    `x` is another, and its name; "" if none vary together."""
+    `x` is another, or their labels, and its name; "" if none vary together."""
     for dim in study.get("status", study).dims:
-        columns = [
-            str(name)
-            for name, values in study.coords.items()
-            if values.dims == (dim,) and name != dim and values.dtype.kind in "fi"
+        beside = [
+            name for name, values in study.coords.items() if values.dims == (dim,) and name != dim
         ]
+        columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
+        columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
         if dim not in study.coords and columns:
             column = x or columns[0]
             require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
@@ -125,18 +132,18 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
     return study, ""
 
 
-def _numeric_dims(study: xr.Dataset) -> list[str]:
-    """Dimensions of a study whose values are numbers of a quantity."""
-    return [
-        str(dim)
-        for dim in study.dims
-        if dim in study.coords and dim not in COUNTED and study[dim].dtype.kind in "fi"
-    ]
+def _drawn_dims(study: xr.Dataset) -> list[str]:
+    """Dimensions of a study whose values are numbers of a quantity; words where there are none."""
+    named = [str(dim) for dim in study.dims if dim in study.coords and dim not in COUNTED]
+    numbers = [dim for dim in named if study[dim].dtype.kind in "fi"]
+    if numbers or "status" not in study:
+        return numbers
+    return [dim for dim in named if dim in study["status"].dims]
 
 
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     """The variable that is drawn; raises `ParameterError`."""
-    numbers = {*_numeric_dims(study)}
+    numbers = {*_drawn_dims(study)}
     over = {str(name): {*values.dims} for name, values in study.items()}
     choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
     flat = [name for name in choices if len(over[name]) < 3]
@@ -144,7 +151,12 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual
+    points = "must have two points or more along a number or a word"
+    require((bool(numbers), "study", "a single point", points))
     rule = f"must be one over the grid{suggestion(named, choices)}"
+    further = [dim for dim in over.get(named, ()) if dim not in study.coords]
+    if further:
+        rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
     require((named in choices, "variable", named, rule))
     return named
 
@@ -152,13 +164,14 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
 def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     """The dimensions along which a variable is drawn; raises `ParameterError`."""
     dims = [str(dim) for dim in study[variable].dims]
-    numbers = [dim for dim in dims if dim in _numeric_dims(study)]
+    numbers = [dim for dim in dims if dim in _drawn_dims(study)]
     across = x or numbers[0]
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
     require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
     second = next((dim for dim in dims if dim != across), None)
-    return Drawn(variable, across, second, mapped=len(numbers) == 2)
+    plane = len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
+    return Drawn(variable, across, second, mapped=plane)
 
 
 def _case_of(study: xr.Dataset) -> str:

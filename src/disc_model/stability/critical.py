@@ -12,11 +12,10 @@ from scipy.optimize import linear_sum_assignment, minimize_scalar
 
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, counted, html_table
+from disc_model.display import Bar, Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
-from disc_model.progress import Bar, progress_bar
 from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
 from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import FloquetResult, find_cycle

@@ -9,10 +9,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.display import counted
+from disc_model.display import counted, progress_bar
 from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.progress import progress_bar
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of

@@ -88,6 +88,8 @@ def _attributes_of(result: Any, name: str) -> dict[str, Any]:
 
 def variables_of_result(result: Any) -> dict[str, xr.Variable]:
     """Numbers, words and one-dimensional arrays of a result; what else it holds is left out."""
+    if isinstance(result, xr.DataArray):
+        result = result.to_dataset(name=result.name or "value")
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
@@ -113,6 +115,8 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
+    if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
+        return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
 
 

@@ -3,11 +3,11 @@ parts are right, so that the rest is checked once more without what is wrong."""
 
 import copy
 import re
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from difflib import SequenceMatcher
 from typing import Any
 
-from disc_model.errors import Fault, ParameterError
+from disc_model.errors import Fault, ParameterError, as_text
 
 ROUNDS = 10  # greatest number of times that the rest is checked
 MEANT = re.compile(r"did you mean ([^?]+)\?")
@@ -39,7 +39,9 @@ def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], obje
             break
         except ParameterError as error:
             latest = [fault for fault in error.faults if isinstance(fault, Fault)]
-        faults += [fault for fault in latest if _is_further(fault, left_out)]
+        told = {fault.path for fault in faults if isinstance(fault, Fault)}
+        new = [fault for fault in latest if fault.path not in told]
+        faults += [fault for fault in new if _is_further(fault, left_out)]
     return list(dict.fromkeys(faults))
 
 
@@ -62,6 +64,11 @@ def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> b
         place = int(last)
         parent[place : place + 1] = [meant] if is_word else []
         return True
+    if isinstance(value, list):
+        rest = [each for each in value if as_text(each) != fault.value]
+        if 0 < len(rest) < len(value):
+            parent[last] = rest
+            return True
     del parent[last]
     if is_word:
         parent[last] = meant
@@ -102,8 +109,12 @@ def _entry(part: Any, step: str) -> Any:
     return None
 
 
-def _is_further(fault: Fault, left_out: Collection[str]) -> bool:
-    """Whether a fault of the rest is one of the content, and not only of what was left out."""
+def _is_further(fault: Fault, left_out: Mapping[str, Sequence[str]]) -> bool:
+    """Whether a fault of the rest is one of the content, and not only of what was left out: figures
+    may show an axis that was."""
+    without_axis = any(path[0] in ("axes", "zip") for path in left_out.values())
+    if without_axis and fault.path[:1] == ("figures",):
+        return False
     said = fault.partition(" (known:")[0]
     names = {*re.findall(r"\w+", said)}
     return REQUIRED not in fault.rule and names.isdisjoint(left_out)

@@ -10,8 +10,8 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from dataclasses import dataclass
 from typing import Any
 
+from disc_model.display import progress_bar
 from disc_model.errors import Fault, ParameterError, require
-from disc_model.progress import progress_bar
 from disc_model.units import is_whole
 
 
