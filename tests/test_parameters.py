@@ -76,8 +76,10 @@ def test_a_second_damping_is_refused_even_if_it_is_zero() -> None:
 
 def test_immutable_hashable_picklable() -> None:
     p = Parameters(N=385, Omega=15.1)
-    with pytest.raises(ValueError, match="frozen"):
+    with pytest.raises(ParameterError, match=r"^Parameters.N: is frozen: use replace\(N=3\)"):
         p.N = 3
+    with pytest.raises(ParameterError, match=r"^Parameters: has no Omga, did you mean Omega\?"):
+        p.Omga = 3
     assert pickle.loads(pickle.dumps(p)) == p
     assert {p: 1}[Parameters(N=385.0, Omega=15.1)] == 1
 

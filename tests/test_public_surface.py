@@ -60,7 +60,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         | {"events": "True"},
     ),
     (dm.outcome, {"case": P}, {"start": "None", "early_end": "True", "extrapolate": "True"}),
-    (dm.critical_speed, {"case": P}, {"early_end": "True", "extrapolate": "True"}),
+    (
+        dm.critical_speed,
+        {"case": P},
+        dict.fromkeys(("early_end", "extrapolate", "progress"), "True"),
+    ),
     (dm.basins, {"case": P}, {"start": "None", "seed": "huge", "progress": "True"}),
     (dm.hysteresis, {"case": P, "bounds": (10, 12), "dwell": 5}, {}),
     (
@@ -152,7 +156,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.critical,
         {"case": P, "name": "N", "bounds": (1, 2), "points": 2},
-        {"precision": "None huge"},
+        {"precision": "None huge", "progress": "True"},
     ),
     (dm.neutral_curves, PLANE, {"max_points": "huge", "lines": "nothing"}),
     (

@@ -433,6 +433,7 @@ def study(
     options += ["--configfile", *(str(file.resolve()) for file in files)]
     import snakemake.cli  # type: ignore[import-untyped]
 
+    snakemake.cli.print = _print_without_profile
     try:
         snakemake.cli.main(options)  # ends with an exit code
     except SystemExit as ended:
@@ -440,6 +441,13 @@ def study(
         if made and EXPLORER in (target or []):
             typer.echo(f"explorer: {directory / 'results' / chosen.name / 'explorer.html'}")
         raise
+
+
+def _print_without_profile(*texts: Any, **options: Any) -> None:
+    """Print what Snakemake prints, but not that it uses the profile of this package."""
+    said = " ".join(map(str, texts))
+    if not said.startswith("Using workflow specific profile "):
+        print(said, **options)
 
 
 def _show_options(grid: GridStudy) -> None:

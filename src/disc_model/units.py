@@ -33,7 +33,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.errors import Fault, ParameterError, faults_of, raise_faults
+from disc_model.errors import Fault, ParameterError, as_text, faults_of, raise_faults, suggestion
 
 if TYPE_CHECKING:
     from pydantic._internal._model_construction import ModelMetaclass
@@ -413,6 +413,18 @@ class Strict(BaseModel, metaclass=_Model):
             return super().model_validate_json(json_data, **kwargs)
         except ValidationError as error:
             raise ParameterError(*faults_of(error, _parsed(json_data), cls)) from None
+
+    if not TYPE_CHECKING:
+
+        def __setattr__(self, name: str, value: Any) -> None:
+            kind = type(self)
+            if name in kind.model_fields:
+                rule = f"is frozen: use replace({name}={as_text(value)}), which returns a copy"
+                raise ParameterError(Fault((kind.__name__, name), "", rule))
+            if not name.startswith("_"):
+                rule = f"has no {name}{suggestion(name, kind.model_fields)}"
+                raise ParameterError(Fault((kind.__name__,), "", rule))
+            super().__setattr__(name, value)
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""

@@ -237,6 +237,19 @@ def said_of_a_brake_disc(names: dict[str, Any]) -> None:
     assert 1 < slow.statistics["surface_speed"] < 1.01
 
 
+def test_the_universal_file_of_the_page_can_be_read(tmp_path: Path) -> None:
+    page = (DOCS / "brake_disc.md").read_text(encoding="utf-8")
+    [text] = re.findall(r"```text\n(    -1\n.*?)```", page, re.S)
+    path = tmp_path / "modes.unv"
+    path.write_text(text, encoding="utf-8")
+    disc = disc_model.Disc.from_uff(path, r_0="100 mm")
+    assert disc.report is not None
+    [mode] = disc.report.modes
+    assert mode.diameters == 2
+    assert math.tau * 1212 == pytest.approx(disc.omega[0], rel=1e-5)
+    assert disc.damping_ratio[0] == pytest.approx(0.002)
+
+
 SAID = {
     "first_run": said_of_a_first_run,
     "reading_results": said_of_reading_results,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.colors import LogNorm
+from matplotlib.colors import AsinhNorm, LogNorm
 
 from disc_model.figures.colours import colours_of, counted, within_a_decade
 
@@ -45,18 +45,39 @@ def test_each_of_few_counts_has_a_colour_of_its_own() -> None:
     assert middle.norm(1.6) == middle.norm(2)
 
 
-def test_a_logarithmic_scale_is_of_what_is_above_zero() -> None:
-    values = np.array([-1.0, 0.0, 0.02, 3.0, np.nan])
-    scale = colours_of(values, PERIOD, log=True)
+def test_a_logarithmic_scale_of_positive_numbers_ends_at_them() -> None:
+    scale = colours_of(np.array([0.02, 3.0, np.nan]), PERIOD, log=True)
     assert isinstance(scale.norm, LogNorm)
     assert (scale.norm.vmin, scale.norm.vmax) == (0.02, 3.0)
     assert scale.cmap is cm.batlow
     # growth has the red half of the scale of its maps
-    assert colours_of(values, RATE, log=True).cmap(1.0) == pytest.approx(cm.vik(1.0))
+    assert colours_of(np.array([3.0]), RATE, log=True).cmap(1.0) == pytest.approx(cm.vik(1.0))
     one = colours_of(np.array([5.0]), PERIOD, log=True).norm
     assert (one.vmin, one.vmax) == (5.0, 50.0)
-    none = colours_of(np.array([-5.0]), PERIOD, log=True).norm
-    assert (none.vmin, none.vmax) == (1.0, 10.0)
+
+
+@pytest.mark.parametrize(
+    ("numbers", "ends", "linear", "places"),
+    [
+        ([-20.0, 0.02, 3.0], (-20, 20), 0.02, [-10, -1, -0.1, 0, 0.1, 1, 10]),
+        ([0.0, 0.5, 30.0], (0, 30), 0.5, [0, 1, 10]),
+        ([-30.0, -0.5], (-30, -0.5), 0.5, [-10, -1]),
+        ([-1e-9, 5.0], (-5, 5), 5e-3, [-1, -0.1, -0.01, 0, 0.01, 0.1, 1]),
+        ([0.0, 0.0], (0, 1), 1.0, [0, 1]),
+        ([-0.7, -0.5], (-0.7, -0.5), 0.5, [-0.7, -0.5]),
+        ([0.0, 0.7, 0.5], (0, 0.7), 0.5, [0, 0.7]),
+    ],
+)
+def test_a_logarithmic_scale_passes_through_zero(
+    numbers: list[float], ends: tuple[float, float], linear: float, places: list[float]
+) -> None:
+    """Cells of negative numbers stayed blank, and the legend did not say so."""
+    scale = colours_of(np.array([*numbers, np.nan]), PERIOD, log=True)
+    assert isinstance(scale.norm, AsinhNorm)
+    assert (scale.norm.vmin, scale.norm.vmax) == ends
+    assert scale.norm.linear_width == pytest.approx(linear)
+    assert scale.places == pytest.approx(places)
+    assert scale.cmap is (cm.vik if ends[0] == -ends[1] else cm.batlow)
 
 
 @pytest.mark.parametrize(("ends", "within"), [((2, 19), True), ((2, 20), False), ((2, 300), False)])

@@ -86,7 +86,7 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     assert both.vmin == pytest.approx(-both.vmax)
     assert isinstance(mesh(mapped(study, "growth_rate")).norm, AsinhNorm), "that of all growth maps"
     one = mesh(mapped(study, "period")).norm
-    assert (one.vmin, one.vmax) == pytest.approx((1.0, 1.11))
+    assert (one.vmin, one.vmax) == pytest.approx((1000.0, 1110.0)), "in ms"
     assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
     assert labels(mapped(study, "status")) == ["ok", "no cycle found", "Status"]
     study["releases"] = study["status"] + np.int64(1)

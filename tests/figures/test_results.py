@@ -3,11 +3,13 @@
 import functools
 from itertools import combinations
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
+from matplotlib.patches import Rectangle
 from PIL import Image
 
 import disc_model as dm
@@ -111,11 +113,58 @@ def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
     assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"
 
 
+@pytest.mark.parametrize(
+    ("windows", "variables", "shape"),
+    [
+        ("late", ["P", "w"], (2,)),
+        (["late", "late"], ["P"], (2,)),
+        (["late", "late"], ["P", "w"], (2, 2)),
+        ("late", ["P"], ()),
+    ],
+)
+def test_axes_of_a_run_are_squeezed_as_by_matplotlib(
+    windows: Any, variables: list[str], shape: tuple[int, ...]
+) -> None:
+    """Two variables of one window had the shape (2, 1), one variable a bare axes."""
+    late = dm.simulate(P, 1, {"late": dm.Window(start=0.5, rate=500)})
+    axes = late.plot(windows, variables=variables)
+    assert np.shape(axes) == shape
+    assert isinstance(axes, pyplot.Axes) == (shape == ())
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("count", "entries"), [(1, ["Ω from 15.1 to 14 rad/s, 0.2 to 0.3 s"]), (5, ["ramps of Ω"])]
+)
+def test_ramps_are_shaded_with_their_values(count: int, entries: list[str]) -> None:
+    """Nothing said where a ramp begins and ends."""
+    ramps = []
+    for i in range(1, count + 1):
+        speed = 14.0 + i % 2 - (count == 1)
+        ramps.append(dm.Ramp(parameter="Omega", to=speed, start=0.2 * i, end=0.2 * i + 0.1))
+    window = dm.Window(start=0, rate=500)
+    ramped = dm.simulate(P.replace(Omega=15.1), 1.2, {"all": window}, ramps=tuple(ramps))
+    ax = ramped.plot("all", variables=["P"])
+    assert [text for text in labels(ax.figure) if "Ω" in text] == entries
+    shades = [patch for patch in ax.patches if isinstance(patch, Rectangle)]
+    begins = [round(patch.get_x(), 6) for patch in shades]
+    ends = [round(patch.get_x() + patch.get_width(), 6) for patch in shades]
+    assert begins == [round(ramp.start, 6) for ramp in ramps]
+    assert ends == [round(ramp.end, 6) for ramp in ramps]
+    assert ax.get_xlim()[0] == 0
+    pyplot.close("all")
+
+
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     run().animate(path, frames=3)
     with Image.open(path) as film:
         assert film.n_frames == 3
+
+
+def test_a_film_takes_its_window_by_position_as_plots_do() -> None:
+    with pytest.raises(dm.ParameterError, match="window='late': was not recorded"):
+        run().animate(None, "late", frames=2)
 
 
 def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
@@ -147,6 +196,9 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     [band] = critical.plot().patches
     assert band.get_xy()[0] + band.get_width() == pytest.approx(critical.crossings[0])
     assert "μ" in pyplot.gcf().get_suptitle(), "the ratio of friction is stated"
+    sliding = dm.critical(case.replace(Omega=12), "mu_s", (0.3, 0.42), points=3, kind="sliding")
+    assert sliding.plot().get_ylabel() == "Growth rate of steady sliding (1/s)"
+    assert labels(pyplot.gcf()) == ["unstable steady sliding", "values computed"]
     curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     axes = curves.plot()
     assert labels(axes.figure) == ["cycle ends in a fold"]
@@ -163,9 +215,9 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
     plane = dm.sweep(dm.floquet, P, Omega=[10, 12, 14], N=[300, 385])
     ax = dm.plot_sweep(plane, "period", x="N")
-    np.testing.assert_allclose(ax.collections[0].get_array(), plane["period"])
+    np.testing.assert_allclose(ax.collections[0].get_array(), 1e3 * plane["period"])
     assert ax.get_ylabel() == "Speed Ω (rad/s)"
-    assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (s)"
+    assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (ms)"
     outcomes = plane.assign(
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )
@@ -222,6 +274,14 @@ def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
         ax = dm.plot_sweep(study)
         assert labels(ax.figure) == ["quiet", "separating"]
         assert [bar.get_height() for bar in ax.patches] == low + high
+
+
+def test_shares_of_undecided_starts_say_what_decides_them() -> None:
+    """Five of six starts were undecided, and nothing said to follow them for longer."""
+    found = dm.basins(P.replace(Omega=14), [0.1], 2, horizon=0.5)
+    assert found.attrs["message"] == "2 of 2 starts undecided within the horizon: raise it"
+    ax = dm.plot_sweep(found)
+    assert labels(ax.figure) == ["undecided within 0.5 s: raise horizon"]
 
 
 def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:

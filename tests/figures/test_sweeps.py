@@ -56,7 +56,7 @@ def swept(function: Callable[..., Any]) -> xr.Dataset:
 def words_of(variable: xr.DataArray) -> str:
     """What a label has to say: the long name, or the name, without what nan means."""
     name = str(variable.name)
-    words = str(variable.attrs.get("long_name", name)).split(", nan ")[0]
+    words = str(variable.attrs.get("long_name", name.replace("_", " "))).split(", nan ")[0]
     words = words.replace("disturbances of ", "")
     return KNOWN.get(name, words[0].upper() + words[1:])
 
@@ -154,8 +154,8 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         assert len(figure.axes) == 1, "no bar"
         said = {"False": "no", "True": "yes"}
         found = map(str, np.unique(study[name].values))
-        words = {said.get(word, name_of(word)) for word in found}
-        assert words <= entries <= words | {"unresolved"}
+        words = {said.get(word, name_of(word)) for word in found if word}
+        assert words <= entries <= words | {"unresolved", "no cycle found", "no value"}
         title = " ".join(legend.get_title().get_text().split())
         within = " within 3 s" if name == "outcome" else ""
         assert title == words_of(study[name]) + within
@@ -167,7 +167,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
     ("variable", "label"),
     [
         ("growth_rate", "Growth rate of the stick-slip cycle (1/s)"),
-        ("period", "Period of the stick-slip cycle (s)"),
+        ("period", "Period of the stick-slip cycle (ms)"),
     ],
 )
 def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: bool) -> None:
@@ -262,7 +262,7 @@ def test_paired_samples_are_points_over_one_of_their_columns(x: str) -> None:
     points, *gaps = ax.lines
     assert points.get_linestyle() == "None"
     np.testing.assert_array_equal(points.get_xdata(), pairs[x].values)
-    np.testing.assert_array_equal(points.get_ydata(), pairs["period"].values)
+    np.testing.assert_array_equal(points.get_ydata(), 1e3 * pairs["period"].values)
     marked = np.concatenate([line.get_xdata() for line in gaps])
     missing = pairs["period"].isnull().values
     assert missing.any()
@@ -351,4 +351,75 @@ def test_many_paired_samples_are_joined_by_no_line() -> None:
     assert dots.get_marker() == "."
     for line in (dots, *others):
         assert line.get_linestyle() == "None"
+    pyplot.close("all")
+
+
+def own_rates(case: dm.Parameters) -> dict[str, Any]:
+    """Numbers of both signs, and a zero; none at the largest speed and load."""
+    if case.Omega > 13 and case.N > 310:
+        raise dm.ParameterError("no value here")
+    rate = (case.Omega - 12.0) ** 3
+    return {"cycle_rate": rate, "good": rate > 0, "size": "large" if rate > 0 else "small"}
+
+
+def test_a_logarithmic_scale_leaves_no_cell_or_point_blank() -> None:
+    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
+    ax = dm.plot_sweep(found, "cycle_rate", log=True, labels={"bar": "My rate"})
+    assert ax.figure.axes[1].get_ylabel() == "My rate"
+    colours = ax.collections[0].to_rgba(ax.collections[0].get_array())
+    expected = found["cycle_rate"].transpose("N", "Omega").notnull()
+    np.testing.assert_array_equal(colours[..., 3] > 0, expected)
+    with pytest.raises(dm.ParameterError, match="bar"):
+        dm.plot_sweep(found.isel(N=0), "cycle_rate", labels={"bar": "My rate"})
+    line = dm.plot_sweep(found.isel(N=0), "cycle_rate", log=True)
+    assert line.get_yscale() == "symlog"
+    assert line.get_ylabel() == "Cycle rate"
+    low, high = line.get_ylim()
+    assert low < -8 < 8 < high, "all values are within the axis"
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(("name", "words"), [("good", ["no", "yes"]), ("size", ["large", "small"])])
+def test_words_and_truth_keep_their_classes_where_a_point_failed(
+    name: str, words: list[str]
+) -> None:
+    """Truth was drawn in colours from 0 to 1, and a failed point as a class without a name."""
+    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
+    ax = dm.plot_sweep(found, name)
+    assert len(ax.figure.axes) == 1
+    [legend] = ax.figure.legends
+    assert sorted(text.get_text() for text in legend.get_texts()) == sorted([*words, "failed"])
+    line = dm.plot_sweep(found.sel(N=385), name)
+    assert [text.get_text() for text in line.texts] == ["failed"]
+    assert [tick.get_text() for tick in line.get_yticklabels()] == [words[name == "size"]]
+    pyplot.close("all")
+
+
+def searched(case: dm.Parameters) -> dict[str, Any]:
+    """A critical value as `critical` returns it: at the bound of 10 rad/s for small loads."""
+    return {"value": max(10.0, case.N / 20), "at_lower_bound": case.N < 210}
+
+
+def test_values_at_the_bound_of_a_search_are_told_from_those_found() -> None:
+    """35 of 60 samples stood at 10 rad/s as if they had been found there."""
+    line = dm.plot_sweep(dm.sweep(searched, CASE, N=[180, 200, 300, 385]), "value")
+    [arrows] = [each for each in line.lines if each.get_marker() == r"$\downarrow$"]
+    assert arrows.get_xdata().tolist() == [180, 200]
+    assert arrows.get_ydata().tolist() == [10, 10]
+    [legend] = line.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["at or below the lower bound"]
+    plane = dm.plot_sweep(dm.sweep(searched, CASE, N=[180, 200, 300], Omega=SPEEDS), "value")
+    [legend] = plane.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["at or below the lower bound"]
+    none = dm.plot_sweep(dm.sweep(searched, CASE, N=[300, 385]), "value")
+    assert not none.figure.legends
+    pyplot.close("all")
+
+
+def test_a_critical_speed_at_the_lowest_of_its_scan_is_marked() -> None:
+    speeds = {"critical_speed": ("N", [10.0, 12.0], {"units": "rad s-1"})}
+    study = xr.Dataset(speeds, {"N": [300.0, 385.0], "scan_Omega": [10.0, 11.0, 12.0]})
+    ax = dm.plot_sweep(study)
+    [arrows] = [each for each in ax.lines if each.get_marker() == r"$\downarrow$"]
+    assert arrows.get_xdata().tolist() == [300]
     pyplot.close("all")

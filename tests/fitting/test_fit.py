@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -193,7 +194,25 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     fit = dm.fit(DISC, ["E"], measured)
     assert fit.freedom == 1
     assert not fit.consistent
-    assert dict(fit.summary())["consistent"].startswith("no")
+    said = dict(fit.summary())
+    assert said["consistent"] == "no: model or uncertainties are wrong"
+    assert said["intervals"] == "none: model or uncertainties are wrong"
+    assert " to " not in said["E"]
+    assert "±" not in repr(fit)
+
+
+def test_a_search_that_has_not_converged_has_no_intervals() -> None:
+    """It said "consistent yes", and gave an interval of 95 %."""
+    good = dm.fit(DISC, ["E"], {"frequency_0_0": (239.0, 0.5)})
+    assert "±" in repr(good)
+    failed = replace(good, converged=False)
+    assert not failed.consistent
+    said = dict(failed.summary())
+    for name in ("consistent", "intervals"):
+        assert said[name].endswith(": the search has not converged")
+    assert "(" not in said["E"]
+    assert "95 %" not in " ".join(map(str, said.values()))
+    assert repr(failed).endswith("; the search has not converged)")
 
 
 def test_a_failed_search_without_degrees_of_freedom_is_inconsistent() -> None:

@@ -193,3 +193,29 @@ def test_a_window_counts_back_from_where_a_run_stops():
     # a run that does not separate before its end is as without the option
     quiet = simulate(P, 0.03, {"w": Window(last=0.01, rate=1e3)}, stop_at="first_separation")
     assert len(quiet.samples["w"]["time"]) == 11
+
+
+@pytest.mark.parametrize(
+    ("name", "rule"),
+    [
+        (1, "must be a text"),
+        ("", "must not be empty"),
+        ("a", "must not be that of a variable or group of results"),
+        ("a/b", "must have no /"),
+        (" late", "must begin with a letter, a digit or _"),
+        ("late ", "must not end in a space"),
+        ("x" * 61, "must have at most 60 characters"),
+        ("x\n", "must have printable characters only"),
+    ],
+)
+def test_the_rule_that_the_name_of_a_window_breaks_is_told_alone(name: object, rule: str) -> None:
+    """All rules were told of any name, so that nobody knew which of them `a` breaks."""
+    with pytest.raises(ParameterError) as caught:
+        resolved_windows({name: Window(rate=10)}, 0.0, 1.0)
+    [fault] = caught.value.faults
+    assert fault.rule == f"the name of a window {rule}"
+
+
+def test_names_that_groups_of_files_can_have_are_taken() -> None:
+    names = ["late", "_1", "2 s later", "\u00e4", "x" * 60]
+    assert [*resolved_windows(dict.fromkeys(names, Window(rate=10)), 0.0, 1.0)] == names

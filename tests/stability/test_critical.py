@@ -6,11 +6,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves, sweep
 from disc_model.data.variables import STABLE_CYCLES
+from disc_model.display import Bar
 from disc_model.stability import critical
 from disc_model.stability.continuation import spectrum
+from disc_model.stability.sliding import SlidingStatus, steady_sliding
 
 
 @pytest.mark.compiled
@@ -98,7 +101,7 @@ def test_crossings_are_the_upper_ends_of_their_intervals(monkeypatch: pytest.Mon
     [
         ((-1.0, 0.2), "already unstable at the lower bound, c = 0 N s/m"),
         ((0.2, 0.7), ""),
-        ((0.41, 0.49), "stable at all 11 values computed"),
+        ((0.41, 0.49), "motion near the static start is stable at all 11 values computed; steady"),
     ],
 )
 def test_a_value_that_is_no_border_is_said_to_be_none(
@@ -106,9 +109,97 @@ def test_a_value_that_is_no_border_is_said_to_be_none(
 ) -> None:
     """The lower bound was given as the critical value in silence, 15 times of 40 in a sweep."""
     found = scan_of([stretch], monkeypatch, points=11)
-    assert found.message == message
+    assert found.message.startswith(message)
+    assert bool(found.message) == bool(message)
+    assert found.at_lower_bound == ("lower bound" in message)
     assert message in repr(found)
     assert message in found._repr_html_()
+
+
+BLOCK = Parameters(
+    n_diameters=-1,
+    m=0.5,
+    k=0,
+    k_p=7e3,
+    c_p=6,
+    N=10,
+    mu_s=0.6,
+    mu_k=0.2,
+    friction_decay=10,
+    r_0=0.1,
+    Omega=2,
+)
+
+
+def test_sliding_of_a_block_is_stable_above_the_slope_of_friction() -> None:
+    """mu falls by (mu_s - mu_k) decay / (1 + decay v)^2 per m/s, here 4/9 at 0.2 m/s, so that 10 N
+    need a damper of 40/9 N s/m."""
+    found = critical.critical(BLOCK, "c_p", (0.1, 6.0), points=11, kind="sliding")
+    assert found.kind == "sliding"
+    # bisected to a millionth of the range of 5.9
+    assert found.crossings.tolist() == pytest.approx([40 / 9], abs=6e-6)
+    assert found.unstable_above.tolist() == [False]
+    assert found.message == "already unstable at the lower bound, c_p = 0.1 N s/m"
+    assert "N s/m, 1 crossing" in repr(found)
+    assert "steady sliding" in found._repr_html_()
+
+
+def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> None:
+    """`critical` followed the cycle in silence, stable at all speeds, while sliding grew."""
+    case = Parameters(
+        N=5000,
+        Omega=60,
+        E=210e9,
+        rho=7850,
+        nu=0.3,
+        h=6e-3,
+        m=0.3,
+        k=5e5,
+        k_p=2e5,
+        c_p=20,
+        mu_s=0.45,
+        mu_k=0.35,
+        damping_ratio=5e-4,
+        normalization="orthonormal",
+        friction_offset="surface",
+        contact_arc=0.4,
+        n_diameters=6,
+    )
+
+    def rate(speed: float) -> float:
+        return steady_sliding(case.replace(Omega=speed)).growth_rate
+
+    found = critical.critical(case, "Omega", (20, 80), points=7, precision=1e-4, kind="sliding")
+    assert found.value == pytest.approx(brentq(rate, 20, 80), abs=1e-4)
+    assert rate(found.value) > 0 > rate(found.value - 1e-4)
+    assert not found.at_lower_bound
+    assert found.message == ""
+
+
+def test_a_peak_of_growth_between_two_values_is_looked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Modes that meet may grow for a stretch that is narrower than the steps."""
+
+    def sliding(case: Parameters) -> SimpleNamespace:
+        rate = 0.01 - (case.c - 0.4321) ** 2
+        growing = np.zeros(int(rate > 0))
+        return SimpleNamespace(status=SlidingStatus.OK, growth_rate=rate, growing=growing)
+
+    monkeypatch.setattr(critical, "steady_sliding", sliding)
+    case = Parameters(N=1, Omega=1)
+    found = critical.critical(case, "c", (0.0, 1.2), points=5, kind="sliding")
+    # steps of 0.3: 0.3 and 0.6 lie beyond the stretch from 0.3321 to 0.5321
+    assert found.crossings.tolist() == pytest.approx([0.3321, 0.5321], abs=2e-6)
+
+
+def test_a_bar_counts_values_between_the_points_too(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shares = iter([[0.5]])
+    monkeypatch.setattr(critical, "_doubtful_shares", lambda low, high: next(shares, []))
+    scan_of([(0.5, 0.7)], monkeypatch, points=2, progress=True)
+    assert "3/3" in capsys.readouterr().err
+    with pytest.raises(ParameterError, match=r"kind='slide': must be one of stick_slip, sliding; "):
+        critical.critical(BLOCK, "c", (0, 1), kind="slide", progress=3)
 
 
 @pytest.mark.compiled
@@ -121,6 +212,7 @@ def test_a_sweep_keeps_what_is_said_of_a_critical_value() -> None:
     expected = "already unstable at the lower bound, Omega = 15.2 rad/s"
     assert said[0] == expected
     assert found["value"][0] == 15.2
+    assert found["at_lower_bound"].values.tolist() == [True, False]
 
 
 @pytest.mark.compiled
@@ -352,5 +444,5 @@ def test_no_value_is_computed_very_close_to_another(
     monkeypatch.setattr(critical, "find_cycle", lambda p, tol: found)
     for value in (0.0, 1.0):
         scan.is_stable(value)
-    scan.refine(0.3)
-    assert len(scan.cycles) == computed
+    scan.refine(0.3, Bar(0))
+    assert len(scan.motions) == computed

@@ -55,6 +55,57 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
         assert_named(faults, words)
 
 
+MANY = """
+study: many
+quantity: floquet
+base: {N: -5, mu_k: abc, normalisation: orthonormal, E: 150 kg}
+axes:
+  Omga: {start: 10, stop: 20, count: 5}
+  normalization: [as_publised, orthonormal]
+  mu_s: [0.4, 0.5]
+options: {tool: 1.0e-12}
+figures:
+  growth: {kind: curve, variable: growth_rat, x: Omega, by: mu_s, at: {normalization: orthonormal}}
+  map: {kind: heat_mp, variable: period, x: Omega, y: mu_s}
+  last: {kind: heat_map, variable: period, x: mu_z, y: Omega, foo: 1}
+"""
+ALL_OF_THEM = (
+    "base.N -5",
+    "base.mu_k 'abc'",
+    "base.normalisation normalization",
+    "base.E '150 kg'",
+    "axes.Omga Omega",
+    "axes.normalization 'as_publised'",
+    "options.tool tol",
+    "figures.growth.variable 'growth_rat' growth_rate",
+    "figures.map.kind 'heat_mp' heat_map",
+    "figures.last.foo",
+    "figures.last.x 'mu_z' mu_s",
+)
+
+
+def test_faults_of_all_kinds_come_in_one_round() -> None:
+    """They came in four: of the second, the first ones had to be mended to see them."""
+    faults = faults_of(parse_study, yaml.safe_load(MANY))
+    for words in ALL_OF_THEM:
+        assert_named(faults, words)
+    assert len(faults) == len(ALL_OF_THEM), "and none that only what was left out makes"
+
+
+@pytest.mark.parametrize(
+    ("change", "count"),
+    [
+        ({"base": {"N": -1}}, 1),  # not also required
+        ({"axes": {"Omega": [10, 20], "mus": [0.4, 0.5]}}, 1),
+        ({"base": {"N": 200, "mu_k": -1}, "quantity": "outcom"}, 2),
+        ({"figures": {"f": {"kind": "heat", "x": "k"}}}, 1),
+    ],
+)
+def test_a_fault_makes_no_other_ones(change: dict[str, Any], count: int) -> None:
+    faults = faults_of(parse_study, GRID | change)
+    assert len(faults) == count, faults
+
+
 @pytest.mark.parametrize(("text", "words"), FAULTS["texts"])
 def test_text_that_is_no_study_is_located(text: str, words: str, tmp_path: Path) -> None:
     path = tmp_path / "text.yaml"

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import disc_model as dm
 from disc_model.data.variables import flag_names
@@ -169,13 +170,19 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     function: Any, arguments: Any, options: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     handed: list[Any] = []
-    monkeypatch.setattr(functions, "_quantity", lambda *parts, **_: handed.extend(parts))
+    found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": ""})
+
+    def take(*parts: Any, progress: bool = False) -> xr.Dataset:
+        handed.extend(parts)
+        return found
+
+    monkeypatch.setattr(functions, "_quantity", take)
     start = {"start": {"u": 1e-3}} if function in STARTED else {}
     function(P, tol=1e-9, **arguments, **start)
-    name, case, found, *starts = handed
+    name, case, chosen, *starts = handed
     assert name == function.__name__
     assert case is P
-    assert found == {**options, "tol": 1e-9}
+    assert chosen == {**options, "tol": 1e-9}
     assert starts == [{"u": 1e-3}] * len(start)
 
 
@@ -212,6 +219,12 @@ def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str
     assert re.search(r"basins .*4/4", capsys.readouterr().err)
     with pytest.raises(dm.ParameterError, match="progress='yes'"):
         dm.basins(P, progress="yes")  # type: ignore[arg-type]
+
+
+@pytest.mark.compiled
+def test_a_critical_speed_counts_the_speeds_of_its_scan(capsys: pytest.CaptureFixture[str]) -> None:
+    dm.critical_speed(P, (14, 16), 0.5, progress=True)
+    assert re.search(r"critical_speed .*3/3", capsys.readouterr().err)
 
 
 SCANNING = pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])

@@ -57,6 +57,8 @@ def test_errors_of_the_user_are_said_in_a_line(shown: RunMessages) -> None:
         "LockException:\nError: Directory cannot be locked.": LOCKED,
         of_input: "error: rerun-triggers=mtime: must ...",
         'WorkflowError in file "/a b/common.smk", line 12:\ns.yaml: 1 fault': "error: s.yaml: 1 fault",
+        'WorkflowError:\nstudy: taken\n  File "/a b/Snakefile", line 49, in <module>\n'
+        '  File "/a b/functions.smk", line 66, in check_owner': "error: study: taken",
         "WorkflowError:\nAt least one job failed.": "error: At least one job failed.",
         "OSError: else": "OSError: else",
     }

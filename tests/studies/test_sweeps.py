@@ -259,6 +259,10 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
         ({"N": ["1 s"]}, r"^zip.N='1 s': must be a number in N"),
         ({"N": []}, r"^zip.N=\[\]: must have one value or more"),
         ({"Omega": [1, 2]}, r"^zip.Omega: must not be an axis as well"),
+        ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),
+        ({"contct": ["bilateral"], "N": [1]}, r"^zip.contct: is no number .*mean contact\?"),
+        ({"sample": ["A"], "N": [1, 2]}, r"^zip={'N': 2, 'sample': 1}: must have columns of one"),
+        ({"sample": ["A", "B"]}, r"^zip=.*: must have columns of values"),
         ({}, r"^zip={}: must have columns"),
         ([1, 2], r"^zip=\[1, 2\]: must have columns"),
     ],
@@ -266,6 +270,60 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
 def test_pairs_that_do_not_fit_are_refused(table: Any, message: str) -> None:
     with pytest.raises(dm.ParameterError, match=message):
         sweep(products, P, zip=table, Omega=[10.0])
+
+
+@pytest.mark.parametrize("as_index", [False, True])
+def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path) -> None:
+    """A column of names was refused, as it is no number of the case."""
+    names = ["A", "B", None]
+    table = pd.DataFrame({"sample": names, **PAIRS, "new": [True, False, True]})
+    if as_index:
+        table = table[:2].set_index("sample")
+    found = sweep(products, P, zip=table)
+    assert found["sample"].values.tolist() == ["A", "B", ""][: len(table)]
+    assert found["sample"].dims == found["new"].dims == ("N_mu_k",)
+    assert found["new"].values.tolist() == table["new"].tolist()
+    expected = sweep(products, P, zip={name: table[name] for name in PAIRS})
+    xr.testing.assert_identical(found.drop_vars(["sample", "new"]), expected)
+    dm.save(found, tmp_path / "found.nc")
+    xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
+
+
+def test_a_label_takes_the_name_of_an_argument_and_of_nothing_else() -> None:
+    """`critical` returns its argument `name`, which xarray did not join with a column of names."""
+    table = {"name": ["A", "B"], "mu_s": [0.4, 0.45]}
+    options = {"bounds": (14, 15), "points": 2}
+    found = sweep(partial(dm.critical, name="Omega"), P, zip=table, **options)
+    assert found["name"].values.tolist() == ["A", "B"]
+    with pytest.raises(dm.ParameterError, match=r"^clash: returned name, which is a coordinate"):
+        sweep(clash, P, zip=table)
+
+
+def clash(case: dm.Parameters) -> dict[str, Any]:
+    return {"name": case.N}
+
+
+@pytest.mark.parametrize("nothing", [None, {}, {"plane": np.zeros((2, 2))}, [P]])
+def test_a_function_that_returns_nothing_is_named(nothing: Any) -> None:
+    """The dataset had no variables, and the status "ok"."""
+
+    def margins(case: dm.Parameters) -> Any:
+        return nothing if case.N < 2 else 1.0
+
+    with pytest.raises(dm.ParameterError, match=r"^margins: returned .*, and must return a number"):
+        sweep(margins, P, N=[1, 3])
+    later = sweep(margins, P, N=[3, 1])
+    assert later["status"].values.tolist() == ["ok", "failed"]
+    assert str(later["message"].values[1]).startswith("ParameterError: margins: returned ")
+
+
+def test_truth_stays_to_be_selected_where_a_sample_failed() -> None:
+    whole = sweep(lambda case: {"good": case.N > 2}, P, N=[1, 3])
+    assert whole["good"].dtype == bool
+    part = sweep(lambda case: {"good": case.N > 2}, P, zip={"N": [1, 3, 3], "mu_k": [0.2, 0.2, 9]})
+    np.testing.assert_array_equal(part["good"], [0, 1, np.nan])
+    assert part["good"].attrs["comment"] == "1 for True, 0 for False, nan where there is neither"
+    assert part["N"][part["good"] == 1].values.tolist() == [3.0]
 
 
 # ---- Who makes the calls

@@ -49,7 +49,8 @@ def plot(
     Returns
     -------
     Axes, or array of Axes
-        Of shape (variables, columns) if there are several.
+        Of shape (variables, columns); of one dimension if there is one window or one variable, and axes alone if there
+        is one of both, as by `pyplot.subplots`.
 
     Raises
     ------
@@ -170,8 +171,8 @@ def plot_poincare(
 def animate(
     self: Result,
     path: str | Path | None = None,
-    *,
     window: str | None = None,
+    *,
     frames: int = 60,
     fps: int = 12,
 ) -> FuncAnimation:

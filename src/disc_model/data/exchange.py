@@ -109,7 +109,7 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     """
     file = regular_file(path)
     readable = file.suffix not in TEXTS
-    require((readable, "path", path, "must be a netCDF or .mat file; tables are for pandas"))
+    require((readable, "path", path, "must be a .nc or .mat file; tables are for pandas"))
     stored = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
     groups = {path: _with_discs(group) for path, group in stored.items()}
     if len(groups) == 1:

@@ -190,6 +190,10 @@ def attributes(name: str) -> dict[str, Any]:
     return variable.attributes
 
 
+TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
+"""Attributes of numbers that stand for True and False, since some are missing."""
+
+
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
     they are."""

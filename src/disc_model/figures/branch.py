@@ -20,8 +20,6 @@ from disc_model.figures.words import label_of
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch, SpecialPoint
 
-IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
-"""Variables that are drawn in thousandths of their SI units, with these."""
 WIDE = 30.0  # largest over least range from which the axis is logarithmic
 SPECIAL_MARKS = {
     "fold": ("s", SEPARATED, "fold"),
@@ -86,13 +84,7 @@ def _axis_upward(branch: Branch, y: str) -> tuple[str, float]:
         return axis_of(branch.parameters[1])
     known = isinstance(y, str) and y in branch.variables
     require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
-    attributes = branch.variables[y].attributes
-    factor = 1.0
-    if y in IN_THOUSANDTHS:
-        attributes["units"] = IN_THOUSANDTHS[y]
-        factor = 1e3
-    label, _ = label_of(xr.DataArray(name=y, attrs=attributes))
-    return label, factor
+    return label_of(xr.DataArray(name=y, attrs=branch.variables[y].attributes))
 
 
 def _upward(of: Branch | SpecialPoint, branch: Branch, y: str) -> np.ndarray:

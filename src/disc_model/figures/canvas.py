@@ -32,8 +32,8 @@ class Wishes:
 
     ax : axes to draw on, one or several; None for a new figure
     legend : whether there is a legend; or options of `Axes.legend`, such as its place
-    labels : other words for labels of axes, which are called "x" and "y", and for entries of the
-        legend, which are called as they are without
+    labels : other words for labels of axes, which are called "x" and "y", of a bar of colours,
+        called "bar", and for entries of the legend, which are called as they are without
     title : another title; "" for none, None for the usual one
     """
 
@@ -75,6 +75,7 @@ class Page:
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
     joins : whether the entries of a legend that the axes have are kept
+    bars : axes of bars of colours
     """
 
     axes: list[Axes]
@@ -84,6 +85,7 @@ class Page:
     heading: str = ""
     note: str = ""
     joins: bool = False
+    bars: Sequence[Axes] = field(default_factory=list)
 
     @property
     def ax(self) -> Axes:
@@ -196,9 +198,13 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
     """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
     that a label replaces."""
     replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
+    if page.bars:
+        replaced.append("bar")
     for name in labels:
         rule = f"must replace x, y or an entry of the legend{suggestion(name, replaced)}"
         require((name in replaced, "labels", name, rule))
+    for bar in page.bars:
+        bar.set_ylabel(labels.get("bar", bar.get_ylabel()))
     for ax in page.axes:
         if ax.get_xlabel() and "x" in labels:
             ax.set_xlabel(labels["x"])

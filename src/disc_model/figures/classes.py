@@ -42,6 +42,8 @@ UNRESOLVED = Look("unresolved", "none", 8 * "/")
 fiftieth of a panel."""
 STABLE = Look("stable", "none", 3 * ".")
 """Of growth rates below zero, since a grey print does not show the sign of a diverging scale."""
+AT_BOUND = Look("at or below the lower bound", "none", 4 * "-")
+"""Of a critical value that is the lower bound of its search."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
 

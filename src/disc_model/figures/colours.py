@@ -7,21 +7,31 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.colors import Colormap, ListedColormap, LogNorm, Normalize, from_levels_and_colors
+from matplotlib.colors import (
+    AsinhNorm,
+    Colormap,
+    ListedColormap,
+    LogNorm,
+    Normalize,
+    from_levels_and_colors,
+)
 
 from disc_model.figures.growth import is_growth
 
 FEW = 12  # counts below which each has a colour of its own
+SPAN = 1e3  # of a logarithmic scale on each side of zero, from where it is linear to its end
+MOST_TICKS = 3  # on each side of zero
 
 
 @dataclass(frozen=True)
 class Scale:
-    """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar if each number
-    has a colour of its own."""
+    """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar: words if each
+    number has a colour of its own, or places on a logarithmic scale through zero."""
 
     cmap: Colormap
     norm: Normalize
     ticks: Sequence[str] = ()
+    places: Sequence[float] = ()
 
 
 def colours_of(numbers: np.ndarray, array: xr.DataArray, log: bool) -> Scale:
@@ -50,11 +60,57 @@ def counted(count: int) -> Scale:
 
 
 def _logarithmic(values: np.ndarray, growth: bool) -> Scale:
-    """Colours of positive numbers; growth rates have the red half of the scale of their maps."""
-    above = values[values > 0]
-    low, high = (above.min(), above.max()) if above.size else (1.0, 10.0)
+    """Colours of numbers on a logarithmic scale, on both sides of zero if not all are positive;
+    positive growth rates have the red half of the scale of their maps."""
+    if needs_zero(values):
+        return _through_zero(values)
+    low, high = (values.min(), values.max()) if values.size else (1.0, 10.0)
     cmap: Any = ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
     return Scale(cmap, LogNorm(low, high if high > low else 10 * low))
+
+
+def needs_zero(values: np.ndarray) -> bool:
+    """Whether a logarithmic scale of numbers has to pass through zero."""
+    return bool((values <= 0).any())
+
+
+def linear_to(values: np.ndarray) -> float:
+    """The size up to which a logarithmic scale through zero is linear: the least of the numbers
+    but zero, at most `SPAN` below the greatest."""
+    sizes = np.abs(values[np.isfinite(values) & (values != 0)])
+    if not sizes.size:
+        return 1.0
+    return float(max(sizes.min(), sizes.max() / SPAN))
+
+
+def _through_zero(values: np.ndarray) -> Scale:
+    """Colours on a scale that is logarithmic on both sides of zero, around zero if there are
+    numbers on both."""
+    linear = linear_to(values)
+    low = float(values.min())
+    high = float(values.max())
+    cmap: Any = cm.batlow
+    if low < 0 < high:
+        high = max(-low, high)
+        low = -high
+        cmap = cm.vik
+    elif low == high == 0:
+        high = linear
+    norm = AsinhNorm(linear_width=linear, vmin=low, vmax=high)
+    return Scale(cmap, norm, places=_decades_through_zero(linear, low, high))
+
+
+def _decades_through_zero(linear: float, low: float, high: float) -> list[float]:
+    """Ticks between two numbers: zero and powers of ten beyond where the scale is linear, or the
+    numbers if there are less than two of these."""
+    first = np.ceil(np.log10(linear))
+    last = np.floor(np.log10(max(-low, high)))
+    every = max(1.0, np.ceil((last - first + 1) / MOST_TICKS))
+    sizes = 10.0 ** np.arange(last, first - 0.5, -every)
+    ticks = [tick for tick in sorted([*(-sizes), 0.0, *sizes]) if low <= tick <= high]
+    if len(ticks) < 2:
+        return sorted({low, *ticks, high})
+    return ticks
 
 
 def within_a_decade(norm: Normalize) -> bool:

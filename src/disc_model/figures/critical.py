@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,30 @@ from disc_model.figures.types import Axes
 if TYPE_CHECKING:
     from disc_model.stability.critical import Critical
 
+
+class Words(NamedTuple):
+    """What a picture says of a kind of motion: on its axis, and in its legend."""
+
+    rate: str
+    shaded: str
+    computed: str
+    missing: str
+
+
+WORDS = {
+    "stick_slip": Words(
+        "Growth rate of the cycle (1/s)",
+        "unstable near the static start",
+        "cycles computed",
+        "no cycle found",
+    ),
+    "sliding": Words(
+        "Growth rate of steady sliding (1/s)",
+        "unstable steady sliding",
+        "values computed",
+        "no steady sliding",
+    ),
+}
 TOP = 0.96  # height of the marks of values without a cycle, as a share of the panel
 
 
@@ -27,15 +51,16 @@ def plot_critical(
     labels: Any = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw the growth rate of the cycle over the parameter; shaded: the motion near the start is
-    unstable. Returns the axes."""
+    """Draw the growth rate of the motion over the parameter; shaded: it is unstable. Returns the
+    axes."""
+    words = WORDS[critical.kind]
     label, factor = axis_of(critical.name)
     unit = presentation_of(critical.name).unit
     x = critical.values * factor
     case = stated(critical.parameters, critical.name)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
-        entry = "unstable near the static start"
+        entry = words.shaded
         for ends in critical.unstable * factor:
             axes.axvspan(
                 *ends, zorder=0, label=entry, color=SEPARATED, alpha=0.3, linewidth=wide(0.8)
@@ -46,7 +71,7 @@ def plot_critical(
             critical.growth_rate,
             ".-",
             color=BLACK,
-            label="cycles computed",
+            label=words.computed,
             markersize=mark(3),
             linewidth=wide(0.7),
         )
@@ -58,17 +83,17 @@ def plot_critical(
                 np.full(gone.size, TOP),
                 "x",
                 color=BLACK,
-                label="no cycle found",
+                label=words.missing,
                 markersize=mark(3),
                 markeredgewidth=wide(0.6),
                 transform=axes.get_xaxis_transform(),
             )
-        if critical.value > critical.values[0]:
-            page.note = f"unstable from {critical.value * factor:.5g} {unit}".strip()
-        elif critical.value == critical.values[0]:
+        if critical.at_lower_bound:
             page.note = "already unstable at the lower bound"
+        elif not np.isnan(critical.value):
+            page.note = f"unstable from {critical.value * factor:.5g} {unit}".strip()
         axes.set_xlabel(label)
-        axes.set_ylabel("Growth rate of the cycle (1/s)")
+        axes.set_ylabel(words.rate)
         axes.set_xlim((x[0], x[-1]))
         page.explain(axes.get_legend_handles_labels()[0])
     return page.ax

@@ -6,8 +6,10 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.transforms import ScaledTranslation
 
-from disc_model.figures.classes import name_of
+from disc_model.figures.classes import AT_BOUND, name_of
+from disc_model.figures.colours import linear_to, needs_zero
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -25,6 +27,7 @@ from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import (
     Part,
+    at_lower_bound,
     broken,
     gaps,
     parts_along,
@@ -36,6 +39,7 @@ from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
+    WORDS,
     as_numbers,
     label_in,
     measured,
@@ -56,6 +60,8 @@ DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
+ARROW = 7.0  # points, size of an arrow below a point, and its distance
+ROOM = 0.12  # share of the panel beside its values that has room for them
 ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
 ROW = 0.05  # and the distance of two rows
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
@@ -107,7 +113,8 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        if names and (in_legend or not name_ends(ax)):
+        marked = AT_BOUND.label in names
+        if names and (in_legend or marked or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
@@ -141,7 +148,12 @@ def draw_lines(
     array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     across = measured(array[x])
-    rates = variable == RATE and not log
+    words = array[x].dtype.kind in "UO"
+    if words:
+        across = across._replace(values=_named_words(array[x]))
+        joined = False
+    signed = log and needs_zero(array.values)
+    rates = variable == RATE and (signed or not log)
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
@@ -161,18 +173,45 @@ def draw_lines(
             look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line), alone=alone)
         ax.plot(*_pieces(across.values, heights, jumps), **look)
 
+    bound = at_lower_bound(study, variable)
+    if bound is not None and bound.any():
+        _point_down(ax, across.values, array, bound, by, marks)
+
     # scales and labels
-    if log:
-        ax.set_yscale("log")
-        plain_decades(ax.yaxis)
     if rates:
         scale_rates(ax)
-    ax.set_xscale(scale(array[x]))
+    elif signed:
+        ax.set_yscale("symlog", linthresh=linear_to(array.values), subs=range(2, 10))
+        ax.yaxis.set_major_formatter("{x:g}")
+        if (array > 0).any():
+            ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+    elif log:
+        ax.set_yscale("log")
+        plain_decades(ax.yaxis)
+    if words:
+        _turn_words(ax, across.values)
+    else:
+        ax.set_xscale(scale(array[x]))
     ax.set_xlabel(across.label)
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)
     ax.margins(0.03)
+    if bound is not None and bound.any():
+        ax.margins(y=ROOM)
     _mark_gaps(ax, study, array, x, marks)
+
+
+def _named_words(coordinate: xr.DataArray) -> np.ndarray:
+    """The names of words along a dimension."""
+    return np.array([WORDS.get(str(word), str(word)) for word in coordinate.values])
+
+
+def _turn_words(ax: Axes, words: np.ndarray) -> None:
+    """Turn words along the horizontal axis if they have no room beside each other."""
+    page: Any = ax.get_figure(root=True)
+    room = page.get_figwidth() * ax.get_position().width
+    if CHARACTER * sum(map(len, words)) > room:
+        ax.tick_params(axis="x", labelrotation=90)
 
 
 def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
@@ -241,6 +280,39 @@ def _look() -> dict[str, Any]:
     }
 
 
+def _point_down(
+    ax: Axes,
+    along: np.ndarray,
+    array: xr.DataArray,
+    bound: xr.DataArray,
+    by: str | None,
+    marks: Mapping[str, str],
+) -> None:
+    """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
+    page: Any = ax.get_figure(root=True)
+    below = ScaledTranslation(0, -large(ARROW) / 72, page.dpi_scale_trans)
+    label = AT_BOUND.label
+    parts = parts_along(array, by)
+    masks = parts_along(bound, by)
+    for colour, part, mask in zip(_colours(parts, marks), parts, masks, strict=True):
+        here = mask.data.values
+        if not here.any():
+            continue
+        ax.plot(
+            along[here],
+            part.data.values[here],
+            linestyle="",
+            marker=r"$\downarrow$",
+            color=colour,
+            label=label,
+            markersize=mark(ARROW),
+            markeredgewidth=0,
+            transform=ax.transData + below,
+            clip_on=False,
+        )
+        label = "_nolegend_"
+
+
 def _mark_gaps(
     ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
 ) -> None:
@@ -248,6 +320,8 @@ def _mark_gaps(
     named on the left of its rows."""
     by = remaining(array, [x])
     across = measured(array[x]).values
+    if array[x].dtype.kind in "UO":
+        across = _named_words(array[x])
     top = ABOVE
     for name, gone in gaps(study, array).items():
         first = top

@@ -6,17 +6,18 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import EXCLUDED
+from disc_model.data.variables import EXCLUDED, TRUTH
 from disc_model.figures.cells import (
     MARKED,
     class_cells,
     edges_of,
     entries,
+    lay_over,
     looks_in,
     paint,
     scale_of,
 )
-from disc_model.figures.classes import LOOKS, UNRESOLVED
+from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
 from disc_model.figures.colours import colours_of, within_a_decade
 from disc_model.figures.drawing import COLUMN, letter, panels, set_label
 from disc_model.figures.growth import growth_panels, is_growth
@@ -24,6 +25,7 @@ from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
     Part,
+    at_lower_bound,
     classes_of_gaps,
     has_values,
     parts_along,
@@ -94,7 +96,7 @@ def draw_maps(
         handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
         has_bar = False
     else:
-        if is_growth(variable) and not log:
+        if is_growth(variable) and not (log and _all_positive(planes, variable)):
             handles = growth_panels(figure, axes, planes, variable)
         else:
             handles = number_panels(figure, axes, planes, variable, log)
@@ -109,15 +111,25 @@ def draw_maps(
     return Key(handles, title)
 
 
+def _all_positive(planes: Sequence[xr.Dataset], variable: str) -> bool:
+    """Whether there are no numbers but positive ones."""
+    return all(not (plane[variable] <= 0).any() for plane in planes)
+
+
 def as_classes(array: xr.DataArray) -> xr.DataArray:
-    """The variable, with the words "no" and "yes" for False and True."""
-    if array.dtype.kind != "b":
+    """The variable, with the words "no" and "yes" for False and True, and "" where there is
+    neither."""
+    of_truth = array.attrs.get("comment") == TRUTH["comment"]
+    if array.dtype.kind != "b" and not of_truth:
         return array
-    return array.copy(data=np.where(array.values, "yes", "no"))
+    words = np.where(array.values == 1, "yes", "no")
+    return array.copy(data=np.where(array.isnull(), "", words))
 
 
 def scale(coordinate: xr.DataArray) -> str:
-    """Scale of an axis, as in maps of regions, but linear from 0 on."""
+    """Scale of an axis, as in maps of regions, but linear from 0 on and along words."""
+    if coordinate.dtype.kind in "UO":
+        return "linear"
     known = scale_of(str(coordinate.name), coordinate.values)
     return "linear" if known == "symlog" else known
 
@@ -127,10 +139,16 @@ def class_panels(
 ) -> list[Artist]:
     """Draw a flag in the colours and patterns of its classes, but what a study's rule leaves out;
     returns entries of a legend."""
+    shown = []
+    for panel, status in zip(panels, conditions, strict=True):
+        shown.append(shown_words(panel, status))
     looks = {**looks_in(panels[0]), EXCLUDED: LOOKS[EXCLUDED]}
+    if panels[0].dtype.kind in "UO":
+        looks = {**looks_in(shown[0]), **looks}
+        looks.pop("", None)
     used: set[str] = set()
-    for ax, panel, status in zip(axes, panels, conditions, strict=True):
-        used |= class_cells(ax, shown_words(panel, status), looks)
+    for ax, panel in zip(axes, shown, strict=True):
+        used |= class_cells(ax, panel, looks)
     return entries(used, {**looks, UNRESOLVED.label: UNRESOLVED})
 
 
@@ -151,13 +169,21 @@ def number_panels(
         missing = classes_of_gaps(plane, array)
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
+        bound = at_lower_bound(plane, variable)
+        if bound is not None and bound.any():
+            cells = bound.transpose(*array.dims).values
+            lay_over(ax, edges, cells, AT_BOUND, mesh.to_rgba(values))
+            used.add(AT_BOUND.label)
 
     unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
-    looks = {**MARKED, NO_VALUE: unvalued}
+    looks = {**MARKED, NO_VALUE: unvalued, AT_BOUND.label: AT_BOUND}
     if not has_values(planes, variable):
         return entries(used, looks)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
-    if colours.ticks:
+    if colours.places:
+        bar.set_ticks(colours.places, labels=[f"{place:g}" for place in colours.places])
+        bar.minorticks_off()
+    elif colours.ticks:
         bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
         bar.minorticks_off()
     elif log and within_a_decade(colours.norm):

@@ -9,13 +9,13 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data import dataset
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import PHASES, SHOWN
 from disc_model.errors import require
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, GREY, PAGE, PHASE_COLOURS, letters, panels
+from disc_model.figures.drawing import COLUMN, GREY, PAGE, PHASE_COLOURS, letters, panels, wide
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import show, spans_in, stated, window_of
+from disc_model.figures.runs import Course, ramps_of, show, spans_in, stated, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
 MOST_SHADED = 60
@@ -25,6 +25,10 @@ SHADES: dict[str, dict[str, Any]] = {
     "separation": {"color": PHASE_COLOURS["separation"], "alpha": 0.5},
 }
 """Behind a history, told apart by darkness in grey print; slip is left white."""
+RAMP: dict[str, Any] = {"facecolor": GREY, "alpha": 0.18, "linewidth": 0, "zorder": -1}
+"""Behind a history, while a ramp goes on."""
+MOST_RAMPS = 4
+"""Largest number of ramps with an entry for each in the legend."""
 
 
 def draw(plot: History, case: xr.DataTree) -> Figure:
@@ -54,7 +58,8 @@ def plot_run(
     labels: Any = None,
     title: str | None = None,
 ) -> Any:
-    """Draw variables of a run, a row each, in windows, a column each; returns the axes."""
+    """Draw variables of a run, a row each, in windows, a column each; returns the axes, squeezed
+    as by `pyplot.subplots`."""
     several = isinstance(variables, list | tuple) and len(variables) > 0
     rule = "must be a list of one or more"
     require((several, "variables", variables, rule), (len(windows) > 0, "windows", windows, rule))
@@ -76,15 +81,44 @@ def plot_run(
         sharex="col",
         sharey="row" if columns > 1 else False,
     ) as page:
+        entries: dict[str, Artist] = {}
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
-            page.explain(handles or page.handles)
+            handles += _draw_ramps(column, case)
+            entries |= {str(handle.get_label()): handle for handle in handles}
+        page.explain([*entries.values()])
         if page.own:
             page.figure.align_ylabels()
         else:
             _share_heights(grid)
-    return grid if rows * columns > 1 else grid[0, 0]
+    return grid.squeeze()[()]
+
+
+def _draw_ramps(axes: Sequence[Axes], case: xr.DataTree) -> list[Artist]:
+    """Shade the time of each ramp that is seen, between lines where it begins and ends; returns
+    entries of a legend, which state its values, or one for many ramps."""
+    low, high = axes[0].get_xlim()
+    seen = [ramp for ramp in ramps_of(case) if ramp.start < high and ramp.end > low]
+    for ramp in seen:
+        for ax in axes:
+            ax.axvspan(ramp.start, ramp.end, **RAMP)
+            for time in (ramp.start, ramp.end):
+                ax.axvline(time, color=GREY, linewidth=wide(0.6), linestyle=":")
+    for ax in axes:
+        ax.set_xlim(low, high)
+    if len(seen) > MOST_RAMPS:
+        symbols = dict.fromkeys(SHOWN[ramp.parameter].symbol for ramp in seen)
+        return [Patch(label=f"ramps of {' and '.join(symbols)}", **RAMP)]
+    return [Patch(label=_ramp_text(ramp), **RAMP) for ramp in seen]
+
+
+def _ramp_text(ramp: Course) -> str:
+    """What a legend says of a ramp."""
+    shown = SHOWN[ramp.parameter]
+    ends = [f"{shown.factor * value:.4g}" for value in (ramp.before, ramp.after)]
+    times = f"{ramp.start:g} to {ramp.end:g} s"
+    return f"{shown.symbol} from {ends[0]} to {ends[1]} {shown.unit}, {times}"
 
 
 def _share_heights(grid: Any) -> None:

@@ -32,7 +32,8 @@ def plot_sweep(  # noqa: PLR0913
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
 
-    Values that vary together, such as paired samples, are points over one of their columns. A second
+    Values that vary together, such as paired samples, are points over one of their columns, which
+    may be that of their names. A second
     dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
     starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
     cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
@@ -43,10 +44,13 @@ def plot_sweep(  # noqa: PLR0913
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
         several values
     variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
-    x : the dimension, or the column of paired values, along the horizontal axis; the first of numbers if not given
-    log : whether the scale of the variable is logarithmic
+    x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
+        given
+    log : whether the scale of the variable is logarithmic: on both sides of zero, and linear up to its least size, if
+        some values are negative or zero. Growth rates have such a scale in any case
     cmap : another colour map of matplotlib for a map of numbers; classes have the same colours in all pictures
-    ax, legend, labels, title : as in `Result.plot`
+    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar".
+        Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set
 
     Returns
     -------

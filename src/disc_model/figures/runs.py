@@ -5,7 +5,7 @@ variable is drawn.
 import json
 from collections.abc import Mapping, Sequence
 from operator import itemgetter
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -45,6 +45,29 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     for name in {ramp["parameter"] for ramp in ramps}:
         said = said.replace(what_case({name: values[name]}), _course(name, values[name], ramps))
     return said
+
+
+class Course(NamedTuple):
+    """A ramp of a run: from the time `start` to `end`, s, its parameter goes from `before` to
+    `after`, in SI units."""
+
+    parameter: str
+    start: float
+    end: float
+    before: float
+    after: float
+
+
+def ramps_of(case: xr.DataTree) -> list[Course]:
+    """The ramps of a run, in the order in which they begin."""
+    ramps = json.loads(case.attrs.get("ramps", "[]"))
+    values = parameters_of(case).numbers
+    courses = []
+    for ramp in sorted(ramps, key=itemgetter("start")):
+        name = ramp["parameter"]
+        courses.append(Course(name, ramp["start"], ramp["end"], values[name], ramp["to"]))
+        values = {**values, name: ramp["to"]}
+    return courses
 
 
 def _course(name: str, value: float, ramps: Sequence[Mapping[str, Any]]) -> str:

@@ -22,7 +22,8 @@ WITHOUT_CYCLE = (
     "at_rest",
 )
 """Statuses of points that were computed, and have no stick-slip cycle."""
-
+ROUNDING = 1e-9
+"""Relative difference of equal speeds in files."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -165,8 +166,12 @@ def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
 
 
 def shown_words(flag: xr.DataArray, status: xr.DataArray) -> xr.DataArray:
-    """The words of a flag, and `EXCLUDED` at points that a study's rule leaves out."""
+    """The words of a flag, those of a gap where it has none, and `EXCLUDED` at points that a study's
+    rule leaves out."""
     words = flag.copy(data=flag_names(flag).astype(object))
+    if (words == "").any():
+        gaps_of = np.vectorize(class_of_gap, otypes=[object])
+        words = words.where(words != "", xr.apply_ufunc(gaps_of, status))
     return words.where(status != EXCLUDED, EXCLUDED).astype(str).transpose(*flag.dims)
 
 
@@ -206,6 +211,17 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
         name = name_of(class_of_gap(word))
         masks[name] = here | masks.get(name, False)
     return masks
+
+
+def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose critical value is the lower bound of its search, and may lie below; None of other
+    variables."""
+    if variable == "value" and "at_lower_bound" in study:
+        return study["at_lower_bound"] == 1
+    if variable == "critical_speed" and "scan_Omega" in study.coords:
+        lowest = float(study["scan_Omega"].min())
+        return study[variable] <= lowest * (1 + ROUNDING)
+    return None
 
 
 # ---- Stretches along an axis

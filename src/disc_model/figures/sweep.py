@@ -11,11 +11,12 @@ from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.cells import entries, is_colormap, recolour
+from disc_model.figures.classes import LOOKS
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import label_of, measured, what_case
+from disc_model.figures.words import horizon_text, label_of, measured, what_case
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -26,6 +27,7 @@ PREFERRED = (
     "critical_speed",
     "separation_rate",
     "scan_first_separation",
+    "value",
     "kind",
 )
 """Variables that are drawn unless another one is asked for, the first that there is."""
@@ -54,7 +56,7 @@ def plot_sweep(  # noqa: PLR0913
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
-    varying, column = _along_pairs(whole, x)
+    varying, column = _along_pairs(_ascending(whole), x)
     drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
     if column:
         drawn = replace(drawn, mapped=False, joined=False)
@@ -95,6 +97,13 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
     )
 
 
+def _ascending(study: xr.Dataset) -> xr.Dataset:
+    """The study with the numbers along its dimensions in their order: lines would go back and
+    forth, and cells of a map lie on each other."""
+    numbers = [name for name in study.dims if name in study.coords]
+    return study.sortby([name for name in numbers if study[name].dtype.kind in "fi"])
+
+
 def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
     """The study with names for the discs along its dimensions, by their order and frequencies."""
     named = {}
@@ -109,13 +118,13 @@ def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
 
 def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
     """The study along one of the columns of numbers that vary together, the first of them unless
-    `x` is another, and its name; "" if none vary together."""
+    `x` is another, or their labels, and its name; "" if none vary together."""
     for dim in study.get("status", study).dims:
-        columns = [
-            str(name)
-            for name, values in study.coords.items()
-            if values.dims == (dim,) and name != dim and values.dtype.kind in "fi"
+        beside = [
+            name for name, values in study.coords.items() if values.dims == (dim,) and name != dim
         ]
+        columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
+        columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
         if dim not in study.coords and columns:
             column = x or columns[0]
             require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
@@ -123,18 +132,18 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
     return study, ""
 
 
-def _numeric_dims(study: xr.Dataset) -> list[str]:
-    """Dimensions of a study whose values are numbers of a quantity."""
-    return [
-        str(dim)
-        for dim in study.dims
-        if dim in study.coords and dim not in COUNTED and study[dim].dtype.kind in "fi"
-    ]
+def _drawn_dims(study: xr.Dataset) -> list[str]:
+    """Dimensions of a study whose values are numbers of a quantity; words where there are none."""
+    named = [str(dim) for dim in study.dims if dim in study.coords and dim not in COUNTED]
+    numbers = [dim for dim in named if study[dim].dtype.kind in "fi"]
+    if numbers or "status" not in study:
+        return numbers
+    return [dim for dim in named if dim in study["status"].dims]
 
 
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     """The variable that is drawn; raises `ParameterError`."""
-    numbers = {*_numeric_dims(study)}
+    numbers = {*_drawn_dims(study)}
     over = {str(name): {*values.dims} for name, values in study.items()}
     choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
     flat = [name for name in choices if len(over[name]) < 3]
@@ -142,7 +151,12 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual
+    points = "must have two points or more along a number or a word"
+    require((bool(numbers), "study", "a single point", points))
     rule = f"must be one over the grid{suggestion(named, choices)}"
+    further = [dim for dim in over.get(named, ()) if dim not in study.coords]
+    if further:
+        rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
     require((named in choices, "variable", named, rule))
     return named
 
@@ -150,7 +164,7 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
 def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     """The dimensions along which a variable is drawn; raises `ParameterError`."""
     dims = [str(dim) for dim in study[variable].dims]
-    numbers = [dim for dim in dims if dim in _numeric_dims(study)]
+    numbers = [dim for dim in dims if dim in _drawn_dims(study)]
     across = x or numbers[0]
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
@@ -159,7 +173,8 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
         rule += "; Branch.from_dataset makes a branch of this dataset, which has a method plot"
     require((across in numbers, "x", across, rule))
     second = next((dim for dim in dims if dim != across), None)
-    return Drawn(variable, across, second, mapped=len(numbers) == 2)
+    plane = len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
+    return Drawn(variable, across, second, mapped=plane)
 
 
 def _case_of(study: xr.Dataset) -> str:
@@ -185,7 +200,9 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
         page.explain(page.ax.get_legend_handles_labels()[0])
     else:
         plane = study.transpose(drawn.second, drawn.across, ...)
+        before = set(page.figure.axes)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
+        page.bars = [ax for ax in page.figure.axes if ax not in before]
         page.explain(key.handles, beside="below", title=key.title)
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
@@ -206,4 +223,6 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     ax.set_xlabel(across.label)
     ax.set_ylabel(label_of(shares)[0])
     ax.set_xmargin(0.04)
-    return entries(classes)
+    within = horizon_text(study) or "the horizon"
+    undecided = LOOKS["undecided"]._replace(label=f"undecided within {within}: raise horizon")
+    return entries(classes, {**LOOKS, "undecided": undecided})

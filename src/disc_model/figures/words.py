@@ -72,6 +72,8 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
+IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
+"""Units of numbers of cycles in all pictures."""
 RANGE_END = re.compile("_(min|max)$")
 """The end of the name of a bound of a sampled variable's range."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
@@ -121,13 +123,17 @@ def named(variable: xr.DataArray) -> Named:
     ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
-    return Named(phrase, unit_text(str(variable.attrs.get("units", "1"))), 1.0)
+    units = str(variable.attrs.get("units", "1"))
+    base = str(variable.name).removeprefix("attractor_")
+    if IN_THOUSANDTHS.get(base) == f"m{units}":
+        return Named(phrase, IN_THOUSANDTHS[base], 1e3)
+    return Named(phrase, unit_text(units), 1.0)
 
 
 def _words_of(variable: xr.DataArray) -> str:
     """What a variable says that it is, without remarks."""
     own = str(variable.name)
-    long_name = str(variable.attrs.get("long_name", own))
+    long_name = str(variable.attrs.get("long_name", own.replace("_", " ")))
     return SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
 
 
@@ -215,10 +221,12 @@ def lowered(text: str) -> str:
 
 def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
     """Names of a flag's classes, none for other variables; and the variable with numbers for words,
-    their places."""
+    their places, nan where there is no word."""
     if variable.dtype.kind in "UO":
-        distinct, places = np.unique(flag_names(variable), return_inverse=True)
-        numbers = variable.copy(data=places.reshape(variable.shape).astype(float))
+        words = flag_names(variable)
+        distinct = np.unique(words[words != ""])
+        places = np.searchsorted(distinct, words).astype(float)
+        numbers = variable.copy(data=np.where(words == "", np.nan, places))
         return [name_of(word) for word in distinct], numbers
     words = variable.attrs.get("flag_meanings", "").split()
     return [name_of(word) for word in words if word != EXCLUDED], variable

@@ -147,6 +147,7 @@ class Fit(Summarised, Drawn):
     deviations : computed minus measured values, in standard deviations, (m,)
     chi_squared : sum of the squared deviations
     converged, message : whether and why the search ended at a minimum
+    doubt : why values and intervals mean nothing, such as a search that has not converged; "" where all is well
 
     Examples
     --------
@@ -172,12 +173,13 @@ class Fit(Summarised, Drawn):
     message: str
 
     def __repr__(self) -> str:
-        values = ", ".join(
-            f"{name}={fitted.value:.6g} ± {fitted.deviation:.2g}"
-            for name, fitted in self.parameters.items()
-        )
+        doubt = self.doubt
+        values = []
+        for name, fitted in self.parameters.items():
+            spread = "" if doubt else f" ± {fitted.deviation:.2g}"
+            values.append(f"{name}={fitted.value:.6g}{spread}")
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
-        return f"Fit({values}; {cost}{'' if self.converged else '; not converged'})"
+        return "; ".join(filter(None, [f"Fit({', '.join(values)}", cost, doubt])) + ")"
 
     @property
     def freedom(self) -> int:
@@ -186,13 +188,23 @@ class Fit(Summarised, Drawn):
 
     @property
     def consistent(self) -> bool:
-        """Whether chi squared is as small as it is in 95 % of fits if the model and the
-        uncertainties are right; without degrees of freedom, where it is 0 unless the search failed, as
-        with one."""
+        """Whether the search has converged, and chi squared is as small as it is in 95 % of fits if
+        the model and the uncertainties are right; without degrees of freedom, where it is 0 unless
+        the search failed, as with one."""
         from scipy import stats
 
         freedom = max(self.freedom, 1)
-        return bool(self.chi_squared <= stats.chi2.ppf(0.95, freedom))
+        small = self.chi_squared <= stats.chi2.ppf(0.95, freedom)
+        return bool(self.converged and small)
+
+    @property
+    def doubt(self) -> str:
+        """Why values and intervals mean nothing; "" where the fit is consistent."""
+        if not self.converged:
+            return "the search has not converged"
+        if not self.consistent:
+            return "model or uncertainties are wrong"
+        return ""
 
     @property
     def correlation(self) -> Array:
@@ -225,13 +237,16 @@ class Fit(Summarised, Drawn):
         return float(value), math.sqrt(float(gradient @ self.covariance @ gradient))
 
     def _summary(self) -> Iterator[tuple[str, object]]:
+        doubt = self.doubt
         for name, fitted in self.parameters.items():
-            unit = _unit_of_parameter(name)
-            interval = f"{fitted.low:.6g} to {fitted.high:.6g}"
-            yield name, f"{number_text(fitted.value, unit)} ({interval})"
-        yield "intervals", f"{self.confidence:.0%}, if the model and the uncertainties are right"
+            text = number_text(fitted.value, _unit_of_parameter(name))
+            if not doubt:
+                text += f" ({fitted.low:.6g} to {fitted.high:.6g})"
+            yield name, text
+        intervals = f"{self.confidence:.0%}, if the model and the uncertainties are right"
+        yield "intervals", f"none: {doubt}" if doubt else intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
-        yield "consistent", "yes" if self.consistent else "no: model or uncertainties are wrong"
+        yield "consistent", f"no: {doubt}" if doubt else "yes"
         yield "search", self.message
 
     def _repr_html_(self) -> str:

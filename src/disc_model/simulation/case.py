@@ -188,9 +188,7 @@ class Poincare(Interval):
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
-_GROUP = re.compile(
-    r"\w([^/]{0,58}[^/\s])?"
-)  # readable names of groups that netCDF accepts, however long in bytes
+LONGEST_NAME = 60  # characters of the name of a window, which netCDF accepts, however long in bytes
 
 
 def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
@@ -209,15 +207,9 @@ def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
     )
     resolved: dict[str, Window | Poincare] = {}
     for name, window in dict(windows).items():  # type: ignore[call-overload]
-        good = (
-            isinstance(name, str)
-            and _GROUP.fullmatch(name)
-            and name.isprintable()
-            and name not in BESIDE_WINDOWS
-        )
-        rule = "the name of a window must be at most 60 printable characters, a letter, digit or _ first, no / and no "
+        rule = _rule_of_name(name)
         require(
-            (good, "windows", name, f"{rule}space last, and not that of a variable"),
+            (not rule, "windows", name, f"the name of a window {rule}"),
             (
                 isinstance(window, Window | Poincare),
                 f"windows.{name}",
@@ -240,6 +232,23 @@ def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
                 *(fault.inside(("windows", name)) for fault in error.faults)
             ) from None
     return resolved
+
+
+def _rule_of_name(name: object) -> str:
+    """The first rule that the name of a window breaks, or ""."""
+    if not isinstance(name, str):
+        return "must be a text"
+    if name in BESIDE_WINDOWS:
+        return "must not be that of a variable or group of results"
+    rules = {
+        "must not be empty": name,
+        "must have at most 60 characters": len(name) <= LONGEST_NAME,
+        "must have printable characters only": name.isprintable(),
+        "must have no /": "/" not in name,
+        "must begin with a letter, a digit or _": re.match(r"\w", name),
+        "must not end in a space": not name[-1:].isspace(),
+    }
+    return next((rule for rule, holds in rules.items() if not holds), "")
 
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time

@@ -1,21 +1,25 @@
-"""Values of one parameter at which the motion near the static start gains or loses stability."""
+"""Values of one parameter at which the motion near the static start, or steady sliding, gains or loses
+stability."""
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+from scipy.optimize import linear_sum_assignment, minimize_scalar
 
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Drawn, counted, html_table
+from disc_model.display import Bar, Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
 from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import FloquetResult, find_cycle
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -33,25 +37,34 @@ MAY_HAVE_MET = 1.5
 # sum, as two that follow each other: the first exponent does not tell them apart, the second one
 # takes them to have passed
 MATCHES = (1.0, 0.5)
+STICK_SLIP = "stick_slip"
+SLIDING = "sliding"
+MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
+"""Kinds of motion whose stability is followed, and what texts call them."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Critical(Drawn):
-    """Values of a parameter at which the motion near the static start gains or loses stability.
+    """Values of a parameter at which a motion gains or loses stability: the one near the static
+    start, or steady sliding.
 
-    `plot` draws the growth rate of the cycle over the parameter, with the intervals in which that
-    motion is unstable.
+    `plot` draws the growth rate over the parameter, with the intervals in which the motion is
+    unstable.
 
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value computed at which the motion near the static start is unstable; if there is a lower one,
-        it is stable there, less than `precision` away; nan if there is none. The lower bound, where that motion is
-        unstable there already: it may be so below, too
+    value : the least value computed at which the motion is unstable; if there is a lower one, it is stable there, less
+        than `precision` away; nan if there is none. The lower bound, where that motion is unstable there already: it
+        may be so below, too
+    at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
     message : says so if `value` is the lower bound or nan; else ""
+    kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
+        or "sliding", steady sliding
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
-    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle (1/s; nan without)
+    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
+        sliding (1/s; nan without)
     resolution : the largest step between neighbouring values computed. No stretch of stability or
         of instability that is wider has been overlooked. Most narrower ones are seen, because they
         are looked for where multipliers meet
@@ -66,12 +79,13 @@ class Critical(Drawn):
     values: Array
     growth_rate: Array
     resolution: float
+    kind: str = STICK_SLIP
 
     def __repr__(self) -> str:
         first = self.message or f"unstable from {self.value:.6g}"
         crossings = counted(len(self.crossings), "crossing")
         seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
-        return f"Critical({self.name}: {first}, {crossings}, {seen})"
+        return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
 
     def _repr_html_(self) -> str:
         """The intervals of one stability in a notebook, and what may have been overlooked."""
@@ -86,16 +100,24 @@ class Critical(Drawn):
             rows.append((self.message, "", ""))
         rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
         upper = f"to ({unit})" if unit else "to"
-        return html_table((f"{self.name} from", upper, "motion near the static start"), rows)
+        return html_table((f"{self.name} from", upper, MOTIONS[self.kind]), rows)
 
     @property
     def message(self) -> str:
         """Why `value` is no value at which stability is lost, in words; "" where it is one."""
         if math.isnan(self.value):
-            return f"stable at all {len(self.values)} values computed"
-        if self.value > self.values[0]:
+            message = f"{MOTIONS[self.kind]} is stable at all {len(self.values)} values computed"
+            if self.kind == STICK_SLIP:
+                message += "; steady sliding is asked for by kind='sliding'"
+            return message
+        if not self.at_lower_bound:
             return ""
         return f"already unstable at the lower bound, {value_text(self.name, self.value)}"
+
+    @property
+    def at_lower_bound(self) -> bool:
+        """Whether the motion is unstable at the lower bound already, which is the `value` then."""
+        return bool(self.value == self.values[0])
 
     @property
     def unstable(self) -> Array:
@@ -118,14 +140,17 @@ def critical(
     points: int = 201,
     precision: float | None = None,
     tol: float = 1e-12,
+    kind: str = STICK_SLIP,
+    progress: bool = False,
 ) -> Critical:
     """The least parameter value with unstable motion near the static start, and all stability
-    changes above it.
+    changes above it; or those of steady sliding.
 
-    That motion is the stick-slip cycle, or steady sliding or rest if there is no cycle. It is
-    computed at equal steps, which alone limit what can be overlooked. Instability often lies in
-    much narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly,
-    so that these places are predicted from neighbouring values, and computed as well.
+    The motion near the static start is the stick-slip cycle, or steady sliding or rest if there is
+    no cycle. It is computed at equal steps, which alone limit what can be overlooked. Instability
+    often lies in much narrower tongues, where multipliers meet on the unit circle. Their angles
+    change smoothly, so that these places are predicted from neighbouring values, and computed as
+    well. Of steady sliding, the greatest growth rates between values are looked for.
 
     Parameters
     ----------
@@ -136,6 +161,10 @@ def critical(
         the scan takes one or two seconds by default
     precision : to which crossings are bisected; a millionth of the range if not given
     tol : as in `floquet`
+    kind : "stick_slip" for the motion near the static start; "sliding" for steady sliding, which is unstable if a mode
+        grows, and counts as unstable where it does not exist
+    progress : whether a bar on standard error shows how many values are done; those between the `points` are added to
+        their number as they are found to be needed
 
     Returns
     -------
@@ -153,15 +182,26 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s: already unstable at the lower bound, mu_s = 0.3, 1 crossing, ... values, steps of at most ...)
+    Critical(mu_s, stick_slip: already unstable at the lower bound, mu_s = 0.3, 1 crossing, ... values, steps ...)
+
+    Steady sliding of a block on a rigid disc is unstable while friction falls too steeply with the speed:
+
+    >>> block = dm.Parameters(n_diameters=-1, m=0.5, k=0, k_p=7e3, c_p=6, N=10, mu_s=0.6, mu_k=0.2,
+    ...     friction_decay=10, r_0=0.1, Omega=2)
+    >>> sliding = dm.critical(block, "c_p", (0.1, 6), points=11, kind="sliding")
+    >>> sliding.crossings.round(2).tolist(), sliding.unstable_above.tolist()
+    ([4.44], [False])
     """
     ends = interval_in_si(name, bounds)
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
+    known = isinstance(kind, str) and kind in MOTIONS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
         (ends is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
+        (known, "kind", kind, f"must be one of {', '.join(MOTIONS)}"),
+        (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     low, high = ends
@@ -173,51 +213,70 @@ def critical(
     if precision is not None:
         shortest = float(precision)
     scan = _Scan(case, name, float(tol))
-    for value in values:
-        scan.is_stable(value)
-    scan.refine(max(shortest, NARROWEST * (high - low)))
+    if kind == SLIDING:
+        scan = _SlidingScan(case, name, float(tol))
+    narrowest = max(shortest, NARROWEST * (high - low))
+    with progress_bar("critical", points, progress) as bar:
+        for value in values:
+            scan.is_stable(value)
+            bar.advance()
+        scan.refine(narrowest, bar)
     return scan.located_changes(shortest)
 
 
 class _Scan:
-    """Cycles of a case by the value of one parameter, each computed once."""
+    """Motions near the static start by the value of one parameter, each computed once."""
+
+    kind = STICK_SLIP
 
     def __init__(self, p: Parameters, name: str, tol: float) -> None:
         self.p = p
         self.name = name
         self.tol = tol
-        self.cycles: dict[float, FloquetResult] = {}
+        self.motions: dict[float, Any] = {}
 
     def is_stable(self, x: float) -> bool:
-        """Whether the motion near the static start is stable at a value, whose cycle is then
-        known."""
-        if x not in self.cycles:
-            self.cycles[x] = find_cycle(self.p.replace(**{self.name: x}), self.tol)
-        return self.cycles[x].motion in STABLE_CYCLES
+        """Whether the motion is stable at a value, where it is known then."""
+        if x not in self.motions:
+            self.motions[x] = self.motion_of(self.p.replace(**{self.name: x}))
+        return self.settles(self.motions[x])
 
-    def refine(self, narrowest: float) -> None:
+    def motion_of(self, case: Parameters) -> Any:
+        """The motion of a case."""
+        return find_cycle(case, self.tol)
+
+    def settles(self, motion: Any) -> bool:
+        """Whether small disturbances of a motion die out."""
+        return motion.motion in STABLE_CYCLES
+
+    def refine(self, narrowest: float, bar: Bar) -> None:
         """Compute further values where the cycles beside them leave a change of stability in doubt,
         none closer than `narrowest` to another one."""
         examined = set[tuple[float, float]]()
         for _ in range(ROUNDS):
-            gaps = set(pairwise(sorted(self.cycles))) - examined
+            gaps = set(pairwise(sorted(self.motions))) - examined
             examined |= gaps
+            places = []
             for low, high in sorted(gaps):
                 length = high - low
-                for share in _doubtful_shares(self.cycles[low], self.cycles[high]):
+                for share in _doubtful_shares(self.motions[low], self.motions[high]):
                     if min(share, 1 - share) * length > narrowest:
-                        self.is_stable(low + share * length)
+                        places.append(low + share * length)
+            bar.expect(len(places))
+            for place in places:
+                self.is_stable(place)
+                bar.advance()
 
     def located_changes(self, shortest: float) -> Critical:
         """The result, with changes of stability located to an interval of length `shortest`."""
         crossings = list[float]()
         unstable_above = list[bool]()
-        for low, high in list(pairwise(sorted(self.cycles))):
+        for low, high in list(pairwise(sorted(self.motions))):
             stable_below = self.is_stable(low)
             if stable_below != self.is_stable(high):
                 crossings.append(self._bisect(low, high, shortest))
                 unstable_above.append(stable_below)
-        computed = sorted(self.cycles)
+        computed = sorted(self.motions)
         first = next((value for value in computed if not self.is_stable(value)), math.nan)
         return Critical(
             parameters=self.p,
@@ -226,8 +285,9 @@ class _Scan:
             crossings=np.array(crossings),
             unstable_above=np.array(unstable_above, dtype=bool),
             values=np.array(computed),
-            growth_rate=np.array([self.cycles[value].growth_rate for value in computed]),
+            growth_rate=np.array([self.motions[value].growth_rate for value in computed]),
             resolution=float(np.diff(computed).max()),
+            kind=self.kind,
         )
 
     def _bisect(self, low: float, high: float, shortest: float) -> float:
@@ -243,6 +303,42 @@ class _Scan:
             else:
                 high = middle
         return high
+
+
+class _SlidingScan(_Scan):
+    """Steady sliding by the value of one parameter."""
+
+    kind = SLIDING
+
+    def motion_of(self, case: Parameters) -> SteadySliding:
+        return steady_sliding(case)
+
+    def settles(self, motion: SteadySliding) -> bool:
+        return motion.status is SlidingStatus.OK and not motion.growing.size
+
+    def refine(self, narrowest: float, bar: Bar) -> None:
+        """Compute the greatest growth rates among stable neighbours, and the least ones among
+        unstable ones: of modes that meet, only one may grow for a stretch."""
+        known = sorted(self.motions)
+        for low, middle, high in zip(known, known[1:], known[2:], strict=False):
+            stable = {self.is_stable(x) for x in (low, middle, high)}
+            if len(stable) > 1:
+                continue
+            sign = -1.0 if stable == {True} else 1.0
+            ends = sign * np.array([self._rate(x) for x in (low, middle, high)])
+            if ends[1] <= min(ends[0], ends[2]):
+                search = partial(self._signed_rate, sign)
+                minimize_scalar(
+                    search, bounds=(low, high), method="bounded", options={"xatol": narrowest}
+                )
+
+    def _rate(self, x: float) -> float:
+        """The growth rate at a value, 1/s, which is known then."""
+        self.is_stable(x)
+        return float(self.motions[x].growth_rate)
+
+    def _signed_rate(self, sign: float, x: float) -> float:
+        return sign * self._rate(float(x))
 
 
 def _doubtful_shares(first: FloquetResult, second: FloquetResult) -> list[float]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Mapping, Sequence, Set
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
 from itertools import product
 from typing import Any
 
@@ -16,16 +17,31 @@ from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict
 
+LIKE = 0.8
+"""Likeness of two names from which the first is taken to be the second with a slip of the pen."""
+
 
 @dataclass(frozen=True)
 class Dimension:
-    """Values of numbers of the case that vary together, in columns of one length by name."""
+    """Values of numbers of the case that vary together, in columns of one length by name.
+
+    Attributes
+    ----------
+    columns : the values
+    labels : words of the points beside them, such as names of samples
+    """
 
     columns: Mapping[str, list[Any]]
+    labels: Mapping[str, list[Any]] = field(default_factory=dict)
 
     @property
     def name(self) -> str:
         return "_".join(self.columns)
+
+    @property
+    def coordinates(self) -> list[str]:
+        """Names of all that stands along the dimension."""
+        return [*self.columns, *self.labels]
 
     def __len__(self) -> int:
         return len(next(iter(self.columns.values())))
@@ -79,23 +95,29 @@ def checked_call(
     parameters = inspect.signature(function).parameters
     faults += _faults_of_unnamed(unnamed, [*parameters][1:])
     raise_faults(faults)
-    numbers = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
+    names = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
+    numbers = sorted(case.numbers.keys() | RATIOS.keys(), key=str.lower)
     dimensions = []
     options = {}
     for name, value in named.items():
-        if name in numbers and name not in parameters:
+        if name in names and name not in parameters:
             dimensions.append(Dimension({name: _values(name, value, faults)}))
         else:
             options[name] = value
     if zipped is not None:
+        table = _columns_of(zipped)
+        labels = _labels_in(table, sorted(names))
+        table = {name: values for name, values in table.items() if name not in labels}
         alone = [dimension.name for dimension in dimensions]
-        dimensions.append(Dimension(_zipped_columns(zipped, numbers, alone, faults)))
+        columns = _zipped_columns(table, zipped, sorted(names), numbers, alone, faults)
+        _check_lengths({**columns, **labels}, faults)
+        dimensions.append(Dimension(columns, labels))
 
     takes_all = any(each.kind is each.VAR_KEYWORD for each in parameters.values())
     if not takes_all:
         for name in options.keys() - parameters.keys():
             rule = "is no number of the case, and no argument of the function"
-            told = suggestion(name, case.numbers)
+            told = suggestion(name, numbers)
             faults.append(Fault.of((name,), named[name], f"{rule}{told}"))
 
     title = getattr(function, "__name__", type(function).__name__)
@@ -126,38 +148,85 @@ def _faults_of_unnamed(unnamed: Sequence[Any], arguments: Sequence[str]) -> list
     return faults
 
 
+def _columns_of(zipped: Any) -> dict[str, list[Any]]:
+    """The columns of a mapping or of a pandas.DataFrame, of which an index of words with a name is
+    one; none of anything else."""
+    if not (isinstance(zipped, Mapping) or hasattr(zipped, "columns")):
+        return {}
+    table = dict(zipped.items())
+    index: Any = getattr(zipped, "index", None)
+    if isinstance(getattr(index, "name", None), str):
+        words = list(index)
+        if _are_labels(words):
+            table = {index.name: words, **table}
+    return table
+
+
+def _are_labels(values: Any) -> bool:
+    """Whether these are words, or yes and no, of which some may be missing."""
+    if isinstance(values, str) or not np.iterable(values):
+        return False
+    present = [value for value in values if not _is_missing(value)]
+    return bool(present) and all(isinstance(value, str | bool | np.bool_) for value in present)
+
+
+def _is_missing(value: Any) -> bool:
+    """Whether this is what a table has for a missing word."""
+    return value is None or value != value
+
+
+def _labels_in(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, list[Any]]:
+    """The columns that only name the points: of words or of yes and no, under names that no number
+    of the case has and that are no slip of the pen of one."""
+    folded = [name.lower() for name in names]
+    labels = {}
+    for name, values in table.items():
+        meant = get_close_matches(str(name).lower(), folded, n=1, cutoff=LIKE)
+        if name in names or meant or not _are_labels(values):
+            continue
+        labels[str(name)] = ["" if _is_missing(value) else value for value in values]
+    return labels
+
+
 def _zipped_columns(
-    zipped: Any, numbers: Set[str], alone: Sequence[str], faults: list[str]
+    table: Mapping[str, Any],
+    zipped: Any,
+    names: Sequence[str],
+    numbers: Sequence[str],
+    alone: Sequence[str],
+    faults: list[str],
 ) -> dict[str, list[Any]]:
-    """The columns of values that vary together, in SI units; what is wrong with them is added to
-    the faults.
+    """The columns of values that vary together, in SI units.
 
     Parameters
     ----------
-    zipped : mapping or pandas.DataFrame
-    numbers : names that may vary
+    table : columns that are no labels
+    zipped : what the user gave
+    names, numbers : all that may vary, and those of them that are numbers
     alone : names that are dimensions by themselves
     faults : gets what is wrong
     """
-    is_table = isinstance(zipped, Mapping) or hasattr(zipped, "columns")
-    table = dict(zipped.items()) if is_table else {}
     if not table:
         rule = "must have columns of values by the names of numbers of the case, such as N"
         faults.append(Fault.of(("zip",), zipped, rule))
     columns = {}
     for name, values in table.items():
-        if name not in numbers:
-            told = suggestion(str(name), numbers)
-            faults.append(Fault(("zip", str(name)), "", f"is no number of the case{told}"))
+        if name not in names:
+            like = suggestion(str(name), names, all_of_them=False).partition(" (known")[0]
+            known = f"(known: {', '.join(numbers)}); a column of labels must hold words"
+            faults.append(Fault(("zip", str(name)), "", f"is no number of the case{like} {known}"))
         elif name in alone:
             faults.append(Fault(("zip", name), "", "must not be an axis as well"))
         else:
             columns[name] = _values(name, values, faults, "zip")
+    return columns
+
+
+def _check_lengths(columns: Mapping[str, Sequence[Any]], faults: list[str]) -> None:
+    """Add a fault if columns differ in length."""
     lengths = {name: len(values) for name, values in columns.items()}
     if len({*lengths.values()}) > 1:
-        rule = "must have columns of one length"
-        faults.append(Fault.of(("zip",), lengths, rule))
-    return columns
+        faults.append(Fault.of(("zip",), lengths, "must have columns of one length"))
 
 
 def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:

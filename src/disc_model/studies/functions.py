@@ -9,13 +9,13 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.display import counted, progress_bar
 from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of
-from disc_model.studies.workers import progress_bar
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
@@ -40,7 +40,7 @@ def _quantity(
     name, options : of the quantity
     case : the case
     start : perturbations of the static start by name
-    progress : whether a bar on standard error shows how many starts are done, where there are several
+    progress : whether a bar on standard error shows how many motions are done, where there are several
 
     Returns
     -------
@@ -59,8 +59,8 @@ def _quantity(
     )
     raise_faults(faults)
 
-    with progress_bar(name, quantity.starts, progress) as advance:
-        quantity.report_to(advance)
+    with progress_bar(name, quantity.starts, progress) as bar:
+        quantity.report_to(bar.advance)
         row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
@@ -169,6 +169,7 @@ def critical_speed(  # noqa: PLR0913
     early_end: bool = True,
     extrapolate: bool = True,
     tol: float = 1e-10,
+    progress: bool = False,
 ) -> xr.Dataset:
     """The lowest speed of a scan with separation within a horizon, and all speeds where separation
     begins or ends.
@@ -186,6 +187,7 @@ def critical_speed(  # noqa: PLR0913
     extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
         are compared with the horizon, but have no time
     early_end, tol : as in `outcome`
+    progress : whether a bar on standard error shows how many speeds of the scan are done; the bisection follows
 
     Returns
     -------
@@ -215,7 +217,7 @@ def critical_speed(  # noqa: PLR0913
         "extrapolate": extrapolate,
         "tol": tol,
     }
-    return _quantity("critical_speed", case, options)
+    return _quantity("critical_speed", case, options, progress=progress)
 
 
 def basins(  # noqa: PLR0913
@@ -259,7 +261,8 @@ def basins(  # noqa: PLR0913
     Returns
     -------
     xarray.Dataset
-        `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors
+        `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors.
+        The attribute `message` says how many starts are undecided within the horizon
 
     Raises
     ------
@@ -285,7 +288,12 @@ def basins(  # noqa: PLR0913
         "confidence": confidence,
         "tol": tol,
     }
-    return _quantity("basins", case, options, start, progress=progress)
+    found = _quantity("basins", case, options, start, progress=progress)
+    undecided = int((found["kind"] == "undecided").sum())
+    if undecided and not found.attrs["message"]:
+        of_all = f"{undecided} of {counted(found['kind'].size, 'start')}"
+        found.attrs["message"] = f"{of_all} undecided within the horizon: raise it"
+    return found
 
 
 @renamed(scan="bounds")

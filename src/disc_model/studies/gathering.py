@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import COORDINATES, SCALARS, Variable
+from disc_model.data.variables import COORDINATES, SCALARS, TRUTH, Variable
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -87,11 +87,14 @@ def _attributes_of(result: Any, name: str) -> dict[str, Any]:
 
 
 def variables_of_result(result: Any) -> dict[str, xr.Variable]:
-    """Numbers, words and one-dimensional arrays of a result."""
+    """Numbers, words and one-dimensional arrays of a result; what else it holds is left out."""
+    if isinstance(result, xr.DataArray):
+        result = result.to_dataset(name=result.name or "value")
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
-    for name, value in _named_values(result).items():
+    for key, value in _named_values(result).items():
+        name = str(key)
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
             variables[name] = xr.Variable(
@@ -106,11 +109,14 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         return result.scalars()
     if is_dataclass(result):
         values = {field.name: getattr(result, field.name) for field in fields(result)}
-        if hasattr(result, "stable"):
-            values["stable"] = result.stable
+        for verdict in ("stable", "at_lower_bound"):
+            if hasattr(result, verdict):
+                values[verdict] = getattr(result, verdict)
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
+    if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
+        return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
 
 
@@ -131,7 +137,10 @@ def stacked(
         values = [row[name].values if name in row else None for row in rows]
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, variable.attrs)
+        attrs = variable.attrs
+        if variable.dtype.kind == "b" and array.dtype.kind == "f":
+            attrs = {**attrs, **TRUTH}
+        stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)
     return stacked, fixed
 
 

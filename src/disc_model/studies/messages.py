@@ -25,6 +25,7 @@ _NO_RULE = re.compile(r"MissingRuleException\b[^\n]*\nNo rule to produce (.+?) \
 _OF_INPUT = re.compile(
     r"InputFunctionException\b.*?\n\s*WorkflowError:\n\s*(.+?)\s*\nWildcards:.*", re.DOTALL
 )
+_PLACES = re.compile(r'(\n\s*File "[^"\n]+", line \d+, in [^\n]*)+\Z')
 _OWN_ERROR = re.compile(r'WorkflowError(?: in file "[^"\n]*", line \d+)?:\n')
 
 
@@ -83,6 +84,8 @@ class RunMessages(logging.Filter):
             return LOCKED
         if of_input := _OF_INPUT.fullmatch(text):
             return f"error: {of_input[1]}"
+        if _OWN_ERROR.match(text):
+            text = _PLACES.sub("", text)  # in files of the workflow
         return _OWN_ERROR.sub("error: ", text, count=1)
 
     def _hint(self, target: str) -> str:

@@ -71,6 +71,8 @@ def _arguments(function: Callable[..., Any], quantity: Any) -> list[str]:
     _, *parameters = inspect.signature(function).parameters.values()
     arguments = []
     for parameter in parameters:
+        if parameter.name not in values:  # such as the bar of its progress
+            continue
         value = values[parameter.name]
         if value not in (parameter.default, [parameter.default]):
             arguments.append(f"{parameter.name}={value!r}")

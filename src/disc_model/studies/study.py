@@ -48,6 +48,7 @@ from disc_model.studies.grid import (
     GridStudy,
     described,
 )
+from disc_model.studies.mending import all_faults
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
@@ -509,11 +510,23 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
     name any."""
     try:
         content = raw if folder is None else _with_discs(raw, folder)
+    except ParameterError as error:
+        raise StudyError(*error.faults, source=source) from None
+    try:
+        return _validated(content)
+    except ParameterError as error:
+        faults = all_faults(content, error.faults, _validated)
+        raise StudyError(*faults, source=source) from None
+
+
+def _validated(content: Any) -> Study:
+    """The study of a file's content; raises `ParameterError`, where what is wrong in the values for
+    all cases is not said of each of them."""
+    try:
         return Study.model_validate(_inherited(content))
     except ParameterError as error:
-        # what is wrong in the values for all cases is wrong in each
         faults = [fault for fault in error.faults if fault.path[:1] != ("cases",)] or error.faults
-        raise StudyError(*faults, source=source) from None
+        raise ParameterError(*faults) from None
 
 
 def _inherited(raw: Any) -> Any:

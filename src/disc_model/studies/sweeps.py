@@ -10,14 +10,21 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.studies.calls import checked_call
+from disc_model.studies.calls import Call, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.workers import checked_workers
+
+RETURNED = (
+    "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
+    "xarray.Dataset"
+)
+FAILED = "failed"  # status of a point whose call raised an error
 
 
 def sweep(
@@ -41,7 +48,8 @@ def sweep(
     case : values of all parameters that do not vary
     *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
     zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
-        pandas.DataFrame of cases. They are one dimension, whose name joins theirs
+        pandas.DataFrame of cases. They are one dimension, whose name joins theirs. Columns of words under other names,
+        such as names of samples, stay beside them as coordinates
     workers : number of calls at a time; compiled code runs beside other threads
     processes : whether they are processes instead of threads: the function must then be importable
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
@@ -53,17 +61,18 @@ def sweep(
     -------
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
-        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic;
-        `message` then says which. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included) and the `parameters` of the case
+        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic,
+        or returned nothing; `message` then says which. Numbers are nan there, words "", and a variable of True and
+        False, such as `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes state the
+        `function`, its other arguments (`options`, in JSON, defaults included) and the `parameters` of the case
 
     Raises
     ------
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
-        by itself; and if an argument of the function is missing, or refused at the first point. Where values of the
-        case break a rule together, the point has failed. Any other error of the function ends the sweep, with a note
-        of what varies at the point.
+        by itself; and if an argument of the function is missing, or refused at the first point, or the function
+        returns nothing there. Where values of the case break a rule together, the point has failed. Any other error of
+        the function ends the sweep, with a note of what varies at the point.
 
     Examples
     --------
@@ -80,13 +89,15 @@ def sweep(
     """
     call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
-    row = partial(_row, partial(function, **call.options), case, call.arguments)
+    row = partial(_row, partial(function, **call.options), case, call)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
 
     coordinates: dict[str, Any] = {}
     for dimension in call.dimensions:
         for name, values in dimension.columns.items():
             coordinates[name] = (dimension.name, _plain(values), _described(name))
+        for name, words in dimension.labels.items():
+            coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
     chosen = {**call.defaults, **call.options}
@@ -140,21 +151,24 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, names: frozenset[str], numbered: tuple[int, Any]
+    function: Any, case: Parameters, call: Call, numbered: tuple[int, Any]
 ) -> dict[str, xr.Variable]:
-    """The variables of one call; a fault of the function's own arguments at the first point is that
-    of all."""
+    """The variables of one call; what the function is wrongly given or returns at the first point
+    is a fault of all."""
     number, point = numbered
     try:
         result = _called(function, case, point)
     except NUMERICAL as error:
         refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
-        if number == 0 and names & refused:
+        if number == 0 and call.arguments & refused:
             raise
-        return {
-            "status": xr.Variable((), "failed"),
-            "message": xr.Variable((), f"{type(error).__name__}: {error}"),
-        }
+        return _failure(error)
+    try:
+        variables = _variables_of(result, call)
+    except ParameterError as error:
+        if number == 0:
+            raise
+        return _failure(error)
     if isinstance(result, xr.Dataset):  # whose attributes are also those of the object
         status = "ok"
         message = result.attrs.get("message", "")
@@ -162,4 +176,29 @@ def _row(
         status = str(getattr(result, "status", "ok"))
         message = getattr(result, "message", "")
     words = {"status": xr.Variable((), status), "message": xr.Variable((), message)}
-    return {**words, **variables_of_result(result)}
+    return {**words, **variables}
+
+
+def _failure(error: Exception) -> dict[str, xr.Variable]:
+    """The variables of a point that failed."""
+    return {
+        "status": xr.Variable((), FAILED),
+        "message": xr.Variable((), f"{type(error).__name__}: {error}"),
+    }
+
+
+def _variables_of(result: Any, call: Call) -> dict[str, xr.Variable]:
+    """The variables of a result, without arguments of the function whose names a coordinate has;
+    raises `ParameterError`, with the name of the function, if there are none."""
+    variables = variables_of_result(result)
+    if not variables:
+        raise ParameterError(
+            Fault((call.title,), "", f"returned {as_text(result)}, and {RETURNED}")
+        )
+    taken = {name for dimension in call.dimensions for name in dimension.coordinates}
+    for name in taken & variables.keys():
+        if name not in call.arguments:
+            rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
+            raise ParameterError(Fault((call.title,), "", rule))
+        del variables[name]
+    return variables

@@ -7,16 +7,12 @@ import pickle
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
-from functools import partial
-from importlib.util import find_spec
 from typing import Any
 
+from disc_model.display import progress_bar
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.units import is_whole
-
-NOTEBOOK = 90  # characters of a line in a notebook
 
 
 @dataclass(frozen=True)
@@ -55,10 +51,10 @@ class Workers:
             If the call cannot be sent to a process.
         """
         results = []
-        with progress_bar(title, len(arguments), self.progress) as advance:
+        with progress_bar(title, len(arguments), self.progress) as bar:
             for result in self._in_order(call, arguments):
                 results.append(result)
-                advance()
+                bar.advance()
         return results
 
     def _in_order(self, call: Callable[[Any], Any], arguments: Sequence[Any]) -> Iterator[Any]:
@@ -116,42 +112,3 @@ def _check_importable(call: Callable[[Any], Any]) -> None:
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         rule = f"needs a function that other processes can import ({error})"
         raise ParameterError(Fault.of(("processes",), True, rule)) from None
-
-
-@contextmanager
-def progress_bar(title: str, total: int, shown: bool) -> Iterator[Callable[[], None]]:
-    """A bar on standard error, while it is needed; what advances it by one."""
-    if not shown:
-        yield lambda: None
-        return
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=_console()) as bar:
-        task = bar.add_task(title, total=total)
-        yield partial(bar.advance, task)
-
-
-def _console() -> Any:
-    """Standard error for a bar: as text in a notebook without ipywidgets, where rich would draw
-    nothing."""
-    from rich.console import Console
-
-    console = Console(stderr=True)
-    if console.is_jupyter and find_spec("ipywidgets") is None:
-        return Console(stderr=True, force_jupyter=False, force_terminal=True, width=NOTEBOOK)
-    return console

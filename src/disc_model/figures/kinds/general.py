@@ -21,7 +21,8 @@ class General(Plot):
 
     at : values along dimensions that are not shown
     by : a dimension with a panel, or a line, for each of its values; normalization if it varies
-    log : whether the scale of the variable is logarithmic
+    log : whether the scale of the variable is logarithmic, on both sides of zero if some values are
+        negative or zero
     names : words for values of `by`
     """
 

@@ -63,6 +63,10 @@ class CriticalSpeed(Quantity):
         """The scan's step as a multiple of the precision."""
         return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
 
+    @property
+    def starts(self) -> int:
+        return self.scan.intervals + 1
+
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -140,6 +144,7 @@ class CriticalSpeed(Quantity):
 
         for i in scanned:
             look(i)
+            self.start_is_done()
         for horizon in self.horizons:
             # every interval over which separation within the horizon begins or ends is halved, down
             # to the lattice

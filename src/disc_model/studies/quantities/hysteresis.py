@@ -58,6 +58,9 @@ class Hysteresis(Quantity):
             "highest position of the slider at the end of the stay at a speed, from static equilibrium",
             dims=_DIMS,
         ),
+        "range": Variable(
+            "m", "range of the slider's height at the end of the stay at a speed", dims=_DIMS
+        ),
         "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
         "P_max": Variable(
             "N", "greatest contact force at the end of the stay at a speed", dims=_DIMS
@@ -109,7 +112,7 @@ class Hysteresis(Quantity):
                 message = f"Omega={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
-            stretch = asdict(late) if late else {}
+            stretch = {**asdict(late), "range": late.range} if late else {}
             for name in values.keys() & stretch.keys():
                 values[name][index] = stretch[name]
         values.update(self._edges(values))

@@ -1,0 +1,120 @@
+"""All faults of a study file in one round: rules between its parts can be checked only where the
+parts are right, so that the rest is checked once more without what is wrong."""
+
+import copy
+import re
+from collections.abc import Callable, Mapping, Sequence
+from difflib import SequenceMatcher
+from typing import Any
+
+from disc_model.errors import Fault, ParameterError, as_text
+
+ROUNDS = 10  # greatest number of times that the rest is checked
+MEANT = re.compile(r"did you mean ([^?]+)\?")
+ANY = 1.0  # value of a required number
+REQUIRED = "is required"  # what a value that was left out leaves behind
+
+
+def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], object]) -> list[str]:
+    """The faults of a content, and those that are seen without them.
+
+    Parameters
+    ----------
+    content : of a study file
+    first : its faults, as `check` has found them
+    check : raises `ParameterError` with faults of a content
+    """
+    latest = [fault for fault in first if isinstance(fault, Fault)]
+    faults = [*first]
+    rest = copy.deepcopy(content)
+    left_out: dict[str, tuple[str, ...]] = {}
+    for _ in range(ROUNDS):
+        mended = False
+        for fault in latest:
+            mended |= _mend(rest, fault, left_out)
+        if not mended:
+            break
+        try:
+            check(rest)
+            break
+        except ParameterError as error:
+            latest = [fault for fault in error.faults if isinstance(fault, Fault)]
+        told = {fault.path for fault in faults if isinstance(fault, Fault)}
+        new = [fault for fault in latest if fault.path not in told]
+        faults += [fault for fault in new if _is_further(fault, left_out)]
+    return list(dict.fromkeys(faults))
+
+
+def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> bool:
+    """Give a wrong name the one that is meant, or leave out what is wrong, whose path is then known
+    by its name; returns whether it was found in the content."""
+    *outer, last = fault.path or ("",)
+    if REQUIRED in fault.rule:  # some number stands for one that is wrong or missing
+        if last not in left_out and fault.path[:1] == ("axes",):
+            left_out[last] = ("base", last)
+        return _fill(content, left_out.get(last, ()))
+    parent = _within(content, outer)
+    if _entry(parent, last) is None:
+        return False
+    value = _entry(parent, last)
+    found = MEANT.search(fault.rule)
+    meant = found[1] if found else ""
+    is_word = isinstance(value, str) and _likeness(meant, value) > _likeness(meant, last)
+    if isinstance(parent, list):
+        place = int(last)
+        parent[place : place + 1] = [meant] if is_word else []
+        return True
+    if isinstance(value, list):
+        rest = [each for each in value if as_text(each) != fault.value]
+        if 0 < len(rest) < len(value):
+            parent[last] = rest
+            return True
+    del parent[last]
+    if is_word:
+        parent[last] = meant
+    elif meant and meant not in parent:
+        parent[meant] = value
+    else:
+        left_out[last] = fault.path
+    return True
+
+
+def _fill(content: Any, place: Sequence[str]) -> bool:
+    """Give a required number some value; returns whether there is a place for it."""
+    parent = _within(content, place[:-1])
+    if not place or not isinstance(parent, dict) or place[-1] in parent:
+        return False
+    parent[place[-1]] = ANY
+    return True
+
+
+def _within(part: Any, path: Sequence[str]) -> Any:
+    """What stands at a path in a content; None if it has no such path."""
+    for step in path:
+        part = _entry(part, step)
+    return part
+
+
+def _likeness(first: str, second: str) -> float:
+    """How alike two texts are, from 0 to 1."""
+    return SequenceMatcher(None, first.lower(), second.lower()).ratio()
+
+
+def _entry(part: Any, step: str) -> Any:
+    """An entry of a mapping or of a list; None if there is none."""
+    if isinstance(part, dict):
+        return part.get(step)
+    if isinstance(part, list) and step.isdigit() and int(step) < len(part):
+        return part[int(step)]
+    return None
+
+
+def _is_further(fault: Fault, left_out: Mapping[str, Sequence[str]]) -> bool:
+    """Whether a fault of the rest is one of the content, and not only of what was left out: figures
+    may show an axis that was."""
+    without_axis = any(path[0] in ("axes", "zip") for path in left_out.values())
+    if without_axis and fault.path[:1] == ("figures",):
+        return False
+    said = fault.partition(" (known:")[0]
+    names = {*re.findall(r"\w+", said)}
+    return REQUIRED not in fault.rule and names.isdisjoint(left_out)
