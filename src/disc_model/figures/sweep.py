@@ -184,6 +184,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
         plane = study.transpose(drawn.second, drawn.across, ...)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
         page.explain(key.handles, beside="below", title=key.title)
+        page.is_map = True
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
             page.ax.locator_params(axis="y", integer=True)
