@@ -22,7 +22,7 @@ from disc_model.studies.point_calls import SEARCHES, call_of
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import describe
 from tests import needs
-from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, plane
+from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, motions, plane
 from tests.studies.test_quantities import OPTIONS
 from tests.workflow.browser import Page, browser
 
@@ -98,6 +98,8 @@ def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
         draws_gaps_and_scale(shown)
         moves_by_arrow_keys(shown)
         keeps_what_is_chosen_in_the_link(shown)
+        follows_values_of_links(shown)
+        names_selectors_as_axes(shown)
         draws_dots_on_curves(shown)
 
 
@@ -106,6 +108,7 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
     study = plane()
     alone = (0, 1, 0)
     study["outcome"].values[alone] = 0  # separates, unlike the cells around it
+    study.attrs["title"] = "What becomes of the motion, over speed and preload"
     explorer_path = tmp_path / "explorer.html"
     told = [
         contents_of("without", plane(), stated=Stated(has_figures=False)),
@@ -147,8 +150,62 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
         assert shown.ask("below") == []
         opened.resize(360, 740)
         shown.choose("Up", "normalization")
-        assert any(text.endswith("Eq. (17)") for text in shown.ask("below"))
+        assert any(text.endswith("speed and preload") for text in shown.ask("below"))
         assert opened.run("return document.documentElement.scrollWidth <= window.innerWidth")
+
+
+def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> None:
+    """A click on "no cycle found" showed a neighbour's cycle, which grows or decays."""
+    study = plane().drop_vars(["outcome", "message"])
+    explorer_path = tmp_path / "explorer.html"
+    told = [contents_of("cycles", study, motions(), Stated("The cycle.", axes=("N", "Omega")))]
+    explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        assert opened.run("return [view.x, view.y]") == ["N", "Omega"], "axes of its figure"
+        hidden = "return document.getElementById('motion').hidden"
+        shown.point(WITHOUT_CYCLE["N"], WITHOUT_CYCLE["Omega"], click=True)
+        assert shown.text("motion-note") == "No motion of this kind is stored: no cycle found."
+        assert opened.run(hidden)
+        assert opened.run("return nearestMotion()") is None, "and no ring in the map"
+        # the call makes a picture of the motion
+        call = shown.text("motion-call")
+        assert call == "dm.simulate(dm.Parameters(m=0.2, N=200, Omega=10, normalization=" + (
+            '"as_published"), 60).plot()'
+        )
+        assert len(eval(call, {"dm": dm})) == 3
+        # a stable cycle stands for another one, and not for one that grows
+        for place, kind, N in (((0, 2), "stable", 100), ((1, 3), "unstable", 385)):
+            shown.point(*place, click=True)
+            said = f"Nearest stored motion of the same kind, {kind}, at N = {N} N"
+            assert shown.text("motion-note").startswith(said)
+            assert not opened.run(hidden)
+
+
+def test_a_curve_of_growth_rates_has_the_dots_of_stable_ones(tmp_path: Path) -> None:
+    """Maps had them, curves and studies of one dimension did not."""
+    study = plane().isel(N=2, normalization=0, drop=True)
+    study["growth_rate"].values[:] = [-0.02, -0.3, 30.0, 0.02]
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("line", study)], []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.prefer("dark")
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        assert shown.text("legend") == f"Growth rate: {STABLE.label}"
+        opened.run("choose({Omega: 2})")  # its dashed line would cover a dot
+        # a dot of radius 3 without its line has some 20 pixels; one stands on the frame
+        assert 20 < shown.ask("whites") < 60
+        heights = opened.run(
+            "return [-0.02, 0, 0.02, 30].map(x => drawn.vertical(Math.asinh(x / arguments[0])))",
+            growth_norm(study["growth_rate"].values).linear_width,
+        )
+        steps = np.diff(heights)
+        assert steps[0] == pytest.approx(steps[1])
+        assert (steps < -10).all(), "hundredths are told apart beside tens"
 
 
 def is_light(colours: list[str]) -> bool:
@@ -223,8 +280,55 @@ def keeps_what_is_chosen_in_the_link(shown: Explorer) -> None:
     assert shown.page.run(controls) == ["linear", "outcome=separation"]
 
 
+def follows_values_of_links(shown: Explorer) -> None:
+    """Links counted cells, and led to another point after a change of the axes."""
+    place = "return [view.place.N, view.place.Omega, view.place.normalization]"
+
+    def follow(link: str) -> Any:
+        shown.page.run("return follow(arguments[0]).then(update)", link)
+        return shown.page.run(place)
+
+    shown.page.run("choose({N: 2, Omega: 2, normalization: 1})")
+    link = shown.ask("link")
+    said = "&N=385&Omega=15.1&normalization=orthonormal"
+    assert link.endswith(said)
+    head = "study=plane&x=Omega&y=N&variable=growth_rate&colours=auto&dots="
+    assert follow(head + "&N=100&Omega=20&normalization=as_published") == [0, 3, 0]
+    assert shown.text("warning") == ""
+    assert follow(head + said) == [2, 2, 1]
+    # a value that is gone, a word that is gone, another study, a link of an older page
+    assert follow(head + "&N=210&Omega=20&normalization=as_published") == [1, 3, 0]
+    assert shown.text("warning") == (
+        "The link's N = 210 is not in this study: the nearest point is shown."
+    )
+    assert follow(head + "&N=100&Omega=20&normalization=mean") == [0, 3, 0]
+    assert shown.text("warning") == "The link's normalization = mean is not in this study."
+    before = follow(head + "&N=385&Omega=20&normalization=as_published")
+    assert follow("study=gone&N=100") == before
+    assert "“gone” is not on this page" in shown.text("warning")
+    follow("study=plane&across=Omega&up=N&variable=growth_rate&N=0&Omega=0&normalization=1")
+    assert shown.text("warning").startswith("This link is of an older page")
+    shown.point(0, 0, click=True)
+    assert shown.text("warning") == ""
+
+
+def names_selectors_as_axes(shown: Explorer) -> None:
+    """Those of dimensions that are not on the map said "N" and "normalization"."""
+    label = "return document.getElementById('controls')[arguments[0]].parentElement.firstChild.data"
+    options = "return [...document.getElementById('controls').N.options].map(x => x.text)"
+    shown.choose("Variable", "growth_rate")
+    assert shown.page.run(label, "normalization") == "Scale of the mode shapes"
+    shown.choose("Up", "")
+    assert shown.page.run(label, "N") == "Preload N"
+    assert shown.page.run(options) == ["100 N", "200 N", "385 N"]
+    shown.choose("Up", "N")
+
+
 def draws_dots_on_curves(shown: Explorer) -> None:
     """A curve had the selector, and no dots."""
+    shown.page.run(
+        "choose({...view.place, Omega: 1})"
+    )  # its dashed line would cover a dot on the frame
     shown.choose("Up", "")
     shown.choose("N", "2")
     dots = {}
@@ -322,7 +426,9 @@ def shows_motions(shown: Explorer) -> None:
     assert shown.text("phases").split() == ["stick", "slip", "separation"]
     for i, j, outcome, N, Omega in [(3, 0, "quiet", 100, 5), (2, 1, "separation", 385, 20)]:
         shown.point(i, j, click=True)
-        near = f"Nearest stored motion of the same outcome, {outcome}, at N = {N} N, Ω = {Omega} rad/s, "
+        near = (
+            f"Nearest stored motion of the same kind, {outcome}, at N = {N} N, Ω = {Omega} rad/s, "
+        )
         assert shown.text("motion-note").startswith(f"{near}modes as published (ring in the map).")
     shown.page.point(*shown.ask("beginning"))
     assert shown.text("motion-hovered").startswith(

@@ -101,14 +101,14 @@ def force(N: float) -> np.ndarray:
 
 
 def motions() -> xr.Dataset:
-    """Histories at three points of the plane, one of which failed; the slider sticks, slips and is
+    """Histories at three points of the plane, one of which failed; the slider slips, sticks and is
     apart in turn."""
     points = [
         (100.0, 5.0, "as_published"),
         (385.0, 20.0, "as_published"),
         (100.0, 5.0, "orthonormal"),
     ]
-    phase = np.repeat([1, 2, 3, 1], SAMPLES // 4).astype(np.int8)
+    phase = np.repeat([2, 1, 3, 2], SAMPLES // 4).astype(np.int8)
     rows = {
         "P": np.stack([force(point[0]) for point in points]),
         "u": np.full((3, SAMPLES), -0.0088, np.float32),
@@ -266,6 +266,27 @@ def test_marks_are_those_of_each_plane(axes: tuple[str, str]) -> None:
     for i in range(study.sizes[other]):
         figure = isolated(study.isel({other: i}).transpose(*axes), "growth_rate")
         np.testing.assert_array_equal(cells.isel({other: i}).transpose(*axes), figure)
+
+
+def test_a_line_has_the_mark_of_its_stable_points() -> None:
+    """There were marks only for pairs of dimensions."""
+    study = plane().isel(N=2, normalization=0, drop=True)
+    study["growth_rate"].values[:] = [-0.02, 0.3, np.nan, -3.0]
+    variables = {one["name"]: one for one in contents_of("line", study)["variables"]}
+    found = marked(variables["growth_rate"], (4,))
+    assert [*found] == [(STABLE.label, "Omega")]
+    assert found[STABLE.label, "Omega"].tolist() == [True, False, False, True]
+    assert variables["outcome"]["marks"] == []
+
+
+def test_the_page_says_what_it_needs_without_scripts() -> None:
+    assert re.search(r"<noscript><p>[^<]*JavaScript[^<]*</p></noscript>", page("One", [], []))
+
+
+def test_a_page_opens_on_the_axes_of_a_figure() -> None:
+    told = contents_of("plane", plane(), stated=Stated(axes=("N", "Omega")))
+    assert told["axes"] == ["N", "Omega"]
+    assert contents_of("plane", plane(), stated=Stated(axes=("k", "N")))["axes"] == ["N"]
 
 
 def test_units_are_those_of_the_figures() -> None:

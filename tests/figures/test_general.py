@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from disc_model.errors import ParameterError
 from disc_model.figures import curve, heat_map, selection
 from disc_model.figures.drawing import save
+from disc_model.figures.legends import LEAST_MAP
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
 
@@ -45,6 +46,22 @@ def study() -> xr.Dataset:
 
 def mapped(study: xr.Dataset, variable: str, **phrase: Any) -> Figure:
     return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **phrase)
+
+
+def test_a_map_in_a_column_grows_with_its_title_and_legend(study: xr.Dataset) -> None:
+    """A figure of a fixed height gave what they took from the map."""
+    plain = mapped(study, "status", width="column", at={"normalization": "orthonormal"})
+    words = "A title that says a good deal more than what fits in one line of a column. "
+    titled = mapped(
+        study, "status", width="column", at={"normalization": "orthonormal"}, title=4 * words
+    )
+    for figure in (plain, titled):
+        figure.draw_without_rendering()
+        [ax] = figure.axes
+        # the layout is found to some hundredths of an inch
+        assert ax.bbox.height / figure.dpi > LEAST_MAP - 0.05
+    assert plain.get_figheight() == 2.9, "which has room"
+    assert titled.get_figheight() > 3.2
 
 
 def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None:

@@ -121,6 +121,24 @@ def test_a_name_that_would_stand_nearer_to_another_point_is_left_out() -> None:
     pyplot.close(figure)
 
 
+@pytest.mark.parametrize("apart", [2.4, 8.0])
+def test_a_name_stands_on_no_other_side_of_a_taller_line(apart: float) -> None:
+    """The name of a weak line between two strong ones stood beside one of these."""
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set(xlim=(0, 400), ylim=(1e-5, 100), yscale="log")
+    peaks = [(135.4 - apart, 8.5), (135.4, 0.4), (135.4 + apart, 8.0), (2.4, 11.0)]
+    name_lines(ax, peaks)
+    figure.draw_without_rendering()
+    boxes = {text.get_text(): text.get_window_extent() for text in ax.texts if text.get_visible()}
+    assert boxes.keys() == {f"{frequency:.1f} Hz" for frequency, height in peaks if height > 1}
+    for frequency, height in peaks[:1] + peaks[2:]:
+        own, _ = ax.transData.transform((frequency, height))
+        box = boxes[f"{frequency:.1f} Hz"]
+        # three points beside its own line, of 100 dots an inch, and the rest of the last letter
+        assert min(abs(box.x0 - own), abs(box.x1 - own)) < 6
+    pyplot.close(figure)
+
+
 def test_many_values_take_two_lines_above_a_figure() -> None:
     """The head of a map of a steel disc took seven lines, a third of its figure."""
     values = ", ".join(f"x{i} = {i} N" for i in range(40))

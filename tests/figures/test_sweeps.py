@@ -12,6 +12,7 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.classes import name_of
+from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.words import unit_text
 from tests.figures.measured import Shown, assert_shows
 from tests.figures.reading import labels
@@ -230,6 +231,92 @@ def test_five_classes_below_narrow_axes_stand_in_columns() -> None:
     lefts = {round(text.get_window_extent().x0) for text in legend.get_texts()}
     assert len(lefts) == 2
     assert ax.bbox.height > 0.4 * figure.bbox.height
+    pyplot.close("all")
+
+
+def rates() -> xr.Dataset:
+    """Growth rates of either sign, one of them alone among others, and a place without a cycle."""
+    rate = np.full((4, 5), 0.1)
+    rate[2:, :3] = -0.1
+    rate[3, 3] = np.nan
+    rate[0, 2] = 0.3
+    cycle = np.where(np.isfinite(rate), "followed", "no_cycle")
+    axes = {"N": [100.0, 200.0, 300.0, 400.0], "Omega": [10.0, 12.0, 14.0, 16.0, 18.0]}
+    attrs = {"units": "s-1", "long_name": "growth rate of disturbances of the stick-slip cycle"}
+    values = {"growth_rate": ([*axes], rate, attrs), "cycle": ([*axes], cycle)}
+    return xr.Dataset(values, axes)
+
+
+def rows_of(legend: Any) -> int:
+    """How many rows the entries of a legend stand in."""
+    return len({round(text.get_window_extent().y0) for text in legend.get_texts()})
+
+
+@pytest.mark.parametrize("stacked", [False, True])
+def test_a_legend_stands_below_a_map_and_its_bar(stacked: bool) -> None:
+    """It had the width of the map alone, and squeezed it by a column of three rows."""
+    count = 2 if stacked else 1
+    size = (84 / 25.4, 1.6 * count + 0.6)
+    with pyplot.rc_context({"font.size": 8}):
+        figure, axes = pyplot.subplots(count, figsize=size, layout="constrained", squeeze=False)
+        for ax in axes.flat:
+            dm.plot_sweep(rates(), ax=ax)
+        figure.draw_without_rendering()
+    for ax in axes.flat:
+        legend = ax.get_legend()
+        names = {text.get_text() for text in legend.get_texts()}
+        assert names == {"no cycle found", "stable", "unresolved"}
+        assert rows_of(legend) == 1
+        box = legend.get_window_extent()
+        assert box.x1 > ax.bbox.x1
+        assert box.x1 <= figure.bbox.x1
+        assert box.x0 >= 0
+        # what was 17 mm of 45 with three rows
+        assert ax.bbox.height > 0.45 * figure.bbox.height / count
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("size", [8, 10])
+def test_legends_of_maps_beside_each_other_do_not_meet(size: int) -> None:
+    with pyplot.rc_context({"font.size": size}):
+        figure, axes = pyplot.subplots(1, 2, figsize=(174 / 25.4, 2.6), layout="constrained")
+        dm.plot_sweep(outcomes(), "outcome", ax=axes[0])
+        dm.plot_sweep(rates(), ax=axes[1])
+        figure.draw_without_rendering()
+    left, right = (ax.get_legend().get_window_extent() for ax in axes)
+    assert not left.overlaps(right)
+    pyplot.close("all")
+
+
+def long_names() -> xr.Dataset:
+    """Outcomes of which one has a long name."""
+    study = outcomes()
+    outcome = study["outcome"].astype(object)
+    outcome[0, 0] = "other_cycle"
+    return study.assign(outcome=outcome.astype(str))
+
+
+def test_many_classes_in_large_letters_leave_a_map_its_height() -> None:
+    """They stood in one column, and the map was 11 mm high."""
+    with pyplot.rc_context({"font.size": 11}):
+        figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
+        legend = dm.plot_sweep(long_names(), "outcome", ax=ax).get_legend()
+        figure.draw_without_rendering()
+    assert rows_of(legend) <= 3
+    assert ax.bbox.height > 0.5 * figure.bbox.height
+    assert min(text.get_fontsize() for text in legend.get_texts()) >= LEAST_TEXT
+    pyplot.close("all")
+
+
+def test_a_new_map_grows_with_its_legend() -> None:
+    """A figure of a fixed height gave what the legend took from the map."""
+    with pyplot.rc_context({"font.size": 14}):
+        ax = dm.plot_sweep(long_names(), "outcome", title="Above it,\nthree lines\nof a title")
+        figure = ax.figure
+        figure.draw_without_rendering()
+    # the height of a text that is broken once more is the rest
+    assert ax.bbox.height / figure.dpi > LEAST_MAP - 0.05
+    assert figure.get_figheight() > 2.9
     pyplot.close("all")
 
 

@@ -70,14 +70,17 @@ def check_owner(files, owner):
 
 
 def stated_of(grid):
-    """What a study's file says of its page; the units of the first figure that has any."""
+    """What a study's file says of its page: units of the first figure that has any, axes of the first one that has
+    two."""
     units = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
+    maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
     call = call_of(grid.quantity, grid.options)
     return {
         **call._asdict(),
         "motion": grid.options.motion,
         "units": units,
         "has_figures": bool(grid.plots),
+        "axes": [*maps[0].values()] if maps else [],
     }

@@ -51,6 +51,7 @@ class Stated(NamedTuple):
     before, after : texts round a case, in the call in Python that computes a point
     begins : parameters that the quantity varies by itself, each where its range begins
     units : units of its figures, by parameter
+    axes : dimensions across and up in its first figure that has both
     has_figures : whether there is a figure of it
     """
 
@@ -60,6 +61,7 @@ class Stated(NamedTuple):
     begins: Mapping[str, float] = MappingProxyType({})
     units: Mapping[str, str] = MappingProxyType({})
     has_figures: bool = True
+    axes: Sequence[str] = ()
 
 
 NOTHING_STATED = Stated()
@@ -95,6 +97,7 @@ def _study_contents(
         "call": {"before": stated.before, "after": stated.after, "begins": dict(stated.begins)},
         "discs": json.loads(study.attrs.get("discs", "{}")),
         "has_figures": stated.has_figures,
+        "axes": [name for name in stated.axes if name in study.sizes],
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(study, variable) for variable in drawn],

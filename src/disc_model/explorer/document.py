@@ -28,6 +28,7 @@ SCRIPTS = (
     "map",
     "point",
     "motion",
+    "link",
     "start",
 )  # in the order of their dependence
 

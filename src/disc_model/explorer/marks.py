@@ -11,29 +11,35 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import MARKED, unresolved_motions
 from disc_model.figures.classes import UNRESOLVED, Look
-from disc_model.figures.growth import MAP_LOOKS, is_growth, marks_of
+from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, is_growth, marks_of
 from disc_model.figures.selection import shown_words, statuses
 from disc_model.figures.types import Mask
 
 
 class MarkedCells(NamedTuple):
-    """A mark of a variable on maps over two dimensions: its word, its look, and the points that have
-    it, in the shape of the variable."""
+    """A mark of a variable on maps over two dimensions, or along its only one: its word, its look,
+    and the points that have it, in the shape of the variable."""
 
     word: str
     look: Look
-    axes: tuple[str, str]
+    axes: tuple[str, ...]
     cells: Mask
 
 
 def marked_cells(study: xr.Dataset, name: str) -> list[MarkedCells]:
-    """All marks of a variable, those that occur, of each pair of its dimensions."""
+    """All marks of a variable, those that occur, of each pair of its dimensions; along a single one,
+    only what a rate's sign decides, since neighbours across are missing."""
     variable = study[name]
     flag = "flag_meanings" in variable.attrs
     if not flag and not is_growth(name):
         return []
     looks = MARKED if flag else MAP_LOOKS
     found = []
+    if len(variable.dims) == 1 and not flag:
+        decaying = marks_of(study[[name]].expand_dims("alone"), name)[NEGATIVE][0]
+        if decaying.any():
+            [dim] = variable.dims
+            found.append(MarkedCells(NEGATIVE, looks[NEGATIVE], (str(dim),), decaying))
     for axes in combinations([str(dim) for dim in variable.dims], 2):
         for word, cells in _marks_over(study, name, axes).items():
             if cells.any():

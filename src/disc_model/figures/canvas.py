@@ -15,7 +15,7 @@ from matplotlib.legend import Legend
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels, part_numbers
-from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.legends import figure_legend, keep_height, legend_below, legend_inside
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
 
@@ -76,6 +76,7 @@ class Page:
     note : what stands above the first panel, unless the reader asks for another title
     joins : whether the entries of a legend that the axes have are kept
     bars : axes of bars of colours
+    is_map : whether a new figure grows so that its panels keep their height beside the legend
     """
 
     axes: list[Axes]
@@ -86,6 +87,7 @@ class Page:
     note: str = ""
     joins: bool = False
     bars: Sequence[Axes] = field(default_factory=list)
+    is_map: bool = False
 
     @property
     def ax(self) -> Axes:
@@ -126,8 +128,8 @@ def page_for(
         before = set(figure.axes)
         yield page
         _restate(page, wishes)
-        bars = [ax for ax in figure.axes if ax not in before]
-        shown = [*page.axes, *bars]
+        page.bars = [ax for ax in figure.axes if ax not in before]
+        shown = [*page.axes, *page.bars]
         unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
         _write_legend(page, wishes)
         for ax in shown:  # which may be lower or narrower now
@@ -138,7 +140,7 @@ def page_for(
             _write_legend(page, wishes)
         for ax in page.axes:
             part_numbers(ax)
-        if bars:
+        if page.bars:
             _check_room(page)
         return
     with readers_style():
@@ -154,6 +156,8 @@ def page_for(
             _restate(page, wishes)
             _write_legend(page, wishes)
             break_labels(figure)
+            if page.is_map:
+                keep_height(figure, page.axes)
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise
@@ -252,7 +256,7 @@ def _write_legend(page: Page, wishes: Wishes) -> None:
     elif page.own:
         figure_legend(page.figure, page.handles, title=page.heading)
     elif page.beside == "below":
-        legend_below(page.axes[-1], page.handles, title=page.heading)
+        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)
     elif not legend_inside(page.ax, page.handles, title=page.heading):
         page.beside = "below"
-        legend_below(page.axes[-1], page.handles, title=page.heading)
+        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)

@@ -21,8 +21,10 @@ EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
 INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
+STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
-IN_A_COLUMN = 3  # entries below a panel that stand in one column before their text is made smaller
+IN_A_ROW = 3  # entries below a panel for which no text is made smaller
+LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -109,10 +111,21 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
     return None
 
 
-def small() -> dict[str, Any]:
-    """Options of a legend that needs little room: its text is smaller, and its samples shorter."""
+def keep_height(figure: FigureBase, axes: Sequence[Axes], least: float = LEAST_MAP) -> None:
+    """Make a figure so high that its legend and titles leave its panels a height in inches."""
+    page: Any = figure
+    page.draw_without_rendering()  # sets the places
+    lowest = min(ax.bbox.height for ax in axes) / page.dpi
+    rows = {round(ax.bbox.y0) for ax in axes}
+    if lowest < least:
+        page.set_figheight(page.get_figheight() + len(rows) * (least - lowest))
+
+
+def small(share: float = SMALLER) -> dict[str, Any]:
+    """Options of a legend that needs little room: its text has a share of the usual size, and its
+    samples are shorter."""
     usual = FontProperties(size=rcParams["legend.fontsize"]).get_size_in_points()
-    size = min(usual, max(SMALLER * usual, LEAST_TEXT))
+    size = min(usual, max(share * usual, LEAST_TEXT))
     return {
         "fontsize": size,
         "title_fontsize": size,
@@ -162,10 +175,13 @@ def _meets_shape(box: Bbox, shape: Collection) -> bool:
     )
 
 
-def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
+def legend_below(
+    ax: Axes, handles: Sequence[Artist], bars: Sequence[Axes] = (), **look: Any
+) -> Legend:
     """Draw a legend below the label of the horizontal axis, in as many columns as there is room for
-    between the left end of the labels and the right end of the axes; a smaller one where the usual
-    one is wider than that, or where many entries would stand in one column."""
+    between the left end of the labels and the right end of the axes, or of bars of colours beside
+    them; a smaller one where the usual one is wider than that, or where many entries would stand in
+    one column."""
     if not handles:
         return None
     page: Any = ax.get_figure(root=True)
@@ -174,12 +190,18 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     lowest = ax.xaxis.get_tightbbox()
     leftmost = ax.yaxis.get_tightbbox()
     depth = 0.0 if lowest is None else frame.y0 - lowest.y0
-    reach = 0.0 if leftmost is None else frame.x0 - max(leftmost.x0, 0.0)
+    share = _share_of_page(ax)
+    reach = 0.0
+    if leftmost is not None:  # another panel's legend may reach up to the share of this one
+        reach = max(frame.x0 - max(leftmost.x0, share.left), 0.0)
 
-    # below the axes where it fits, and else below their labels too
-    room = float(frame.width) - BESIDE * page.dpi
+    # below the axes and bars where it fits, and else below their labels too
+    ends = [bar.get_tightbbox() for bar in bars]
+    right = max([frame.x1, *(end.x1 for end in ends if end is not None)])
+    room = min(right, page.bbox.width) - frame.x0 - BESIDE * page.dpi
+    looks: list[dict[str, Any]] = [{}, small(1.0), small(), small(STILL_SMALLER), small(0.0)]
     places = []
-    for shift, size in ((0.0, {}), (reach, {}), (reach, small())):
+    for shift, size in [(0.0, looks[0]), *((reach, each) for each in looks)]:
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
         draw = partial(
@@ -191,9 +213,10 @@ def legend_below(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
             **size,
             **look,
         )
-        places.append(Place(draw, min(room + shift, _share_of_page(ax))))
-    columns = 2 if len(handles) > IN_A_COLUMN else 1
-    place = _first_that_fits(places, columns)
+        places.append(Place(draw, min(room + shift, share.width)))
+    place = _first_that_fits(places, 2)
+    if len(handles) <= IN_A_ROW:
+        place = _first_that_fits(places[:3], len(handles))
     legend = _widest_that_fits(place.draw, len(handles), place.width)
     # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
     legend.get_tightbbox = partial(_as_wide_as, ax, legend)
@@ -220,14 +243,21 @@ def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
     return places[-1]
 
 
-def _share_of_page(ax: Axes) -> float:
-    """Width in pixels of the part of the page that axes of a grid have with their labels."""
+class Share(NamedTuple):
+    """A part of the width of a page, in pixels."""
+
+    left: float
+    width: float
+
+
+def _share_of_page(ax: Axes) -> Share:
+    """The part of the page's width that axes of a grid have with their labels."""
     page: Any = ax.get_figure()
     place = ax.get_subplotspec()
     if place is None:
-        return float(page.bbox.width)
-    columns = place.get_gridspec().ncols
-    return float(page.bbox.width) * len(place.colspan) / columns
+        return Share(0.0, float(page.bbox.width))
+    column = float(page.bbox.width) / place.get_gridspec().ncols
+    return Share(column * place.colspan.start, column * len(place.colspan))
 
 
 def _as_wide_as(ax: Axes, legend: Legend, renderer: Any = None) -> Bbox:

@@ -26,11 +26,21 @@ class Names(Artist):
     ax : the panel
     most : greatest number of names
     lines : points of lines that no name may cover, in units of the axes, shape (n, 2)
+    on_stems : whether the points are tops of upright lines, none of which may stand between another
+        point and its name
     """
 
-    def __init__(self, ax: Axes, most: int | None = None, lines: Array | None = None) -> None:
+    def __init__(
+        self,
+        ax: Axes,
+        most: int | None = None,
+        lines: Array | None = None,
+        *,
+        on_stems: bool = False,
+    ) -> None:
         super().__init__()
         self._most = most
+        self._on_stems = on_stems
         self._lines = np.empty((0, 2)) if lines is None else lines
         self._candidates: list[list[Annotation]] = []
         self._points: list[tuple[float, float]] = []
@@ -90,7 +100,8 @@ class Names(Artist):
             inside = frame.count_contains(box.corners()) == len(box.corners())
             covers = box.count_contains(lines) or box.count_overlaps(taken)
             nearness = Nearness(panel.transData.transform(name.xy), others)
-            if inside and not covers and nearness.is_clear(box):
+            beyond = self._on_stems and nearness.is_beyond_a_stem(box)
+            if inside and not covers and not beyond and nearness.is_clear(box):
                 taken.append(box)
                 return
             name.set_visible(False)
@@ -109,6 +120,14 @@ class Nearness(NamedTuple):
         within = np.clip(places, box.min, box.max)
         own, *others = np.hypot(*(places - within).T)
         return all(own < other for other in others)
+
+    def is_beyond_a_stem(self, box: Bbox) -> bool:
+        """Whether an upright line up to another point lies between a box and the point itself, or
+        under the box."""
+        reach = Bbox.union([box, Bbox([self.own, self.own])])
+        across, up = self.others.T
+        between = (reach.x0 <= across) & (across <= reach.x1)
+        return bool((between & (up >= reach.y0)).any())
 
 
 # ---- Modes

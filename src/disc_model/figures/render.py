@@ -35,7 +35,8 @@ from disc_model.figures import (
 )
 from disc_model.figures.drawing import COLUMN, panels, styled
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
-from disc_model.figures.labels import break_labels, restate_axes
+from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
+from disc_model.figures.legends import keep_height
 from disc_model.figures.selection import normalizations, of, picked
 from disc_model.figures.types import Figure
 from disc_model.figures.words import MODES, UNITS, factors_of, head_text, named_value, what_case
@@ -99,6 +100,9 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
             if text and not plot.caption:
                 _write_title(plot, drawn.figure, text)
             break_labels(drawn.figure)  # below the title, which leaves them less room
+            if plot.is_map:
+                maps = [ax for ax in drawn.figure.axes if ax.get_label() != COLOUR_BAR]
+                keep_height(drawn.figure, maps)
             return drawn.figure
     finally:
         UNITS.reset(token)

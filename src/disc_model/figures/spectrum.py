@@ -22,7 +22,8 @@ WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have 
 ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
 HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name
 MOST_NAMED = 5  # lines whose frequencies are written
-BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks
+BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks,
+BELOW = ((3, -3), (-3, -3))  # and where there is no room, beside their lines
 ROUNDING = 1e-9  # relative, of half the rate of a window
 
 
@@ -114,13 +115,14 @@ def draw_spectrum(
 
 def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
     """Write the frequencies, Hz, of the strongest lines beside their peaks, on the side away from
-    the nearest other line if there is room."""
-    names = Names(ax, MOST_NAMED)
+    the nearest other line if there is room; a name that would stand beyond another line is left
+    out."""
+    names = Names(ax, MOST_NAMED, on_stems=True)
     every = [frequency for frequency, _ in peaks]
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
-        sides = BESIDE
+        sides = (*BESIDE, *BELOW)
         if _nearest(frequency, every) > frequency:
-            sides = BESIDE[::-1]
+            sides = (*BESIDE[::-1], *BELOW[::-1])
         names.add(f"{frequency:.1f} Hz", (frequency, height), sides, fontsize=large(7))
 
 

@@ -204,6 +204,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
         page.bars = [ax for ax in page.figure.axes if ax not in before]
         page.explain(key.handles, beside="below", title=key.title)
+        page.is_map = True
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
             page.ax.locator_params(axis="y", integer=True)

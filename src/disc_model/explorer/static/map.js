@@ -33,7 +33,7 @@ function drawMap() {
   ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
-  const dots = chosenDots();
+  const dots = chosenDots() ?? (curve ? stableDots(variable) : undefined);
   const dotted = (place) => Boolean(dots) && dots.holds(place);
   const over = curve ? [] : marksOver(variable, x, y);
   const patterns = patternsOf(ink, over);
@@ -68,10 +68,13 @@ function drawMap() {
   yAxis(ink, box, ys.ticks(), vertical, upward);
   if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
   drawn = { box, horizontal, vertical, xs, ys };
-  if (curve) drawCurve(ink, cells.map(({ i, place }, n) => [horizontal(xs.at[i]), vertical(numbers[n]), dotted(place)]));
+  if (curve) drawCurve(ink, cells.map(({ i, place }, n) => [horizontal(xs.at[i]), vertical(ys.to(numbers[n])), dotted(place)]));
   else markChosen(ink);
   legend(seen, dots);
 }
+
+/** The dots of a curve of growth rates, those of its stable points, unless others are chosen; they stand for the map's marks. */
+const stableDots = (variable) => marks().find((mark) => mark.key === `${variable.name}=stable`);
 
 /** The marks that lie over the cells of a map, as in the figures. */
 const marksOver = (variable, x, y) => variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y));
@@ -161,17 +164,34 @@ function legendEntry([look, text]) {
 function scaleOfNumbers(variable, numbers) {
   const finite = numbers.filter(Number.isFinite);
   const [least, greatest] = finite.length ? [Math.min(...finite), Math.max(...finite)] : [0, 1];
+  if (variable.scale && Math.max(-least, greatest) > 2 * variable.scale.width) return scaleOfRates(variable.scale, least, greatest);
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
   const ticks = variable.flags
     ? variable.flags.map((word, code) => [code, word]).filter(([code]) => code >= least && code <= greatest)
     : roundTicks(least - room, greatest + room).map((tick) => [tick, number(tick, 4)]);
-  return { borders: [least - room, greatest + room], ticks: () => ticks };
+  return { borders: [least - room, greatest + room], to: identity, ticks: () => ticks };
+}
+
+/** The scale of a curve of growth rates: nearly linear around 0 and nearly logarithmic beyond, as peaks of tens stand beside
+ * hundredths; its width is that of the colours of maps. */
+function scaleOfRates({ width }, least, greatest) {
+  const to = (rate) => Math.asinh(rate / width);
+  const room = (to(greatest) - to(least) || 1) / 20;
+  const borders = [to(least) - room, to(greatest) + room];
+  const ticks = [0];
+  const first = Math.floor(log10(width));
+  for (let power = first; power <= Math.ceil(log10(Math.max(-least, greatest))); power++)
+    ticks.push(10 ** power, -(10 ** power));
+  const inside = ticks.map((rate) => [to(rate), number(rate, 2)]).filter(([at]) => at >= borders[0] && at <= borders[1]);
+  return { borders, to, ticks: () => inside };
 }
 
 /** The curve in its frame, with its dots, and a line at the chosen point. */
 function drawCurve(ink, points) {
   const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+  const zero = drawn.vertical(0);
+  if (view.variable.scale && zero > box.top && zero < box.bottom) line(ink, box.left, zero, box.right, zero);
   ink.strokeStyle = ink.fillStyle = style("--accent");
   polyline(ink, points, !view.variable.flags);
   for (const [x, y, dotted] of points) if (dotted && Number.isFinite(y)) disc(ink, x, y, MOST_RADIUS);

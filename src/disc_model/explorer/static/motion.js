@@ -17,48 +17,73 @@ const motionsAt = (place) =>
     Object.entries(motionPlaces(view.study, motion)).every(([name, at]) => at === place[name]),
   );
 
-/** The stored motion nearest the chosen point by places along the axes, of the same outcome if there is one. */
+/** What becomes of a point, as far as its study says: its outcome, or else the stability or lack of its cycle; in words. */
+function fateOf(study, place) {
+  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  if (outcome) return shown(study, outcome, place);
+  const rate = study.variables.find(growth);
+  if (!rate) return study.status ? shown(study, study.status, place) : "";
+  const gap = gapAt(study, rate, place);
+  if (gap) return gap.label;
+  const stable = stableMark(rate);
+  return stable && value(study, stable, place) ? stable.look.label : "unstable";
+}
+
+/** How far a motion's place is from the chosen point, by places along the axes; infinitely far beyond another word. */
+function apartBy(places) {
+  const { study, place } = view;
+  const along = Object.entries(places).map(([name, at]) => {
+    const words = typeof Object.values(study.dim[name].parts)[0][0] === "string"; // which have to agree
+    return words && at !== place[name] ? Infinity : ((at - place[name]) / Math.max(1, study.sizes[name] - 1)) ** 2;
+  });
+  return along.reduce((sum, one) => sum + one, 0);
+}
+
+/** The stored motion nearest the chosen point among those of the same fate, null without one. */
 function nearestMotion() {
   const { study, place } = view;
-  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  const fate = fateOf(study, place);
   let best = null;
   for (const motion of study.motions?.points ?? []) {
     const places = motionPlaces(study, motion);
-    const apart = Object.entries(places).map(([name, at]) => {
-      const words = typeof Object.values(study.dim[name].parts)[0][0] === "string"; // which have to agree
-      return words && at !== place[name] ? Infinity : ((at - place[name]) / Math.max(1, study.sizes[name] - 1)) ** 2;
-    });
-    motion.far = apart.reduce((sum, one) => sum + one, 0);
-    const found = outcome && value(study, outcome, { ...place, ...places });
-    motion.other = Boolean(outcome) && found !== value(study, outcome, place);
-    motion.like = outcome ? `of ${motion.other ? "another" : "the same"} outcome, ${outcome.looks[found].label}, ` : "";
-    const nearer = !best || (motion.other === best.other ? motion.far < best.far : best.other);
-    if (motion.far < Infinity && nearer) best = motion;
+    motion.far = apartBy(places);
+    const alike = fateOf(study, { ...place, ...places }) === fate;
+    if (alike && motion.far < (best?.far ?? Infinity)) best = motion;
   }
   return best;
+}
+
+/** Why no motion is shown, as a sentence. */
+function lackOfMotion(study, place) {
+  if (!study.motions) return "No motions of this quantity are stored.";
+  const alike = study.motions.points.some((motion) => apartBy(motionPlaces(study, motion)) < Infinity);
+  return alike ? `No motion of this kind is stored: ${fateOf(study, place)}.` : "No motion is stored that is computed as this point is.";
 }
 
 const PANEL = { gap: 34, top: 20, bottom: 44, right: 12 };
 let motionDrawn = null;
 
 function drawMotion() {
-  const { study } = view;
+  const { study, place } = view;
   const motion = nearestMotion();
+  const own = motion?.far === 0;
   const canvas = element("motion");
   canvas.hidden = !motion;
   element("motion-hovered").textContent = "";
   element("phases").replaceChildren();
   motionDrawn = null;
+  element("motion-call").textContent = own ? "" : simulation(study, place);
+  element("motion-by-call").hidden = !element("motion-call").textContent;
   if (!motion) {
-    element("motion-note").textContent = study.motions
-      ? "No motion is stored that is computed as this point is."
-      : "Of this quantity no motions are stored.";
+    element("motion-note").textContent = lackOfMotion(study, place);
     return;
   }
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
   const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
-  const far = motion.far === 0 ? "At this point" : `Nearest stored motion ${motion.like}at ${where(motion.places, dims)}${ring}`;
-  element("motion-note").textContent = `${far}. ${study.motions.text}`;
+  const fate = fateOf(study, place);
+  const like = fate ? `of the same kind, ${fate}, ` : "";
+  const said = own ? "At this point" : `Nearest stored motion ${like}at ${where(motion.places, dims)}${ring}`;
+  element("motion-note").textContent = `${said}. ${study.motions.text}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;
@@ -107,16 +132,16 @@ function rangeOf(numbers) {
 }
 
 function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
-  const seen = new Map();
+  const seen = [];
   motion.phase.forEach(([begin, code], n) => {
     const end = n + 1 < motion.phase.length ? motion.phase[n + 1][0] : last;
     const word = motions.phases[code];
     const colour = contents.phases[word] ?? style("--empty");
-    seen.set(word, colour);
+    seen[code] = [colour, word]; // the legend has the order of the figures
     ink.fillStyle = colour;
     ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
   });
-  element("phases").replaceChildren(...[...seen].map(([word, colour]) => legendEntry([colour, word])));
+  element("phases").replaceChildren(...seen.filter(Boolean).map(legendEntry));
 }
 
 function hoverMotion(event) {

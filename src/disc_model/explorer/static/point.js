@@ -49,42 +49,25 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
-/** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; within the call of
- * the quantity if that varies a parameter by itself, which the case has where its range begins. */
-function call(study, place) {
+/** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; a parameter that the
+ * quantity varies by itself has the value where its range begins. */
+function caseOf(study, place) {
   const varied = study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
   const unusual = study.fixed.filter((one) => !one.usual);
-  const { before, after, begins } = study.call;
-  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(begins), ...varied];
+  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(study.call.begins), ...varied];
   const python = (name, value) => JSON.stringify(name === "disc" ? study.discs[value] ?? value : value).replaceAll("null", "None");
   const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(name, value)}`);
-  return `${before}dm.Parameters(${stated.join(", ")})${after}`;
+  return `dm.Parameters(${stated.join(", ")})`;
 }
 
-/** The address of a point: its study, what is shown of it and how, and its place along each dimension. */
-function address() {
-  const { study, x, y, variable, colours, mark, place } = view;
-  return new URLSearchParams({ study: study.name, across: x, up: y, variable: variable.name, colours, dots: mark, ...place });
-}
+/** The call in Python for a point: its case, or that of a quantity which varies a parameter by itself. */
+const call = (study, place) => `${study.call.before}${caseOf(study, place)}${study.call.after}`;
 
-/** Choose what an address says, as far as it is there. */
-async function follow(hash) {
-  const asked = new URLSearchParams(hash);
-  if (!contents.studies.some((study) => study.name === asked.get("study"))) return false;
-  await chooseStudy(asked.get("study"));
-  const { study } = view;
-  if (study.dim[asked.get("across")]) view.x = asked.get("across");
-  view.y = study.dim[asked.get("up")] && asked.get("up") !== view.x ? asked.get("up") : NONE;
-  view.variable = study.variables.find((one) => one.name === asked.get("variable")) ?? view.variable;
-  chooseAxes();
-  if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
-  if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
-  for (const dim of study.dims) {
-    const index = Number(asked.get(dim.name) ?? view.place[dim.name]);
-    if (index >= 0 && index < dim.values.length) view.place[dim.name] = Math.floor(index);
-  }
-  return true;
-}
+const SIMULATED_FOR = 60; // s, as in the package's first examples
+
+/** The call in Python that shows the motion of a point from the static start; "" if the point is no one case. */
+const simulation = (study, place) =>
+  Object.keys(study.call.begins).length ? "" : `dm.simulate(${caseOf(study, place)}, ${SIMULATED_FOR}).plot()`;
 
 /** What the map shows, as comma-separated values. */
 function csv() {
@@ -102,8 +85,16 @@ function csv() {
   return rows.map((row) => row.join(",")).join("\n");
 }
 
-function choose(place, pointed = place) {
+/** Choose a point. */
+function choose(place) {
   view.place = place;
+  view.warning = "";
+  redraw(place);
+}
+
+/** Draw all that depends on what is looked at; `pointed` is where the pointer is. */
+function redraw(pointed = null) {
+  element("warning").textContent = view.warning;
   element("link").href = `#${address()}`;
   drawMap();
   hover(pointed);

@@ -18,8 +18,6 @@ element("large").addEventListener("keydown", (event) => {
   if (next) enlarge(next);
 });
 
-const redraw = () => choose(view.place, null);
-
 function update() {
   fillControls();
   redraw();
@@ -40,13 +38,18 @@ function listen() {
     showCutTexts();
     redraw();
   });
-  window.addEventListener("hashchange", async () => (await follow(location.hash.slice(1))) && update());
-  element("table").addEventListener("click", () => {
-    URL.revokeObjectURL(element("table").href);
-    element("table").href = URL.createObjectURL(new Blob([csv()], { type: "text/csv" }));
-    element("table").download = `${view.study.name}_${view.variable.name}.csv`;
+  window.addEventListener("hashchange", async () => {
+    await follow(location.hash.slice(1));
+    update();
   });
-  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
+  element("table").addEventListener("click", () => {
+    const file = document.createElement("a");
+    file.href = URL.createObjectURL(new Blob([csv()], { type: "text/csv" }));
+    file.download = `${view.study.name}_${view.variable.name}.csv`;
+    file.click();
+    URL.revokeObjectURL(file.href);
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => redraw());
 }
 
 async function start() {

@@ -1,6 +1,6 @@
 // What is looked at, and the controls that choose it.
 
-const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE };
+const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, warning: "" };
 
 const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
 const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));
@@ -13,14 +13,20 @@ const mapped = (study) =>
 const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
+/** Axes of a study of which no figure names them: the speed goes across. */
+function usualAxes(axes) {
+  const across = axes.find((dim) => dim.name === "Omega") ?? axes[0];
+  return [across, axes.find((dim) => dim !== across)];
+}
+
 async function chooseStudy(name) {
   const study = contents.studies.find((one) => one.name === name);
   await unpack(study);
   const numeric = long(study).filter((dim) => !dim.words);
   const axes = numeric.length ? numeric : long(study).length ? long(study) : study.dims;
-  // the speed goes across, as in the figures
-  const across = axes.find((dim) => dim.name === "Omega") ?? axes[0];
-  const up = axes.find((dim) => dim !== across);
+  const figure = study.axes.map((name) => study.dim[name]);
+  const ofFigure = figure.length === 2 && figure.every((dim) => axes.includes(dim));
+  const [across, up] = ofFigure ? figure : usualAxes(axes);
   const kept = view.place;
   Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
   view.place = Object.fromEntries(
@@ -56,6 +62,8 @@ function chooseAxes() {
 const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
 
 const SIMULATED = "method=simulation";
+/** The mark of a variable's stable points, if it has one. */
+const stableMark = (variable) => variable.marks.find((one) => one.is_stable);
 
 /** What points can be dotted by, a class of a flag or the stability of a growth rate: its key, texts, and whether it holds. */
 function marks() {
@@ -64,7 +72,7 @@ function marks() {
     const mark = (word, label, holds) => ({
       key: `${variable.name}=${word}`, text: `${variable.name}: ${label}`, title: `${variable.label}: ${label}`, holds,
     });
-    const stable = variable.marks.find((one) => one.is_stable);
+    const stable = stableMark(variable);
     if (stable) return [mark("stable", stable.look.label, (place) => value(study, stable, place) > 0)];
     return (variable.flags ?? []).map((word, code) =>
       mark(word, labelOf(variable, word), (place) => value(study, variable, place) === code));
@@ -77,28 +85,32 @@ const chosenDots = () => marks().find((mark) => mark.key === view.mark);
 
 const COLOURS = [["auto", "automatic"], ["linear", "linear"], ["stretched", "small values spread"]];
 
-function choice(label, options, chosen, act) {
+function choice(label, options, chosen, act, name = label) {
   const box = document.createElement("label");
   box.textContent = label;
   const select = document.createElement("select");
-  select.name = label;
+  select.name = name;
   for (const [key, text] of options) select.add(new Option(text, key, false, key === chosen));
   select.title = select.selectedOptions[0]?.text ?? "";
   select.addEventListener("change", async () => {
     element("grids").ariaBusy = "true";
+    view.warning = "";
     await act(select.value);
     update();
-    element("controls").elements.namedItem(label)?.focus();
+    element("controls").elements.namedItem(name)?.focus();
   });
   box.append(select);
   return box;
 }
 
+/** The name of an axis, without what explains it after a colon. */
+const shortLabel = (dim) => dim.label.split(":")[0];
+
 function fillControls() {
   const { study } = view;
   const axes = long(study).length ? long(study) : study.dims;
-  const axis = (dim) => [dim.name, dim.label];
-  const named = (dim) => [dim.name, dim.name === dim.title ? dim.name : `${dim.name}: ${dim.title}`];
+  const axis = (dim) => [dim.name, shortLabel(dim)];
+  const named = (one) => [one.name, one.name === one.label ? one.name : `${one.label} (${one.name})`];
   const boxes = [
     choice("Study", contents.studies.map((one) => [one.name, `${one.name}: ${one.title}`]), study.name, chooseStudy),
     choice("Across", axes.map(axis), view.x, (name) => {
@@ -115,10 +127,11 @@ function fillControls() {
     }),
     ...selectors().filter((dim) => dim.values.length > 1).map((dim) =>
       choice(
-        dim.name,
+        shortLabel(dim),
         dim.shown.map((one, i) => [String(i), withUnit(number(one), dim.unit)]),
         String(view.place[dim.name]),
         (i) => (view.place[dim.name] = Number(i)),
+        dim.name,
       ),
     ),
   ];

@@ -65,6 +65,9 @@ class Kind(Strict):
     titled_by_legend: ClassVar[bool] = False
     """Whether the title is that of the first legend, which lies above the panels."""
 
+    is_map: ClassVar[bool] = False
+    """Whether the figure grows so that its panels keep their height beside the legend."""
+
     usual: ClassVar[Width] = "page"
     """Its width, unless the file gives one."""
     widths: ClassVar[tuple[Width, ...]] = ("column", "page")

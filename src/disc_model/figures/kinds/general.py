@@ -93,6 +93,7 @@ def _same(value: Any, other: Any) -> bool:
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
 
+    is_map = True
     kind: Literal["heat_map"] = "heat_map"
     y: str
 

@@ -1,0 +1,75 @@
+// The link to a point. It says values in SI units, and so leads to the same point after the axes have changed.
+
+const OLDER = "across"; // a word of links of older pages, which counted cells
+
+/** A value as a text; rounding is not a part of it. */
+const stated = (value) => (typeof value === "string" ? value : String(Number(value.toPrecision(12))));
+
+/** The address of the chosen point: its study, what is shown of it and how, and its value along each dimension. */
+function address() {
+  const { study, x, y, variable, colours, mark, place } = view;
+  const along = study.dims.flatMap((dim) =>
+    Object.entries(dim.parts).map(([name, column]) => [name, stated(column[place[dim.name]])]),
+  );
+  const shown = { study: study.name, x, y, variable: variable.name, colours, dots: mark };
+  return new URLSearchParams([...Object.entries(shown), ...along]);
+}
+
+/** How far a value of a column is from a text, as a share of the column's range; infinitely far from another word. */
+function distance(column, i, text) {
+  if (stated(column[i]) === text) return 0;
+  const wanted = text.trim() === "" || typeof column[i] === "string" ? NaN : Number(text);
+  if (Number.isNaN(wanted)) return Infinity;
+  return Math.abs(column[i] - wanted) / (Math.max(...column) - Math.min(...column) || Math.abs(column[i]) || 1);
+}
+
+/** Choose the place along a dimension that an address says, or the nearest one; returns a warning unless it is there. */
+function followAlong(dim, asked) {
+  const parts = Object.entries(dim.parts).filter(([name]) => asked.has(name));
+  if (!parts.length) return "";
+  const apart = dim.values.map((_, i) => parts.reduce((sum, [name, column]) => sum + distance(column, i, asked.get(name)), 0));
+  const least = Math.min(...apart);
+  const said = parts.map(([name]) => `${name} = ${asked.get(name)}`).join(", ");
+  if (least === Infinity) return `The link's ${said} is not in this study.`;
+  view.place[dim.name] = apart.indexOf(least);
+  return least > 1e-9 ? `The link's ${said} is not in this study: the nearest point is shown.` : "";
+}
+
+/** Choose what an address says, as far as it is there; returns whether there was anything to choose. */
+async function follow(hash) {
+  const asked = new URLSearchParams(hash);
+  const name = asked.get("study");
+  if (name === null) return false; // of a part of the page
+  if (!contents.studies.some((study) => study.name === name)) {
+    view.warning = `The link's study “${name}” is not on this page.`;
+    return false;
+  }
+  await chooseStudy(name);
+  if (asked.has(OLDER)) {
+    view.warning = "This link is of an older page, and counts cells instead of saying values: its study is shown, not its point.";
+    return true;
+  }
+  const warnings = [...followShown(asked), ...view.study.dims.map((dim) => followAlong(dim, asked))];
+  view.warning = warnings.filter(Boolean).join(" ");
+  return true;
+}
+
+/** Choose the axes, variable, colours and dots that an address says; returns warnings of those that are not there. */
+function followShown(asked) {
+  const { study } = view;
+  const missing = [];
+  const [x, y] = [asked.get("x"), asked.get("y")];
+  if (study.dim[x]) view.x = x;
+  else if (x !== null) missing.push(x);
+  if (y === NONE || (study.dim[y] && y !== view.x)) view.y = y;
+  else if (y !== null) missing.push(y);
+  if (view.y === view.x) view.y = NONE;
+  const variable = asked.get("variable");
+  const found = study.variables.find((one) => one.name === variable);
+  if (found) view.variable = found;
+  else if (variable !== null) missing.push(variable);
+  chooseAxes();
+  if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
+  if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
+  return missing.map((word) => `The link's “${word}” is not in this study.`);
+}
