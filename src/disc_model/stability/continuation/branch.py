@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -13,13 +12,12 @@ from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import State
+from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.continuation.spectrum import spectrum_of
 from disc_model.stability.return_map import MapFactory, ReturnMap, SectionMap
 from disc_model.stability.segments import range_of_cycle
 from disc_model.stability.slipping_map import SlippingMap
-from disc_model.units import is_number
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -108,7 +106,7 @@ class SpecialPoint:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch:
-    """Cycles along a curve.
+    """Cycles along a curve, their special points, and why it ends: what `continue_cycle` returns.
 
     Attributes
     ----------
@@ -125,6 +123,13 @@ class Branch:
     case : whose cycle is followed; its own values of the free parameters do not count
     special : the special points in their order along the branch; `special_points` is their table
     not_reached : those of the `values` asked for at which the branch has no cycle, in SI units
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+    >>> branch.special[1]
+    SpecialPoint(fold at 15.094912, period 0.0147969 s)
     """
 
     parameters: tuple[str, ...]
@@ -318,7 +323,7 @@ class Branch:
         -0.01 False
         """
         i = self._number(i)
-        require((is_number(push) and math.isfinite(push), "push", push, "must be a finite number"))
+        require((is_finite(push), "push", push, "must be a finite number"))
         own = self._make_map(self.case_at(i))
         reference = self._make_map(self.case)
         point = self.points[i] / reference.scale * own.scale
