@@ -182,6 +182,14 @@ def solve(
     else:
         raise Rejected(DIVERGES)
 
+    return _settle(problem, z, guess, rows, radius)
+
+
+def _settle(
+    problem: Problem, z: Array, guess: Array, rows: Array, radius: float
+) -> tuple[Array, Evaluation]:
+    """The solution next to z, and F there or, if a single short correction suffices, at z; the other
+    arguments are those of `solve`."""
     # one more correction, now with the derivatives at this point, which are needed anyhow; further
     # ones where these change within a short way, as on a stiff contact
     last = np.inf

@@ -144,13 +144,7 @@ def continue_cycle(  # noqa: PLR0913
         (not outside, "values", next(iter(outside), None), rule),
     )
 
-    scale = steps.scale
-    if scale is None:
-        scale = parameter_scale(case, name, max(map(abs, span)))
-        stretch = stretch_of(case, name)
-        scale *= stretch
-        shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch}
-        steps = steps.model_copy(update=shorter)
+    scale, steps = _scaled(case, name, span, steps)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
@@ -158,6 +152,18 @@ def continue_cycle(  # noqa: PLR0913
     course = search.follow(problem.start(cycle, rising), int(direction))
     course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
+
+
+def _scaled(
+    case: Parameters, name: str, span: tuple[float, float], steps: StepControl
+) -> tuple[float, StepControl]:
+    """The scale of the free parameter, and steps in its arclength."""
+    if steps.scale is not None:
+        return steps.scale, steps
+    stretch = stretch_of(case, name)
+    shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch}
+    scale = stretch * parameter_scale(case, name, max(map(abs, span)))
+    return scale, steps.model_copy(update=shorter)
 
 
 def branch_of(
