@@ -127,7 +127,7 @@ def continue_cycle(  # noqa: PLR0913
     ways = is_number(direction) and direction in (-1, 0, 1)
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
     numbers = wanted == [] or is_finite_array(wanted) or bool(of_values)
-    wrong = of_bounds + of_values
+    wrong: list[str] = [*of_bounds, *of_values]
     wrong += violations(
         (
             span is not None or bool(of_bounds),
