@@ -10,6 +10,7 @@ from disc_model import Parameters, Window, continue_cycle, floquet, simulate
 from disc_model.data.variables import CycleStatus
 from disc_model.errors import ParameterError
 from disc_model.stability.continuation import Branch, StepControl
+from disc_model.stability.return_map import ReturnMap
 
 pytestmark = pytest.mark.compiled
 
@@ -364,10 +365,13 @@ def test_a_stiff_contact_is_followed_past_the_bends_of_its_vibration(stiff: Bran
     """It ended at 15.044 rad/s from 14.9 rad/s, and at 15.0402 rad/s from beyond, with branch points
     that moved with the start."""
     assert stiff.ended == "the bound Omega = 14.85 rad/s was reached"
-    beyond = continue_cycle(STIFF.replace(Omega=15.06), "Omega", (14.85, 15.3))
-    kinds = {special.kind for special in (*stiff.special, *beyond.special)}
-    assert kinds == {"end", "fold", "neimark_sacker"}
-    assert stiff.folds[:, 0] == pytest.approx(beyond.folds[:, 0], rel=1e-9)  # of the map's rounding
+    for speed in (15.043, 15.06):  # within such a bend, and beyond it
+        other = continue_cycle(STIFF.replace(Omega=speed), "Omega", (14.85, 15.3))
+        kinds = {special.kind for special in (*stiff.special, *other.special)}
+        assert kinds == {"end", "fold", "neimark_sacker"}
+        assert stiff.folds[:, 0] == pytest.approx(
+            other.folds[:, 0], rel=1e-9
+        )  # rounding of the map
 
     # a known compliance softens the contact: the fold moves away from that of the rigid one evenly
     softer = continue_cycle(STIFF.replace(contact_compliance=2e-8), "Omega", (14.85, 15.3))
@@ -384,3 +388,32 @@ def test_cycles_of_a_stiff_contact_are_those_of_floquet(stiff: Branch) -> None:
         # 100 N in a micrometre
         assert cycle.period == pytest.approx(stiff.period[i], rel=1e-8)
         assert cycle.growth_rate == pytest.approx(stiff.growth_rate[i], abs=1e-4)
+
+
+def test_a_push_along_the_unstable_direction_grows_by_the_multiplier() -> None:
+    branch = continue_cycle(FOLDED, "Omega", (14.8, 15.2))
+    cycle = branch.state(-1)
+    section = ReturnMap(branch.case_at(-1))
+    x = section.point(cycle)
+    for push in (1e-5, -1e-5):
+        pushed = branch.state(-1, push)
+        assert (pushed.psi - cycle.psi) * push > 0
+        moved = section.point(pushed) - x
+        assert np.linalg.norm(moved) == pytest.approx(1e-5 * section.deflection, rel=1e-9)
+        after = section.evaluate(x + moved).end - x
+        growth = float(after @ moved) / float(moved @ moved)
+        # the map's second derivatives, of order one to a hundred, over a move of 1e-5
+        assert growth == pytest.approx(branch.multipliers[-1, 0].real, abs=2e-3)
+
+
+@pytest.mark.parametrize("push", [np.nan, "1e-3", None])
+def test_a_push_that_is_no_number_is_refused(push: object) -> None:
+    branch = continue_cycle(FOLDED, "Omega", (14.8, 14.95), direction=1)
+    with pytest.raises(ParameterError, match=r"push=.*: must be a finite number"):
+        branch.state(0, push)  # type: ignore[arg-type]
+
+
+def test_bounds_in_hertz_are_refused_with_the_reason() -> None:
+    """The message was that they must be two ascending numbers."""
+    with pytest.raises(ParameterError, match="Hz may mean turns or radians"):
+        continue_cycle(FOLDED, "Omega", ("2.3 Hz", 16))

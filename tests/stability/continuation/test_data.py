@@ -166,3 +166,58 @@ def test_a_frequency_of_a_given_disc_is_a_parameter_too() -> None:
     assert along.long_name == "omega_1_0"
     assert along.min() == bounds[0]
     assert along.max() == bounds[1]
+
+
+def slipping_branch() -> Branch:
+    case = dm.Parameters(
+        n_diameters=-1,
+        m=0.538,
+        k=0,
+        k_p=6957,
+        c_p=5.946,
+        N=10,
+        mu_s=0.6,
+        mu_k=0.2,
+        friction_decay=10,
+        r_0=0.1,
+        Omega=2,
+    )
+    return dm.continue_cycle(case, "Omega", (1.8, 2.2), kind="slipping")
+
+
+@pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])
+@pytest.mark.parametrize("kind", ["stick_slip", "slipping"])
+def test_a_stored_branch_is_a_branch_again(
+    file: str, kind: str, branch: Branch, tmp_path: Path
+) -> None:
+    """It could only be drawn point by point, and started again from a state put together by hand."""
+    if kind == "slipping":
+        branch = slipping_branch()
+    dm.save(branch.to_dataset(), tmp_path / file)
+    again = dm.Branch.from_dataset(dm.load(tmp_path / file))
+    assert repr(again) == repr(branch)
+    assert_array_equal(again.folds, branch.folds)
+    assert_array_equal(again.refined_growth_rate(), branch.refined_growth_rate())
+    shown = ["kind", "label", "growth_rate", "period", "multiplier", "after"]
+    assert again.special_points[shown].equals(branch.special_points[shown])
+    assert_allclose(again.points, branch.points, rtol=1e-15, atol=0)  # a product and its quotient
+    assert again.to_dataset().equals(branch.to_dataset())
+    heights = [line.get_ydata() for line in again.plot("range").lines]
+    for line, height in zip(branch.plot("range").lines, heights, strict=True):
+        assert_array_equal(line.get_ydata(), height)
+
+
+def test_a_stored_branch_goes_on_from_one_of_its_unstable_cycles(data: xr.Dataset) -> None:
+    again = dm.Branch.from_dataset(data)
+    onward = dm.continue_cycle(again.case_at(-1), "Omega", (14.6, 14.9), guess=again.state(-1))
+    start = onward.values[:, 0] == 14.8
+    # of floquet's search from there
+    assert_allclose(onward.growth_rate[start], again.growth_rate[-1], rtol=1e-7)
+
+
+def test_another_dataset_is_no_branch(data: xr.Dataset) -> None:
+    for other in (data.drop_vars("special_a"), data.drop_attrs(), "branch.nc"):
+        with pytest.raises(dm.ParameterError, match=r"must be a dataset of Branch\.to_dataset"):
+            dm.Branch.from_dataset(other)
+    with pytest.raises(dm.ParameterError, match=r"Branch\.from_dataset makes a branch"):
+        dm.plot_sweep(data, "growth_rate", x="Omega")

@@ -12,9 +12,10 @@ from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import State
+from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
-from disc_model.stability.return_map import MapFactory, ReturnMap
+from disc_model.stability.continuation.spectrum import spectrum_of
+from disc_model.stability.return_map import MapFactory, ReturnMap, SectionMap
 from disc_model.stability.segments import range_of_cycle
 from disc_model.stability.slipping_map import SlippingMap
 
@@ -35,6 +36,8 @@ LABELS: dict[str, str] = {
 CHANGES = ("fold", "period_doubling", "neimark_sacker")
 """Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
 circle."""
+SAME_PERIOD = 1e-3  # relative difference of a cycle's period from that of fewer releases
+SENSE = 1e-6  # way along a direction, over the static deflection, by which its sense is found
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 
 
@@ -103,7 +106,7 @@ class SpecialPoint:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch:
-    """Cycles along a curve.
+    """Cycles along a curve, their special points, and why it ends: what `continue_cycle` returns.
 
     Attributes
     ----------
@@ -120,6 +123,13 @@ class Branch:
     case : whose cycle is followed; its own values of the free parameters do not count
     special : the special points in their order along the branch; `special_points` is their table
     not_reached : those of the `values` asked for at which the branch has no cycle, in SI units
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2))
+    >>> branch.special[1]
+    SpecialPoint(fold at 15.094912, period 0.0147969 s)
     """
 
     parameters: tuple[str, ...]
@@ -178,7 +188,7 @@ class Branch:
         Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
         `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
-        cycle to simulate and draw.
+        cycle to simulate and draw. Its method `to_csv` writes a file; a state is a line of words there.
 
         Examples
         --------
@@ -244,7 +254,7 @@ class Branch:
         >>> dm.save(dm.continue_cycle(case, "Omega", (14.8, 15.2)).to_dataset(), "branch.nc")
         >>> branch = dm.Branch.from_dataset(dm.load("branch.nc"))
         >>> branch.plot("period").get_xlabel()
-        'Drive speed Ω (rad/s)'
+        'Speed Ω (rad/s)'
         >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
         Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
         """
@@ -286,12 +296,15 @@ class Branch:
         values = self.values[self._number(i)].tolist()
         return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
 
-    def state(self, i: int) -> State:
+    def state(self, i: int, push: float = 0.0) -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
         the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
 
         Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
-        the largest, times the leading multiplier. Raises `ParameterError` if there is no such
+        the largest, times the leading multiplier. A `push`, such as 0.01 or -0.01, moves the state
+        along the eigenvector of that multiplier, in which an unstable cycle is left soonest: by this
+        share of the disc's static deflection, both in terms of energy, and for a positive push in
+        the sense that stretches the spring in the plane. Raises `ParameterError` if there is no such
         cycle.
 
         Examples
@@ -303,11 +316,36 @@ class Branch:
         >>> run = dm.simulate(branch.case_at(-1), branch.period[-1], initial_state=branch.state(-1))
         >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
         True
+        >>> for push in (0.01, -0.01):  # on both sides of an unstable cycle
+        ...     run = dm.simulate(branch.case_at(-1), 60, initial_state=branch.state(-1, push))
+        ...     print(push, run.statistics["separations"] > 0)
+        0.01 True
+        -0.01 False
         """
         i = self._number(i)
+        require((is_finite(push), "push", push, "must be a finite number"))
         own = self._make_map(self.case_at(i))
         reference = self._make_map(self.case)
-        return own.state(self.points[i] / reference.scale * own.scale)
+        point = self.points[i] / reference.scale * own.scale
+        if push and own.size:
+            point = point + push * own.deflection * self._direction(own, point, i)
+        return own.state(point)
+
+    def _direction(self, own: SectionMap, point: Array, i: int) -> Array:
+        """The direction of the leading multiplier's eigenvector at the i-th cycle's point, of unit
+        length, in the sense that stretches the spring."""
+        releases = 1
+        orbit = own.evaluate(point, releases=releases, may_separate=True)
+        while orbit.returned and orbit.period < (1 - SAME_PERIOD) * self.period[i]:
+            releases += 1
+            orbit = own.evaluate(point, releases=releases, may_separate=True)
+        spectrum = spectrum_of(orbit.jacobian)
+        leading = int(np.argmax(np.abs(spectrum.values)))
+        direction = np.real(spectrum.right[:, leading])
+        direction = direction / np.linalg.norm(direction)
+        small = SENSE * own.deflection * direction
+        stretched = own.state(point + small).psi - own.state(point - small).psi
+        return -direction if stretched < 0 else direction
 
     @cached_property
     def range(self) -> Array:
@@ -369,6 +407,10 @@ class Branch:
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
         parameter, thick where the cycle is stable, and the special points.
+
+        The period is drawn in ms, the range in mm, all else in the units of its name: labels of your
+        own need the same unit, such as `labels={"y": "Range (mm)"}`. The axis of growth rates is
+        linear near 0 and logarithmic beyond, on both sides. A wide range is drawn on a logarithmic axis.
 
         Stability changes at special points, which are located to rounding. A branch in two
         parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are

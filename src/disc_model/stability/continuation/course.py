@@ -86,6 +86,7 @@ class Search:
         down = self.one_way(start.reversed())
         if down.last.kind == ends.CLOSED:
             return down
+        self.tracer.behind = [point.reversed() for point in reversed(down.points[1:])]
         up = self.one_way(start)
         last = len(down.points) - 1
         turned = [place._replace(after=last - 1 - place.after) for place in reversed(down.special)]

@@ -56,8 +56,8 @@ class StepControl(Strict):
     step, longest, shortest : arclength of the first, the longest and the shortest step
     max_points : largest number of points in each direction
     scale : value of the parameter that counts as one in the arclength; by default its own, or a tenth of the larger
-        bound if that is more. With a `contact_compliance` in m/N it is a hundred times that, and `step` and
-        `longest` are hundredths. For one parameter only
+        bound if that is more. With a `contact_compliance` in m/N it is a hundred times that, `step` is
+        a hundredth, and `longest` a tenth. For one parameter only
     growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
         `easy`; below `sharpest` the step is shortened
     beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
@@ -182,6 +182,14 @@ def solve(
     else:
         raise Rejected(DIVERGES)
 
+    return _settle(problem, z, guess, rows, radius)
+
+
+def _settle(
+    problem: Problem, z: Array, guess: Array, rows: Array, radius: float
+) -> tuple[Array, Evaluation]:
+    """The solution next to z, and F there or, if a single short correction suffices, at z; the other
+    arguments are those of `solve`."""
     # one more correction, now with the derivatives at this point, which are needed anyhow; further
     # ones where these change within a short way, as on a stiff contact
     last = np.inf

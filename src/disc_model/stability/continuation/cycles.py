@@ -1,5 +1,6 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -50,7 +51,11 @@ def values_in_si(
     """Values of a parameter in SI units, from texts with units too. Units of another kind are added
     to the faults of the argument."""
     unit = Parameters.unit(name) if isinstance(name, str) else ""
-    return in_si(values, unit, [] if faults is None else faults, (argument,))
+    found = list[Fault]()
+    converted = in_si(values, unit, found, ())
+    if faults is not None:
+        faults += [Fault((argument,), each.value, each.rule) for each in found]
+    return converted
 
 
 @compiling()
@@ -114,21 +119,29 @@ def continue_cycle(  # noqa: PLR0913
     >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
     [-0.1055, 0.5751]
     """
-    units = list[Fault]()
-    span = interval_in_si(name, bounds, units)
+    of_bounds = list[Fault]()
+    of_values = list[Fault]()
+    span = interval_in_si(name, bounds, of_bounds)
     listed = isinstance(values, Sequence | np.ndarray)
-    wanted: Any = values_in_si(name, list(values), units) if listed else None
+    wanted: Any = values_in_si(name, list(values), of_values) if listed else None
     ways = is_number(direction) and direction in (-1, 0, 1)
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
-    wrong = violations(
-        (span is not None, "bounds", bounds, "must be two ascending finite numbers"),
+    numbers = wanted == [] or is_finite_array(wanted) or bool(of_values)
+    wrong: list[str] = [*of_bounds, *of_values]
+    wrong += violations(
+        (
+            span is not None or bool(of_bounds),
+            "bounds",
+            bounds,
+            "must be two ascending finite numbers",
+        ),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
-        (wanted == [] or is_finite_array(wanted), "values", values, "must be finite numbers"),
+        (numbers, "values", values, "must be finite numbers"),
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(case) or units or wrong + free_faults(case, [name]))
+    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
     slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
@@ -144,13 +157,7 @@ def continue_cycle(  # noqa: PLR0913
         (not outside, "values", next(iter(outside), None), rule),
     )
 
-    scale = steps.scale
-    if scale is None:
-        scale = parameter_scale(case, name, max(map(abs, span)))
-        stretch = stretch_of(case, name)
-        scale *= stretch
-        shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch}
-        steps = steps.model_copy(update=shorter)
+    scale, steps = _scaled(case, name, span, steps)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
@@ -158,6 +165,18 @@ def continue_cycle(  # noqa: PLR0913
     course = search.follow(problem.start(cycle, rising), int(direction))
     course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
+
+
+def _scaled(
+    case: Parameters, name: str, span: tuple[float, float], steps: StepControl
+) -> tuple[float, StepControl]:
+    """The scale of the free parameter, and steps in its arclength."""
+    if steps.scale is not None:
+        return steps.scale, steps
+    stretch = stretch_of(case, name)
+    shorter = {"step": steps.step / stretch, "longest": steps.longest / math.sqrt(stretch)}
+    scale = stretch * parameter_scale(case, name, max(map(abs, span)))
+    return scale, steps.model_copy(update=shorter)
 
 
 def branch_of(

@@ -69,6 +69,7 @@ class BranchTracer:
         self.slack = SLACK if has_own_vibration(problem.base) else 0.0
         self.low = low
         self.high = high
+        self.behind = list[CurvePoint]()  # points of the branch before its start, if it has some
 
     def advance(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The points of a step of arclength ds beyond the last of some, resonances within it
@@ -123,8 +124,9 @@ class BranchTracer:
         """The point at a distance beyond the last of some, predicted from those that are at least as
         far `behind` it; raises `Rejected` if it is another branch's."""
         last = points[-1]
-        current = _farther(points, last, behind)
-        former = _farther(points, current, behind)
+        known = [*self.behind, *points]
+        current = _farther(known, last, behind)
+        former = _farther(known, current, behind)
         ds = distance + float(np.linalg.norm(last.z - current.z))
         guess = predict(former if former is not current else None, current, ds)
         if not self.low <= guess.z[-1] <= self.high:
