@@ -100,6 +100,8 @@ def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
         keeps_what_is_chosen_in_the_link(shown)
         follows_values_of_links(shown)
         names_selectors_as_axes(shown)
+        names_classes_along_a_curve(shown)
+        keeps_words_of_axes_inside(shown)
         draws_dots_on_curves(shown)
 
 
@@ -158,13 +160,16 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
     """A click on "no cycle found" showed a neighbour's cycle, which grows or decays."""
     study = plane().drop_vars(["outcome", "message"])
     explorer_path = tmp_path / "explorer.html"
-    told = [contents_of("cycles", study, motions(), Stated("The cycle.", axes=("N", "Omega")))]
+    stated = Stated("The cycle.", axes=("N", "Omega"), variable="releases")
+    told = [contents_of("cycles", study, motions(), stated)]
     explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
     with browser(tmp_path / "profile") as opened:
         opened.open(explorer_path)
         opened.wait_for(READY)
         shown = Explorer(opened)
-        assert opened.run("return [view.x, view.y]") == ["N", "Omega"], "axes of its figure"
+        figure = ["N", "Omega", "releases"]
+        assert opened.run("return [view.x, view.y, view.variable.name]") == figure
+        shown.choose("Variable", "growth_rate")
         hidden = "return document.getElementById('motion').hidden"
         shown.point(WITHOUT_CYCLE["N"], WITHOUT_CYCLE["Omega"], click=True)
         assert shown.text("motion-note") == "No motion of this kind is stored: no cycle found."
@@ -176,6 +181,10 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
             '"as_published"), 60).plot()'
         )
         assert len(eval(call, {"dm": dm})) == 3
+        # a disc is not written twice
+        disc = [{"name": "disc", "value": {"omega": [100.5] * 100}, "usual": False}]
+        long = "return simulation({...view.study, fixed: arguments[0]}, view.place)"
+        assert opened.run(long, disc) == "dm.simulate(case, 60).plot()"
         # a stable cycle stands for another one, and not for one that grows
         for place, kind, N in (((0, 2), "stable", 100), ((1, 3), "unstable", 385)):
             shown.point(*place, click=True)
@@ -322,6 +331,21 @@ def names_selectors_as_axes(shown: Explorer) -> None:
     assert shown.page.run(label, "N") == "Preload N"
     assert shown.page.run(options) == ["100 N", "200 N", "385 N"]
     shown.choose("Up", "N")
+
+
+def names_classes_along_a_curve(shown: Explorer) -> None:
+    """The axis had the words of the dataset, such as "at_rest"."""
+    flag = {"flags": ["quiet", "at_rest"], "looks": [{"label": "quiet"}, {"label": "stick"}]}
+    ticks = "return scaleOfNumbers(arguments[0], [0, 1]).ticks()"
+    assert shown.page.run(ticks, flag) == [[0, "quiet"], [1, "stick"]]
+
+
+def keeps_words_of_axes_inside(shown: Explorer) -> None:
+    """On telephones, the title of a narrow axis and its last number were cut."""
+    ends = shown.ask("endsOfWords", [120, 200], "a title longer than the axis", "1·10⁶")
+    for left, right in ends:
+        assert left >= 0
+        assert right <= 200 + 14, "the room on the right of maps"
 
 
 def draws_dots_on_curves(shown: Explorer) -> None:

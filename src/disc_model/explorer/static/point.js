@@ -65,9 +65,14 @@ const call = (study, place) => `${study.call.before}${caseOf(study, place)}${stu
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
 
+const LONGEST_CASE = 300; // characters of a case that is written twice: a disc has many more
+
 /** The call in Python that shows the motion of a point from the static start; "" if the point is no one case. */
-const simulation = (study, place) =>
-  Object.keys(study.call.begins).length ? "" : `dm.simulate(${caseOf(study, place)}, ${SIMULATED_FOR}).plot()`;
+function simulation(study, place) {
+  if (Object.keys(study.call.begins).length) return "";
+  const written = caseOf(study, place);
+  return `dm.simulate(${written.length > LONGEST_CASE ? "case" : written}, ${SIMULATED_FOR}).plot()`;
+}
 
 /** What the map shows, as comma-separated values. */
 function csv() {

@@ -29,6 +29,7 @@ async function chooseStudy(name) {
   const [across, up] = ofFigure ? figure : usualAxes(axes);
   const kept = view.place;
   Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
+  view.variable = study.variables.find((one) => one.name === study.first) ?? null;
   view.place = Object.fromEntries(
     study.dims.map((dim) => [dim.name, dim.words ? Math.min(kept[dim.name] ?? 0, dim.values.length - 1) : 0]),
   );
