@@ -258,6 +258,13 @@ def moves_by_arrow_keys(shown: Explorer) -> None:
     for key, expected in steps.items():
         assert shown.page.run(press + where, key) == expected, key
     assert shown.page.run(press + where, "ArrowLeft") == [0, 0]
+    for key, expected in {
+        "End": [3, 0],
+        "PageUp": [3, 2],
+        "Home": [0, 2],
+        "PageDown": [0, 0],
+    }.items():
+        assert shown.page.run(press + where, key) == expected, key
 
 
 def draws_gaps_and_scale(shown: Explorer) -> None:
@@ -431,7 +438,9 @@ def tells_of_points(shown: Explorer) -> None:
     shown.page.run("location.hash = arguments[0]", address)
     shown.page.wait_for(f"{link} === '{address}'")
     assert shown.text("call") == case
-    assert shown.page.run("return csv().split('\\n')[0]") == "Omega (rad/s),N (N),growth_rate (1/s)"
+    heads, first = shown.page.run("return csv().split('\\n').slice(0, 2)")
+    assert heads == "Omega (rad/s),N (N),normalization,growth_rate (1/s)"
+    assert first == "5,100,as_published,-0.2"
     shown.choose("Variable", "outcome")
     red, green, blue = shown.ask("colour", 0, 0)
     assert f"#{red:02x}{green:02x}{blue:02x}" == LOOKS["quiet"].face
