@@ -337,6 +337,8 @@ def names_selectors_as_axes(shown: Explorer) -> None:
     shown.choose("Up", "")
     assert shown.page.run(label, "N") == "Preload N"
     assert shown.page.run(options) == ["100 N", "200 N", "385 N"]
+    dots = "return [...document.getElementById('controls').Dots.options].map(x => x.text)"
+    assert {"none", "Growth rate: stable", "Outcome within 200 s: quiet"} <= {*shown.page.run(dots)}
     shown.choose("Up", "N")
 
 
