@@ -70,6 +70,15 @@ const seen = {
     const {data} = map.getContext("2d").getImageData(0, 0, map.width, map.height);
     return new Uint32Array(data.buffer).filter(pixel => pixel === 0xffffffff).length;
   },
+  // The ends of the title and of a number at the right end of an axis from left to right.
+  endsOfWords([left, right], title, text) {
+    const ends = [];
+    const ink = document.createElement("canvas").getContext("2d");
+    const half = text => ink.measureText(text).width / 2;
+    ink.fillText = (text, x) => ends.push([x - half(text), x + half(text)]);
+    xAxis(ink, { left, right, bottom: 10 }, [[1, text]], () => right, title);
+    return ends;
+  },
   link: () => document.getElementById("link").getAttribute("href"),
   // The selectors whose title is not the text of what is chosen.
   untitled: () => [...document.querySelectorAll("select")].filter(x => x.title !== x.selectedOptions[0].text).map(x => x.name),

@@ -100,6 +100,8 @@ def test_it_opens_where_there_is_a_value(tmp_path: Path) -> None:
         keeps_what_is_chosen_in_the_link(shown)
         follows_values_of_links(shown)
         names_selectors_as_axes(shown)
+        names_classes_along_a_curve(shown)
+        keeps_words_of_axes_inside(shown)
         draws_dots_on_curves(shown)
 
 
@@ -158,13 +160,16 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
     """A click on "no cycle found" showed a neighbour's cycle, which grows or decays."""
     study = plane().drop_vars(["outcome", "message"])
     explorer_path = tmp_path / "explorer.html"
-    told = [contents_of("cycles", study, motions(), Stated("The cycle.", axes=("N", "Omega")))]
+    stated = Stated("The cycle.", axes=("N", "Omega"), variable="releases")
+    told = [contents_of("cycles", study, motions(), stated)]
     explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
     with browser(tmp_path / "profile") as opened:
         opened.open(explorer_path)
         opened.wait_for(READY)
         shown = Explorer(opened)
-        assert opened.run("return [view.x, view.y]") == ["N", "Omega"], "axes of its figure"
+        figure = ["N", "Omega", "releases"]
+        assert opened.run("return [view.x, view.y, view.variable.name]") == figure
+        shown.choose("Variable", "growth_rate")
         hidden = "return document.getElementById('motion').hidden"
         shown.point(WITHOUT_CYCLE["N"], WITHOUT_CYCLE["Omega"], click=True)
         assert shown.text("motion-note") == "No motion of this kind is stored: no cycle found."
@@ -176,6 +181,10 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
             '"as_published"), 60).plot()'
         )
         assert len(eval(call, {"dm": dm})) == 3
+        # a disc is not written twice
+        disc = [{"name": "disc", "value": {"omega": [100.5] * 100}, "usual": False}]
+        long = "return simulation({...view.study, fixed: arguments[0]}, view.place)"
+        assert opened.run(long, disc) == "dm.simulate(case, 60).plot()"
         # a stable cycle stands for another one, and not for one that grows
         for place, kind, N in (((0, 2), "stable", 100), ((1, 3), "unstable", 385)):
             shown.point(*place, click=True)
@@ -249,6 +258,13 @@ def moves_by_arrow_keys(shown: Explorer) -> None:
     for key, expected in steps.items():
         assert shown.page.run(press + where, key) == expected, key
     assert shown.page.run(press + where, "ArrowLeft") == [0, 0]
+    for key, expected in {
+        "End": [3, 0],
+        "PageUp": [3, 2],
+        "Home": [0, 2],
+        "PageDown": [0, 0],
+    }.items():
+        assert shown.page.run(press + where, key) == expected, key
 
 
 def draws_gaps_and_scale(shown: Explorer) -> None:
@@ -321,7 +337,24 @@ def names_selectors_as_axes(shown: Explorer) -> None:
     shown.choose("Up", "")
     assert shown.page.run(label, "N") == "Preload N"
     assert shown.page.run(options) == ["100 N", "200 N", "385 N"]
+    dots = "return [...document.getElementById('controls').Dots.options].map(x => x.text)"
+    assert {"none", "Growth rate: stable", "Outcome within 200 s: quiet"} <= {*shown.page.run(dots)}
     shown.choose("Up", "N")
+
+
+def names_classes_along_a_curve(shown: Explorer) -> None:
+    """The axis had the words of the dataset, such as "at_rest"."""
+    flag = {"flags": ["quiet", "at_rest"], "looks": [{"label": "quiet"}, {"label": "stick"}]}
+    ticks = "return scaleOfNumbers(arguments[0], [0, 1]).ticks()"
+    assert shown.page.run(ticks, flag) == [[0, "quiet"], [1, "stick"]]
+
+
+def keeps_words_of_axes_inside(shown: Explorer) -> None:
+    """On telephones, the title of a narrow axis and its last number were cut."""
+    ends = shown.ask("endsOfWords", [120, 200], "a title longer than the axis", "1·10⁶")
+    for left, right in ends:
+        assert left >= 0
+        assert right <= 200 + 14, "the room on the right of maps"
 
 
 def draws_dots_on_curves(shown: Explorer) -> None:
@@ -407,7 +440,9 @@ def tells_of_points(shown: Explorer) -> None:
     shown.page.run("location.hash = arguments[0]", address)
     shown.page.wait_for(f"{link} === '{address}'")
     assert shown.text("call") == case
-    assert shown.page.run("return csv().split('\\n')[0]") == "Omega (rad/s),N (N),growth_rate (1/s)"
+    heads, first = shown.page.run("return csv().split('\\n').slice(0, 2)")
+    assert heads == "Omega (rad/s),N (N),normalization,growth_rate (1/s)"
+    assert first == "5,100,as_published,-0.2"
     shown.choose("Variable", "outcome")
     red, green, blue = shown.ask("colour", 0, 0)
     assert f"#{red:02x}{green:02x}{blue:02x}" == LOOKS["quiet"].face

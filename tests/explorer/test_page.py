@@ -18,7 +18,7 @@ from PIL import Image
 from disc_model.data.variables import PHASES
 from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.explorer.contents import _gaps, runs
+from disc_model.explorer.contents import _gaps, _named, runs
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.growth import growth_norm, isolated
 from disc_model.studies.motions import SAMPLES, Motions
@@ -190,7 +190,15 @@ def test_numbers_flags_and_messages_come_through() -> None:
     traced = {trace["label"]: trace["unit"] for trace in told["motions"]["traces"]}
     assert traced == {"Contact force P": "N", "Slider u": "mm", "Angle ψ": "rad"}
     labels = {dim["name"]: dim["label"] for dim in told["dims"]}
-    assert {dim["symbol"] for dim in told["dims"]} == {"N", "Ω", "normalization"}
+    symbols = {dim["symbol"] for dim in told["dims"]}
+    assert symbols == {
+        "N",
+        "Ω",
+        "scale of the mode shapes: coefficient of Jₗ equal to 1, or Eq. (17)",
+    }
+    horizon = _named("horizon", {"long_name": "horizon", "units": "s"})
+    assert horizon["symbol"] == "horizon"
+    assert _named("contact_arc", describe("contact_arc"))["symbol"] == "arc of the pad"
     known = {"N": "Preload N", "Omega": "Speed Ω", "mu_k": "Kinetic friction μₖ"}
     assert {name: known[name] for name in labels if name in known} == {
         name: label for name, label in labels.items() if name in known
@@ -287,6 +295,7 @@ def test_a_page_opens_on_the_axes_of_a_figure() -> None:
     told = contents_of("plane", plane(), stated=Stated(axes=("N", "Omega")))
     assert told["axes"] == ["N", "Omega"]
     assert contents_of("plane", plane(), stated=Stated(axes=("k", "N")))["axes"] == ["N"]
+    assert contents_of("plane", plane(), stated=Stated(variable="releases"))["first"] == "releases"
 
 
 def test_units_are_those_of_the_figures() -> None:

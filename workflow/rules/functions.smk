@@ -71,11 +71,12 @@ def check_owner(files, owner):
 
 def stated_of(grid):
     """What a study's file says of its page: units of the first figure that has any, axes of the first one that has
-    two."""
+    two, the variable of the first one that shows one."""
     units = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
     maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
+    shown = [plot.variable for plot in grid.plots.values() if hasattr(plot, "variable")]
     call = call_of(grid.quantity, grid.options)
     return {
         **call._asdict(),
@@ -83,4 +84,5 @@ def stated_of(grid):
         "units": units,
         "has_figures": bool(grid.plots),
         "axes": [*maps[0].values()] if maps else [],
+        "variable": shown[0] if shown else "",
     }

@@ -52,6 +52,7 @@ class Stated(NamedTuple):
     begins : parameters that the quantity varies by itself, each where its range begins
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
+    variable : the variable of its first figure that shows one, "" without
     has_figures : whether there is a figure of it
     """
 
@@ -62,6 +63,7 @@ class Stated(NamedTuple):
     units: Mapping[str, str] = MappingProxyType({})
     has_figures: bool = True
     axes: Sequence[str] = ()
+    variable: str = ""
 
 
 NOTHING_STATED = Stated()
@@ -98,6 +100,7 @@ def _study_contents(
         "discs": json.loads(study.attrs.get("discs", "{}")),
         "has_figures": stated.has_figures,
         "axes": [name for name in stated.axes if name in study.sizes],
+        "first": stated.variable,
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim)) for dim in study.sizes],
         "variables": [_variable(study, variable) for variable in drawn],
@@ -217,13 +220,14 @@ def shortened(values: np.ndarray) -> np.ndarray:
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
     """Names of a parameter or variable, that of the axes of figures among them, and its unit."""
     variable = xr.DataArray(0.0, name=name, attrs=attrs)
-    symbol = name
-    if name in SHOWN:
-        symbol = SHOWN[name].symbol or name
+    label = named(variable).name
+    symbol = label[:1].lower() + label[1:]  # within a sentence
+    if name in SHOWN and SHOWN[name].symbol:
+        symbol = SHOWN[name].symbol
     return {
         "name": name,
         "symbol": lowered(symbol),
-        "label": lowered(named(variable).name),
+        "label": lowered(label),
         "title": lowered(str(attrs.get("long_name", name))),
         "unit": _unit_of(variable)[0],
     }

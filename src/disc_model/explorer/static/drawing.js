@@ -224,19 +224,25 @@ function dotSwatch() {
   return swatch;
 }
 
+const MARGIN = 12; // free on the right of an axis, pixels
+
+/** An axis at the bottom; its title and numbers stay inside the picture, which is little wider. */
 function xAxis(ink, box, ticks, position, title) {
   ink.strokeStyle = style("--line");
+  const inside = (x, half) => Math.max(half, Math.min(x, box.right + MARGIN - half));
   let free = -Infinity;
   for (const [at, text] of ticks) {
-    const x = position(at);
+    const mark = position(at);
     const half = ink.measureText(text).width / 2;
-    line(ink, x, box.bottom, x, box.bottom + 4);
+    const x = inside(mark, half);
+    line(ink, mark, box.bottom, mark, box.bottom + 4);
     if (x - half > free + 6) {
       write(ink, text, x, box.bottom + 7, "center", "top");
       free = x + half;
     }
   }
-  write(ink, title, (box.left + box.right) / 2, box.bottom + 26, "center", "top");
+  const middle = inside((box.left + box.right) / 2, ink.measureText(title).width / 2);
+  write(ink, title, middle, box.bottom + 26, "center", "top");
 }
 
 /** An axis on the left, its title in lines above it. */

@@ -167,7 +167,7 @@ function scaleOfNumbers(variable, numbers) {
   if (variable.scale && Math.max(-least, greatest) > 2 * variable.scale.width) return scaleOfRates(variable.scale, least, greatest);
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
   const ticks = variable.flags
-    ? variable.flags.map((word, code) => [code, word]).filter(([code]) => code >= least && code <= greatest)
+    ? variable.looks.map((look, code) => [code, look.label]).filter(([code]) => code >= least && code <= greatest)
     : roundTicks(least - room, greatest + room).map((tick) => [tick, number(tick, 4)]);
   return { borders: [least - room, greatest + room], to: identity, ticks: () => ticks };
 }

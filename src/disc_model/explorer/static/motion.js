@@ -74,6 +74,8 @@ function drawMotion() {
   motionDrawn = null;
   element("motion-call").textContent = own ? "" : simulation(study, place);
   element("motion-by-call").hidden = !element("motion-call").textContent;
+  const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
+  element("motion-says").textContent = `The motion of this point itself, from the static start${above}:`;
   if (!motion) {
     element("motion-note").textContent = lackOfMotion(study, place);
     return;

@@ -38,7 +38,10 @@ function hover(place) {
   element("hovered").textContent = `${where(place, axes)}. ${variable.label}: ${said}`;
 }
 
-const MOVES = { ArrowLeft: ["x", -1], ArrowRight: ["x", 1], ArrowDown: ["y", -1], ArrowUp: ["y", 1] };
+const MOVES = {
+  ArrowLeft: ["x", -1], ArrowRight: ["x", 1], Home: ["x", -Infinity], End: ["x", Infinity],
+  ArrowDown: ["y", -1], ArrowUp: ["y", 1], PageDown: ["y", -Infinity], PageUp: ["y", Infinity],
+};
 
 function move(event) {
   const step = MOVES[event.key];
@@ -65,22 +68,30 @@ const call = (study, place) => `${study.call.before}${caseOf(study, place)}${stu
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
 
-/** The call in Python that shows the motion of a point from the static start; "" if the point is no one case. */
-const simulation = (study, place) =>
-  Object.keys(study.call.begins).length ? "" : `dm.simulate(${caseOf(study, place)}, ${SIMULATED_FOR}).plot()`;
+const LONGEST_CASE = 300; // characters of a case that is written twice: a disc has many more
 
-/** What the map shows, as comma-separated values. */
+/** The call in Python that shows the motion of a point from the static start; "" if the point is no one case. */
+function simulation(study, place) {
+  if (Object.keys(study.call.begins).length) return "";
+  const written = caseOf(study, place);
+  return `dm.simulate(${written.length > LONGEST_CASE ? "case" : written}, ${SIMULATED_FOR}).plot()`;
+}
+
+const STORED_DIGITS = 5; // of a number
+
+/** What the map shows, as comma-separated values, with those of the dimensions that are not on it. */
 function csv() {
   const { study, variable, x, y } = view;
   const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
   const cell = (text) => (/[",\n]/.test(text) ? `"${String(text).replaceAll('"', '""')}"` : text);
-  const rows = [[...axes, variable].map((thing) => cell(heading(thing)))];
+  const dims = [...axes, ...selectors()];
+  const rows = [[...dims, variable].map((thing) => cell(heading(thing)))];
   const inner = axes[1]?.values ?? [null];
   for (const [j] of inner.entries())
     for (const [i] of axes[0].values.entries()) {
       const place = { ...view.place, [x]: i, ...(axes[1] ? { [y]: j } : {}) };
       const stored = value(study, variable, place);
-      rows.push([...axes.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : stored]);
+      rows.push([...dims.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : Number(stored.toPrecision(STORED_DIGITS))]);
     }
   return rows.map((row) => row.join(",")).join("\n");
 }

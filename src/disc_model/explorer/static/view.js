@@ -29,6 +29,7 @@ async function chooseStudy(name) {
   const [across, up] = ofFigure ? figure : usualAxes(axes);
   const kept = view.place;
   Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
+  view.variable = study.variables.find((one) => one.name === study.first) ?? null;
   view.place = Object.fromEntries(
     study.dims.map((dim) => [dim.name, dim.words ? Math.min(kept[dim.name] ?? 0, dim.values.length - 1) : 0]),
   );
@@ -65,12 +66,12 @@ const SIMULATED = "method=simulation";
 /** The mark of a variable's stable points, if it has one. */
 const stableMark = (variable) => variable.marks.find((one) => one.is_stable);
 
-/** What points can be dotted by, a class of a flag or the stability of a growth rate: its key, texts, and whether it holds. */
+/** What points can be dotted by, a class of a flag or the stability of a growth rate: its key, text, and whether it holds. */
 function marks() {
   const { study } = view;
   return variablesShown().flatMap((variable) => {
     const mark = (word, label, holds) => ({
-      key: `${variable.name}=${word}`, text: `${variable.name}: ${label}`, title: `${variable.label}: ${label}`, holds,
+      key: `${variable.name}=${word}`, title: `${variable.label}: ${label}`, holds,
     });
     const stable = stableMark(variable);
     if (stable) return [mark("stable", stable.look.label, (place) => value(study, stable, place) > 0)];
@@ -146,7 +147,7 @@ function fillControls() {
     );
   if (marks().length)
     boxes.push(
-      choice("Dots", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.text])],
+      choice("Dots", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.title])],
         view.mark, (key) => (view.mark = key)),
     );
   element("controls").replaceChildren(...boxes);
