@@ -326,6 +326,15 @@ def test_truth_stays_to_be_selected_where_a_sample_failed() -> None:
     assert part["N"][part["good"] == 1].values.tolist() == [3.0]
 
 
+def test_results_of_pandas_and_xarray_keep_their_names() -> None:
+    """Names of a Series were lost, and so were units of a DataArray."""
+    series = sweep(lambda case: pd.Series({"a": case.N, "b": 2.0}), P, N=[1.0, 3.0])
+    assert series["a"].values.tolist() == [1.0, 3.0]
+    assert series["b"].dims == ("N",)
+    array = sweep(lambda case: xr.DataArray(case.N, name="q", attrs={"units": "s"}), P, N=[1.0])
+    assert array["q"].attrs == {"units": "s"}
+
+
 # ---- Who makes the calls
 
 

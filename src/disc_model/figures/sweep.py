@@ -125,7 +125,7 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
         ]
         columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
         columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
-        if dim not in study.coords and columns:
+        if columns and (dim not in study.coords or x in columns):
             column = x or columns[0]
             require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
             return study.swap_dims({dim: column}), column
