@@ -56,7 +56,9 @@ def plot_sweep(  # noqa: PLR0913
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
-    varying, column = _along_pairs(_ascending(whole), x)
+    varying, column = _along_pairs(whole, x)
+    if not column:
+        varying = _ascending(varying)
     drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
     if column:
         drawn = replace(drawn, mapped=False, joined=False)
