@@ -471,3 +471,15 @@ def test_what_cannot_be_drawn_says_how_it_can() -> None:
         dm.plot_sweep(spectra, "line")
     dm.plot_sweep(spectra.isel(line_index=1), "line")
     pyplot.close("all")
+
+
+def test_a_bar_keeps_its_numbers_in_other_colours() -> None:
+    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
+    usual, other = (
+        dm.plot_sweep(found, "cycle_rate", log=True, cmap=cmap).figure.axes[1]
+        for cmap in (None, "RdBu_r")
+    )
+    texts = [text.get_text() for text in usual.get_yticklabels()]
+    assert [text.get_text() for text in other.get_yticklabels()] == texts
+    assert "0" in texts
+    pyplot.close("all")
