@@ -262,6 +262,7 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
         ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),
         ({"contct": ["bilateral"], "N": [1]}, r"^zip.contct: is no number .*mean contact\?"),
         ({"sample": ["A"], "N": [1, 2]}, r"^zip={'N': 2, 'sample': 1}: must have columns of one"),
+        ({"status": ["A"], "N": [1]}, r"^zip.status: must have another name"),
         ({"sample": ["A", "B"]}, r"^zip=.*: must have columns of values"),
         ({}, r"^zip={}: must have columns"),
         ([1, 2], r"^zip=\[1, 2\]: must have columns"),
@@ -287,6 +288,22 @@ def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path
     xr.testing.assert_identical(found.drop_vars(["sample", "new"]), expected)
     dm.save(found, tmp_path / "found.nc")
     xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        pd.Categorical(["A", "B"]),
+        pd.array(["A", None], dtype="string"),
+        np.array(["A", ""]),
+        ["A", np.nan],
+    ],
+)
+def test_words_of_any_kind_of_column_are_labels(words: Any) -> None:
+    found = sweep(products, P, zip=pd.DataFrame({"sample": words, "N": [300.0, 320.0]}))
+    assert found["sample"].values[0] == "A"
+    assert found["sample"].values[1] in ("B", "")
+    assert found["sample"].dtype.kind == "U"
 
 
 def test_a_label_takes_the_name_of_an_argument_and_of_nothing_else() -> None:

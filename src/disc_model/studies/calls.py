@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -17,6 +18,8 @@ from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict
 
+OF_SWEEPS = ("status", "message")
+"""Variables that every sweep has."""
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 
@@ -173,8 +176,9 @@ def _are_labels(values: Any) -> bool:
 
 
 def _is_missing(value: Any) -> bool:
-    """Whether this is what a table has for a missing word."""
-    return value is None or value != value
+    """Whether this is what a table has for a missing word: None, nan, or pandas.NA."""
+    is_nan = isinstance(value, float) and math.isnan(value)
+    return value is None or is_nan or type(value).__name__ == "NAType"
 
 
 def _labels_in(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, list[Any]]:
@@ -208,6 +212,8 @@ def _zipped_dimension(
     """
     table = _columns_of(zipped)
     labels = _labels_in(table, names)
+    for name in labels.keys() & {*OF_SWEEPS}:
+        faults.append(Fault(("zip", name), "", "must have another name: every sweep has one"))
     values_by_name = {name: values for name, values in table.items() if name not in labels}
     if not values_by_name:
         rule = "must have columns of values by the names of numbers of the case, such as N"
