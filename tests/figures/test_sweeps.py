@@ -510,3 +510,63 @@ def test_a_critical_speed_at_the_lowest_of_its_scan_is_marked() -> None:
     [arrows] = [each for each in ax.lines if each.get_marker() == r"$\downarrow$"]
     assert arrows.get_xdata().tolist() == [300]
     pyplot.close("all")
+
+
+def rate(case: dm.Parameters) -> dict[str, float]:
+    return {"rate": case.N * case.Omega}
+
+
+def test_samples_are_drawn_over_their_names() -> None:
+    table = {"sample": ["A", "B", "C"], "N": [300.0, 200.0, 385.0]}
+    ax = dm.plot_sweep(dm.sweep(rate, CASE, zip=table), "rate", x="sample")
+    [points] = ax.lines
+    assert points.get_linestyle() == "None"
+    assert [text.get_text() for text in ax.get_xticklabels()] == ["A", "B", "C"]
+    np.testing.assert_allclose(points.get_ydata(), [4500, 3000, 5775])
+    pyplot.close("all")
+
+
+def test_a_sweep_over_words_alone_is_drawn_over_them() -> None:
+    """It was refused: nothing was "over the grid"."""
+    forces = ["vertical", "normal"]
+    ax = dm.plot_sweep(dm.sweep(rate, CASE, contact_force=forces), "rate")
+    names = [text.get_text() for text in ax.get_xticklabels()]
+    assert names == ["vertical contact force", "normal contact force"]
+    norms = {"normalization": ["as_published", "orthonormal"]}
+    two = dm.plot_sweep(dm.sweep(rate, CASE, contact_force=forces, **norms), "rate")
+    assert labels(two.figure) == ["modes as published", "orthonormal modes"]
+    pyplot.close("all")
+
+
+def test_values_that_do_not_ascend_are_drawn_in_their_order() -> None:
+    """Lines went back and forth, and cells of maps lay on each other."""
+    loads = [385.0, 300.0, 340.0]
+    line = dm.plot_sweep(dm.sweep(rate, CASE, N=loads), "rate")
+    assert line.lines[0].get_xdata().tolist() == sorted(loads)
+    np.testing.assert_allclose(line.lines[0].get_ydata(), 15 * np.sort(loads))
+    plane = dm.plot_sweep(dm.sweep(rate, CASE, N=loads, Omega=[10, 12]), "rate")
+    [mesh] = plane.collections
+    np.testing.assert_allclose(mesh.get_array()[0], 10 * np.sort(loads))
+    pyplot.close("all")
+
+
+def test_what_cannot_be_drawn_says_how_it_can() -> None:
+    with pytest.raises(dm.ParameterError, match="study='a single point': must have two points"):
+        dm.plot_sweep(dm.sweep(rate, CASE))
+    spectra = dm.sweep(lambda case: {"line": np.arange(3) * case.N}, CASE, N=LOADS)
+    with pytest.raises(dm.ParameterError, match=r"by study.isel\(line_index=0\)$"):
+        dm.plot_sweep(spectra, "line")
+    dm.plot_sweep(spectra.isel(line_index=1), "line")
+    pyplot.close("all")
+
+
+def test_a_bar_keeps_its_numbers_in_other_colours() -> None:
+    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
+    usual, other = (
+        dm.plot_sweep(found, "cycle_rate", log=True, cmap=cmap).figure.axes[1]
+        for cmap in (None, "RdBu_r")
+    )
+    texts = [text.get_text() for text in usual.get_yticklabels()]
+    assert [text.get_text() for text in other.get_yticklabels()] == texts
+    assert "0" in texts
+    pyplot.close("all")

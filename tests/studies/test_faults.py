@@ -58,7 +58,7 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
 MANY = """
 study: many
 quantity: floquet
-base: {N: -5, mu_k: abc, normalisation: orthonormal, E: 150 kg}
+base: {N: -5, mu_k: abc, friction_ofset: surface, E: 150 kg}
 axes:
   Omga: {start: 10, stop: 20, count: 5}
   normalization: [as_publised, orthonormal]
@@ -72,7 +72,7 @@ figures:
 ALL_OF_THEM = (
     "base.N -5",
     "base.mu_k 'abc'",
-    "base.normalisation normalization",
+    "base.friction_ofset friction_offset",
     "base.E '150 kg'",
     "axes.Omga Omega",
     "axes.normalization 'as_publised'",

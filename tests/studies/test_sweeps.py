@@ -262,6 +262,7 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
         ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),
         ({"contct": ["bilateral"], "N": [1]}, r"^zip.contct: is no number .*mean contact\?"),
         ({"sample": ["A"], "N": [1, 2]}, r"^zip={'N': 2, 'sample': 1}: must have columns of one"),
+        ({"status": ["A"], "N": [1]}, r"^zip.status: must have another name"),
         ({"sample": ["A", "B"]}, r"^zip=.*: must have columns of values"),
         ({}, r"^zip={}: must have columns"),
         ([1, 2], r"^zip=\[1, 2\]: must have columns"),
@@ -287,6 +288,22 @@ def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path
     xr.testing.assert_identical(found.drop_vars(["sample", "new"]), expected)
     dm.save(found, tmp_path / "found.nc")
     xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        pd.Categorical(["A", "B"]),
+        pd.array(["A", None], dtype="string"),
+        np.array(["A", ""]),
+        ["A", np.nan],
+    ],
+)
+def test_words_of_any_kind_of_column_are_labels(words: Any) -> None:
+    found = sweep(products, P, zip=pd.DataFrame({"sample": words, "N": [300.0, 320.0]}))
+    assert found["sample"].values[0] == "A"
+    assert found["sample"].values[1] in ("B", "")
+    assert found["sample"].dtype.kind == "U"
 
 
 def test_a_label_takes_the_name_of_an_argument_and_of_nothing_else() -> None:
@@ -324,6 +341,15 @@ def test_truth_stays_to_be_selected_where_a_sample_failed() -> None:
     np.testing.assert_array_equal(part["good"], [0, 1, np.nan])
     assert part["good"].attrs["comment"] == "1 for True, 0 for False, nan where there is neither"
     assert part["N"][part["good"] == 1].values.tolist() == [3.0]
+
+
+def test_results_of_pandas_and_xarray_keep_their_names() -> None:
+    """Names of a Series were lost, and so were units of a DataArray."""
+    series = sweep(lambda case: pd.Series({"a": case.N, "b": 2.0}), P, N=[1.0, 3.0])
+    assert series["a"].values.tolist() == [1.0, 3.0]
+    assert series["b"].dims == ("N",)
+    array = sweep(lambda case: xr.DataArray(case.N, name="q", attrs={"units": "s"}), P, N=[1.0])
+    assert array["q"].attrs == {"units": "s"}
 
 
 # ---- Who makes the calls

@@ -9,6 +9,7 @@ from matplotlib import colormaps
 from matplotlib.colors import Colormap, to_rgba
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
+from matplotlib.ticker import FixedLocator
 
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.errors import require
@@ -191,4 +192,14 @@ def recolour(ax: Axes, cmap: str | Colormap) -> None:
     rule = "is for maps of numbers: classes and lines have colours of their own"
     require((bool(of_numbers), "cmap", cmap, rule))
     for mesh in of_numbers:
+        bar = mesh.colorbar
+        if bar is None:
+            mesh.set_cmap(cmap)
+            continue
+        ticks = bar.get_ticks().tolist()
+        names = [text.get_text() for text in bar.ax.get_yticklabels()]
+        fixed = isinstance(bar.locator, FixedLocator)
         mesh.set_cmap(cmap)
+        if fixed:  # which a bar of other colours forgets
+            bar.set_ticks(ticks, labels=names)
+            bar.minorticks_off()

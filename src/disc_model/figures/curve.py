@@ -40,6 +40,7 @@ from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
     WORDS,
+    Measured,
     as_numbers,
     label_in,
     measured,
@@ -147,13 +148,9 @@ def draw_lines(
     names, array = as_numbers(as_classes(study[variable]))
     array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
-    across = measured(array[x])
-    words = array[x].dtype.kind in "UO"
-    if words:
-        across = across._replace(values=_named_words(array[x]))
-        joined = False
-    signed = log and needs_zero(array.values)
-    rates = variable == RATE and (signed or not log)
+    label, along = _along(array[x])
+    joined = joined and along.dtype.kind != "U"
+    rates = _are_rates(array, log)
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
@@ -170,17 +167,36 @@ def draw_lines(
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
             alone = len(marks) == 1
-            look |= _draw_dots(ax, across.values, heights, colour, joined=bool(line), alone=alone)
-        ax.plot(*_pieces(across.values, heights, jumps), **look)
-
-    bound = at_lower_bound(study, variable)
-    if bound is not None and bound.any():
-        _point_down(ax, across.values, array, bound, by, marks)
+            look |= _draw_dots(ax, along, heights, colour, joined=bool(line), alone=alone)
+        ax.plot(*_pieces(along, heights, jumps), **look)
 
     # scales and labels
-    if rates:
+    _scale_heights(ax, array, log)
+    if along.dtype.kind == "U":
+        _turn_words(ax, along)
+    else:
+        ax.set_xscale(scale(array[x]))
+    ax.set_xlabel(label)
+    ax.set_ylabel(label_in(study, variable))
+    _set_ticks(ax, names, array)
+    ax.margins(0.03)
+
+    # what is no value, or none that was found
+    _point_down(ax, study, array, x, marks)
+    _mark_gaps(ax, study, array, x, marks)
+
+
+def _are_rates(array: xr.DataArray, log: bool) -> bool:
+    """Whether a variable is drawn on the scale of growth rates, which has both signs."""
+    return array.name == RATE and (not log or needs_zero(array.values))
+
+
+def _scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
+    """Scale the vertical axis: as growth rates have it, or logarithmic, through zero if some values
+    are not positive."""
+    if _are_rates(array, log):
         scale_rates(ax)
-    elif signed:
+    elif log and needs_zero(array.values):
         ax.set_yscale("symlog", linthresh=linear_to(array.values), subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
         if (array > 0).any():
@@ -188,22 +204,15 @@ def draw_lines(
     elif log:
         ax.set_yscale("log")
         plain_decades(ax.yaxis)
-    if words:
-        _turn_words(ax, across.values)
-    else:
-        ax.set_xscale(scale(array[x]))
-    ax.set_xlabel(across.label)
-    ax.set_ylabel(label_in(study, variable))
-    _set_ticks(ax, names, array)
-    ax.margins(0.03)
-    if bound is not None and bound.any():
-        ax.margins(y=ROOM)
-    _mark_gaps(ax, study, array, x, marks)
 
 
-def _named_words(coordinate: xr.DataArray) -> np.ndarray:
-    """The names of words along a dimension."""
-    return np.array([WORDS.get(str(word), str(word)) for word in coordinate.values])
+def _along(coordinate: xr.DataArray) -> Measured:
+    """The label and the values of the horizontal axis; words by their names."""
+    across = measured(coordinate)
+    if coordinate.dtype.kind not in "UO":
+        return across
+    names = [WORDS.get(str(word), str(word)) for word in coordinate.values]
+    return across._replace(values=np.array(names))
 
 
 def _turn_words(ax: Axes, words: np.ndarray) -> None:
@@ -281,14 +290,15 @@ def _look() -> dict[str, Any]:
 
 
 def _point_down(
-    ax: Axes,
-    along: np.ndarray,
-    array: xr.DataArray,
-    bound: xr.DataArray,
-    by: str | None,
-    marks: Mapping[str, str],
+    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
 ) -> None:
     """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
+    bound = at_lower_bound(study, str(array.name))
+    if bound is None or not bound.any():
+        return
+    by = remaining(array, [x])
+    along = _along(array[x]).values
+    ax.margins(y=ROOM)
     page: Any = ax.get_figure(root=True)
     below = ScaledTranslation(0, -large(ARROW) / 72, page.dpi_scale_trans)
     label = AT_BOUND.label
@@ -319,9 +329,7 @@ def _mark_gaps(
     """Mark points without a value above the panel, a row for each line and each reason, which is
     named on the left of its rows."""
     by = remaining(array, [x])
-    across = measured(array[x]).values
-    if array[x].dtype.kind in "UO":
-        across = _named_words(array[x])
+    across = _along(array[x]).values
     top = ABOVE
     for name, gone in gaps(study, array).items():
         first = top

@@ -188,4 +188,5 @@ def number_panels(
         bar.minorticks_off()
     elif log and within_a_decade(colours.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
+        bar.ax.yaxis.set_major_formatter("{x:g}")
     return entries(used, looks)

@@ -56,7 +56,9 @@ def plot_sweep(  # noqa: PLR0913
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
-    varying, column = _along_pairs(_ascending(whole), x)
+    varying, column = _along_pairs(whole, x)
+    if not column:
+        varying = _ascending(varying)
     drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
     if column:
         drawn = replace(drawn, mapped=False, joined=False)
@@ -125,7 +127,7 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
         ]
         columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
         columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
-        if dim not in study.coords and columns:
+        if columns and (dim not in study.coords or x in columns):
             column = x or columns[0]
             require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
             return study.swap_dims({dim: column}), column

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
@@ -17,6 +18,8 @@ from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict
 
+OF_SWEEPS = ("status", "message")
+"""Variables that every sweep has."""
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 
@@ -105,20 +108,11 @@ def checked_call(
         else:
             options[name] = value
     if zipped is not None:
-        table = _columns_of(zipped)
-        labels = _labels_in(table, sorted(names))
-        table = {name: values for name, values in table.items() if name not in labels}
         alone = [dimension.name for dimension in dimensions]
-        columns = _zipped_columns(table, zipped, sorted(names), numbers, alone, faults)
-        _check_lengths({**columns, **labels}, faults)
-        dimensions.append(Dimension(columns, labels))
+        dimensions.append(_zipped_dimension(zipped, sorted(names), numbers, alone, faults))
 
-    takes_all = any(each.kind is each.VAR_KEYWORD for each in parameters.values())
-    if not takes_all:
-        for name in options.keys() - parameters.keys():
-            rule = "is no number of the case, and no argument of the function"
-            told = suggestion(name, numbers)
-            faults.append(Fault.of((name,), named[name], f"{rule}{told}"))
+    if not any(each.kind is each.VAR_KEYWORD for each in parameters.values()):
+        faults += _unknown(options, parameters, numbers)
 
     title = getattr(function, "__name__", type(function).__name__)
     arguments = []
@@ -133,6 +127,17 @@ def checked_call(
             faults.append(Fault((each.name,), "", f"is required by {title}"))
     raise_faults(faults)
     return Call(title, dimensions, options, frozenset(arguments), defaults)
+
+
+def _unknown(
+    options: Mapping[str, Any], parameters: Mapping[str, Any], numbers: Sequence[str]
+) -> Iterator[Fault]:
+    """Yield a fault for each named value that neither the case nor the function has."""
+    for name in options.keys() - parameters.keys():
+        rule = (
+            f"is no number of the case, and no argument of the function{suggestion(name, numbers)}"
+        )
+        yield Fault.of((name,), options[name], rule)
 
 
 def _faults_of_unnamed(unnamed: Sequence[Any], arguments: Sequence[str]) -> list[Fault]:
@@ -171,8 +176,9 @@ def _are_labels(values: Any) -> bool:
 
 
 def _is_missing(value: Any) -> bool:
-    """Whether this is what a table has for a missing word."""
-    return value is None or value != value
+    """Whether this is what a table has for a missing word: None, nan, or pandas.NA."""
+    is_nan = isinstance(value, float) and math.isnan(value)
+    return value is None or is_nan or type(value).__name__ == "NAType"
 
 
 def _labels_in(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, list[Any]]:
@@ -188,29 +194,32 @@ def _labels_in(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, list
     return labels
 
 
-def _zipped_columns(
-    table: Mapping[str, Any],
+def _zipped_dimension(
     zipped: Any,
     names: Sequence[str],
     numbers: Sequence[str],
     alone: Sequence[str],
     faults: list[str],
-) -> dict[str, list[Any]]:
-    """The columns of values that vary together, in SI units.
+) -> Dimension:
+    """The dimension of values that vary together, in SI units, with their labels.
 
     Parameters
     ----------
-    table : columns that are no labels
     zipped : what the user gave
     names, numbers : all that may vary, and those of them that are numbers
     alone : names that are dimensions by themselves
     faults : gets what is wrong
     """
-    if not table:
+    table = _columns_of(zipped)
+    labels = _labels_in(table, names)
+    for name in labels.keys() & {*OF_SWEEPS}:
+        faults.append(Fault(("zip", name), "", "must have another name: every sweep has one"))
+    values_by_name = {name: values for name, values in table.items() if name not in labels}
+    if not values_by_name:
         rule = "must have columns of values by the names of numbers of the case, such as N"
         faults.append(Fault.of(("zip",), zipped, rule))
     columns = {}
-    for name, values in table.items():
+    for name, values in values_by_name.items():
         if name not in names:
             like = suggestion(str(name), names, all_of_them=False).partition(" (known")[0]
             known = f"(known: {', '.join(numbers)}); a column of labels must hold words"
@@ -219,14 +228,10 @@ def _zipped_columns(
             faults.append(Fault(("zip", name), "", "must not be an axis as well"))
         else:
             columns[name] = _values(name, values, faults, "zip")
-    return columns
-
-
-def _check_lengths(columns: Mapping[str, Sequence[Any]], faults: list[str]) -> None:
-    """Add a fault if columns differ in length."""
-    lengths = {name: len(values) for name, values in columns.items()}
+    lengths = {name: len(values) for name, values in (columns | labels).items()}
     if len({*lengths.values()}) > 1:
         faults.append(Fault.of(("zip",), lengths, "must have columns of one length"))
+    return Dimension(columns, labels)
 
 
 def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:

@@ -56,27 +56,43 @@ def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> b
     parent = _within(content, outer)
     if _entry(parent, last) is None:
         return False
-    value = _entry(parent, last)
-    found = MEANT.search(fault.rule)
-    meant = found[1] if found else ""
-    is_word = isinstance(value, str) and _likeness(meant, value) > _likeness(meant, last)
     if isinstance(parent, list):
-        place = int(last)
-        parent[place : place + 1] = [meant] if is_word else []
-        return True
+        del parent[int(last)]
+    elif not _mend_value(parent, last, fault) and not _rename(parent, last, fault):
+        del parent[last]
+        left_out[last] = fault.path
+    return True
+
+
+def _mend_value(parent: dict[str, Any], name: str, fault: Fault) -> bool:
+    """Leave a wrong value out of a list, or take the word that is meant; returns whether the value
+    is one of these."""
+    value = parent[name]
     if isinstance(value, list):
         rest = [each for each in value if as_text(each) != fault.value]
         if 0 < len(rest) < len(value):
-            parent[last] = rest
+            parent[name] = rest
             return True
-    del parent[last]
-    if is_word:
-        parent[last] = meant
-    elif meant and meant not in parent:
-        parent[meant] = value
-    else:
-        left_out[last] = fault.path
+    meant = _meant(fault)
+    if isinstance(value, str) and _likeness(meant, value) > _likeness(meant, name):
+        parent[name] = meant
+        return True
+    return False
+
+
+def _rename(parent: dict[str, Any], name: str, fault: Fault) -> bool:
+    """Give a value the name that is meant; returns whether there is one."""
+    meant = _meant(fault)
+    if not meant or meant in parent:
+        return False
+    parent[meant] = parent.pop(name)
     return True
+
+
+def _meant(fault: Fault) -> str:
+    """What a fault supposes to be meant; "" if it does not."""
+    found = MEANT.search(fault.rule)
+    return found[1] if found else ""
 
 
 def _fill(content: Any, place: Sequence[str]) -> bool:
