@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from disc_model import ParameterError, Parameters, continue_cycle, floquet, neutral_curves, sweep
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Bar
-from disc_model.stability import critical
+from disc_model.stability import critical, parameter_scan
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
 
@@ -55,7 +55,7 @@ def scan_of(
             word = "unstable_sliding"
         return SimpleNamespace(motion=word, multipliers=np.zeros(0), growth_rate=math.nan)
 
-    monkeypatch.setattr(critical, "find_cycle", find_cycle)
+    monkeypatch.setattr(parameter_scan, "find_cycle", find_cycle)
     return critical.critical(Parameters(N=1, Omega=1), "c", (0.0, 1.0), **how)
 
 
@@ -184,7 +184,7 @@ def test_a_peak_of_growth_between_two_values_is_looked_for(monkeypatch: pytest.M
         growing = np.zeros(int(rate > 0))
         return SimpleNamespace(status=SlidingStatus.OK, growth_rate=rate, growing=growing)
 
-    monkeypatch.setattr(critical, "steady_sliding", sliding)
+    monkeypatch.setattr(parameter_scan, "steady_sliding", sliding)
     case = Parameters(N=1, Omega=1)
     found = critical.critical(case, "c", (0.0, 1.2), points=5, kind="sliding")
     # steps of 0.3: 0.3 and 0.6 lie beyond the stretch from 0.3321 to 0.5321
@@ -195,7 +195,7 @@ def test_a_bar_counts_values_between_the_points_too(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shares = iter([[0.5]])
-    monkeypatch.setattr(critical, "_doubtful_shares", lambda low, high: next(shares, []))
+    monkeypatch.setattr(parameter_scan, "_doubtful_shares", lambda low, high: next(shares, []))
     scan_of([(0.5, 0.7)], monkeypatch, points=2, progress=True)
     assert "3/3" in capsys.readouterr().err
     with pytest.raises(ParameterError, match=r"kind='slide': must be one of stick_slip, sliding; "):
@@ -261,10 +261,10 @@ def test_pairs_that_may_have_turned_back_at_the_axis_are_found() -> None:
     # through the axis and back: from 0.1 to -0.3 looks like 0.3
     one = np.array([0.1, 2.0])
     two = np.array([0.3, 2.1])
-    assert critical._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
-    upside_down = critical._returns_from_axis(math.pi - one, math.pi - two, 0.4)
+    assert parameter_scan._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
+    upside_down = parameter_scan._returns_from_axis(math.pi - one, math.pi - two, 0.4)
     assert upside_down == pytest.approx([0.25])
-    assert critical._returns_from_axis(one, two, 0.1) == []
+    assert parameter_scan._returns_from_axis(one, two, 0.1) == []
 
 
 def test_a_pair_that_passes_another_is_no_pair_that_pushes_it_on() -> None:
@@ -275,16 +275,16 @@ def test_a_pair_that_passes_another_is_no_pair_that_pushes_it_on() -> None:
         upper = np.exp(1j * math.pi * np.array(angles))
         return SimpleNamespace(multipliers=np.concatenate([upper, upper.conj()]))
 
-    shares = critical._doubtful_shares(cycle(0.808, 0.821), cycle(0.837, 0.821))
+    shares = parameter_scan._doubtful_shares(cycle(0.808, 0.821), cycle(0.837, 0.821))
     assert any(share == pytest.approx(13 / 29, rel=1e-3) for share in shares)
     # of two cycles only one of which exists the middle is computed, and of none nothing
     without = SimpleNamespace(multipliers=np.zeros(0))
-    assert critical._doubtful_shares(cycle(0.5), without) == [0.5]
-    assert critical._doubtful_shares(without, cycle(0.5)) == [0.5]
-    assert critical._doubtful_shares(without, without) == []
+    assert parameter_scan._doubtful_shares(cycle(0.5), without) == [0.5]
+    assert parameter_scan._doubtful_shares(without, cycle(0.5)) == [0.5]
+    assert parameter_scan._doubtful_shares(without, without) == []
     # multipliers that turn far cannot be told apart
-    assert 0.5 in critical._doubtful_shares(cycle(0.3), cycle(0.42))
-    assert critical._doubtful_shares(cycle(0.3), cycle(0.32)) == []
+    assert 0.5 in parameter_scan._doubtful_shares(cycle(0.3), cycle(0.42))
+    assert parameter_scan._doubtful_shares(cycle(0.3), cycle(0.32)) == []
 
 
 @pytest.mark.slow
@@ -416,8 +416,8 @@ def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:
 def test_a_pair_may_have_met_the_axis_if_its_way_there_and_back_is_no_longer_than_others() -> None:
     before = np.array([0.2, 0.5, np.pi - 0.3])
     after = np.array([0.1, 0.5, np.pi - 0.1])
-    longest = 0.45 / critical.MAY_HAVE_MET
-    found = critical._returns_from_axis(before, after, longest)
+    longest = 0.45 / parameter_scan.MAY_HAVE_MET
+    found = parameter_scan._returns_from_axis(before, after, longest)
     assert found == pytest.approx([0.2 / 0.3, 0.3 / 0.4])
 
 
@@ -426,9 +426,9 @@ def test_a_pair_that_comes_to_the_axis_between_two_values_is_looked_for_in_the_m
     angle = 0.01
     pair = 0.99 * np.exp(1j * np.array([angle, -angle]))
     real = np.array([0.992 + 0j, 0.988 + 0j])
-    assert 0.5 in critical._shares_of_change(real, pair)
-    assert 0.5 in critical._shares_of_change(pair, real)
-    assert 0.5 not in critical._shares_of_change(pair, 0.99 * pair)
+    assert 0.5 in parameter_scan._shares_of_change(real, pair)
+    assert 0.5 in parameter_scan._shares_of_change(pair, real)
+    assert 0.5 not in parameter_scan._shares_of_change(pair, 0.99 * pair)
 
 
 @pytest.mark.parametrize(("share", "computed"), [(0.5, 3), (0.05, 2), (0.95, 2)])
@@ -438,10 +438,10 @@ def test_no_value_is_computed_very_close_to_another(
     def shares(low: object, high: object) -> list[float]:
         return [share]
 
-    monkeypatch.setattr(critical, "_doubtful_shares", shares)
-    scan = critical._Scan(Parameters(N=1, Omega=1), "c", 1e-12)
+    monkeypatch.setattr(parameter_scan, "_doubtful_shares", shares)
+    scan = parameter_scan.Scan(Parameters(N=1, Omega=1), "c", 1e-12)
     found: Any = SimpleNamespace(motion="steady_sliding")
-    monkeypatch.setattr(critical, "find_cycle", lambda p, tol: found)
+    monkeypatch.setattr(parameter_scan, "find_cycle", lambda p, tol: found)
     for value in (0.0, 1.0):
         scan.is_stable(value)
     scan.refine(0.3, Bar(0))

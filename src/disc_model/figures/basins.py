@@ -24,7 +24,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import BasinShares
 from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.figures.selection import failed
-from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import measured
 
 STACKED = (
@@ -72,8 +72,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         ax.set_xlabel(across.label)
         mark_failed(ax, across.values[failed(study).values])
     horizon = stated_in(study, "options")["horizon"]
-    undecided = LOOKS["undecided"]._replace(label=f"undecided after {horizon:g} s")
-    handles = entries(classes, {**LOOKS, "undecided": undecided})
+    handles = entries_of(classes, f"undecided after {horizon:g} s")
     figure_legend(figure, handles, loc="outside lower center")
     return figure
 
@@ -100,6 +99,12 @@ def outcomes_in(shares: xr.DataArray) -> list[str]:
     return [
         word for word in STACKED if word in known and (shares.sel(attractor_class=word) > 0).any()
     ]
+
+
+def entries_of(classes: Sequence[str], undecided: str) -> list[Artist]:
+    """Entries of a legend of outcomes, and its words for undecided ones."""
+    look = LOOKS["undecided"]._replace(label=undecided)
+    return entries(classes, {**LOOKS, "undecided": look})
 
 
 def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: Array) -> None:

@@ -5,14 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib import colormaps
-from matplotlib.colors import Colormap, to_rgba
+from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
-from matplotlib.ticker import FixedLocator
 
 from disc_model.data.variables import Outcome, flag_names
-from disc_model.errors import require
 from disc_model.figures import selection
 from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
 from disc_model.figures.drawing import DECADES, GREY, wide
@@ -173,33 +170,3 @@ def entries(used: Iterable[str], looks: Mapping[str, Look] = LOOKS) -> list[Arti
 
 
 # ---- Colours of a reader
-
-
-def is_colormap(cmap: object) -> bool:
-    """Whether this is a colour map, its name, or nothing."""
-    if isinstance(cmap, str):
-        return cmap in colormaps
-    return cmap is None or isinstance(cmap, Colormap)
-
-
-def recolour(ax: Axes, cmap: str | Colormap) -> None:
-    """Give the numbers of a map other colours; raises `ParameterError` where there are none."""
-    of_numbers = []
-    for mesh in ax.collections:
-        array = mesh.get_array()
-        if array is not None and array.ndim == 2:
-            of_numbers.append(mesh)
-    rule = "is for maps of numbers: classes and lines have colours of their own"
-    require((bool(of_numbers), "cmap", cmap, rule))
-    for mesh in of_numbers:
-        bar = mesh.colorbar
-        if bar is None:
-            mesh.set_cmap(cmap)
-            continue
-        ticks = bar.get_ticks().tolist()
-        names = [text.get_text() for text in bar.ax.get_yticklabels()]
-        fixed = isinstance(bar.locator, FixedLocator)
-        mesh.set_cmap(cmap)
-        if fixed:  # which a bar of other colours forgets
-            bar.set_ticks(ticks, labels=names)
-            bar.minorticks_off()

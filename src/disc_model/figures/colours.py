@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib import colormaps
 from matplotlib.colors import (
     AsinhNorm,
     Colormap,
@@ -15,8 +16,11 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
+from matplotlib.ticker import FixedLocator
 
+from disc_model.errors import require
 from disc_model.figures.growth import is_growth
+from disc_model.figures.types import Axes
 
 FEW = 12  # counts below which each has a colour of its own
 SPAN = 1e3  # of a logarithmic scale on each side of zero, from where it is linear to its end
@@ -116,3 +120,33 @@ def _decades_through_zero(linear: float, low: float, high: float) -> list[float]
 def within_a_decade(norm: Normalize) -> bool:
     """Whether a logarithmic scale has no two powers of ten, and needs further ticks."""
     return norm.vmin is not None and norm.vmax is not None and norm.vmax < 10 * norm.vmin
+
+
+def is_colormap(cmap: object) -> bool:
+    """Whether this is a colour map, its name, or nothing."""
+    if isinstance(cmap, str):
+        return cmap in colormaps
+    return cmap is None or isinstance(cmap, Colormap)
+
+
+def recolour(ax: Axes, cmap: str | Colormap) -> None:
+    """Give the numbers of a map other colours; raises `ParameterError` where there are none."""
+    of_numbers = []
+    for mesh in ax.collections:
+        array = mesh.get_array()
+        if array is not None and array.ndim == 2:
+            of_numbers.append(mesh)
+    rule = "is for maps of numbers: classes and lines have colours of their own"
+    require((bool(of_numbers), "cmap", cmap, rule))
+    for mesh in of_numbers:
+        bar = mesh.colorbar
+        if bar is None:
+            mesh.set_cmap(cmap)
+            continue
+        ticks = bar.get_ticks().tolist()
+        names = [text.get_text() for text in bar.ax.get_yticklabels()]
+        fixed = isinstance(bar.locator, FixedLocator)
+        mesh.set_cmap(cmap)
+        if fixed:  # which a bar of other colours forgets
+            bar.set_ticks(ticks, labels=names)
+            bar.minorticks_off()

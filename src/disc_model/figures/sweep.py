@@ -8,10 +8,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require, suggestion
-from disc_model.figures.basins import draw_shares, outcomes_in
+from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.cells import entries, is_colormap, recolour
-from disc_model.figures.classes import LOOKS
+from disc_model.figures.colours import is_colormap, recolour
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
@@ -170,10 +169,7 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     across = x or numbers[0]
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
-    rule = f"must be one of {', '.join(numbers)}"
-    if "free_parameters" in study.attrs:
-        rule += "; Branch.from_dataset makes a branch of this dataset, which has a method plot"
-    require((across in numbers, "x", across, rule))
+    require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
     second = next((dim for dim in dims if dim != across), None)
     plane = len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
     return Drawn(variable, across, second, mapped=plane)
@@ -227,5 +223,4 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     ax.set_ylabel(label_of(shares)[0])
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
-    undecided = LOOKS["undecided"]._replace(label=f"undecided within {within}: raise horizon")
-    return entries(classes, {**LOOKS, "undecided": undecided})
+    return entries_of(classes, f"undecided within {within}: raise horizon")

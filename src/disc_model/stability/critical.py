@@ -3,42 +3,24 @@ stability."""
 
 import math
 from dataclasses import dataclass
-from functools import partial
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment, minimize_scalar
 
-from disc_model.arrays import Array, ComplexArray, Mask
-from disc_model.data.variables import STABLE_CYCLES
-from disc_model.display import Bar, Drawn, counted, html_table, progress_bar
+from disc_model.arrays import Array, Mask
+from disc_model.display import Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
-from disc_model.stability.continuation import free_faults, interval_in_si, spectrum
+from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
-from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
+from disc_model.stability.cycle import STICK_SLIP
+from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
-# times that places of suspected instability are predicted anew, from the cycles beside them
-ROUNDS = 8
 SHORTEST = 1e-6  # of the range, to which crossings are bisected
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
-# rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
-# apart by their distances
-LONGEST_TURN = 0.3
-# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
-# up to this, the pair may have met the axis in between, and have left it again on the same side
-MAY_HAVE_MET = 1.5
-# exponents of distances by which multipliers are matched. One that passes another moves as far, in
-# sum, as two that follow each other: the first exponent does not tell them apart, the second one
-# takes them to have passed
-MATCHES = (1.0, 0.5)
-STICK_SLIP = "stick_slip"
-SLIDING = "sliding"
 MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
 """Kinds of motion whose stability is followed, and what texts call them."""
 
@@ -212,179 +194,32 @@ def critical(
     shortest = SHORTEST * (high - low)
     if precision is not None:
         shortest = float(precision)
-    scan = _Scan(case, name, float(tol))
+    scan = Scan(case, name, float(tol))
     if kind == SLIDING:
-        scan = _SlidingScan(case, name, float(tol))
+        scan = SlidingScan(case, name, float(tol))
     narrowest = max(shortest, NARROWEST * (high - low))
     with progress_bar("critical", points, progress) as bar:
         for value in values:
             scan.is_stable(value)
             bar.advance()
         scan.refine(narrowest, bar)
-    return scan.located_changes(shortest)
+    return _result(scan, kind, shortest)
 
 
-class _Scan:
-    """Motions near the static start by the value of one parameter, each computed once."""
-
-    kind = STICK_SLIP
-
-    def __init__(self, p: Parameters, name: str, tol: float) -> None:
-        self.p = p
-        self.name = name
-        self.tol = tol
-        self.motions: dict[float, Any] = {}
-
-    def is_stable(self, x: float) -> bool:
-        """Whether the motion is stable at a value, where it is known then."""
-        if x not in self.motions:
-            self.motions[x] = self.motion_of(self.p.replace(**{self.name: x}))
-        return self.settles(self.motions[x])
-
-    def motion_of(self, case: Parameters) -> Any:
-        """The motion of a case."""
-        return find_cycle(case, self.tol)
-
-    def settles(self, motion: Any) -> bool:
-        """Whether small disturbances of a motion die out."""
-        return motion.motion in STABLE_CYCLES
-
-    def refine(self, narrowest: float, bar: Bar) -> None:
-        """Compute further values where the cycles beside them leave a change of stability in doubt,
-        none closer than `narrowest` to another one."""
-        examined = set[tuple[float, float]]()
-        for _ in range(ROUNDS):
-            gaps = set(pairwise(sorted(self.motions))) - examined
-            examined |= gaps
-            places = []
-            for low, high in sorted(gaps):
-                length = high - low
-                for share in _doubtful_shares(self.motions[low], self.motions[high]):
-                    if min(share, 1 - share) * length > narrowest:
-                        places.append(low + share * length)
-            bar.expect(len(places))
-            for place in places:
-                self.is_stable(place)
-                bar.advance()
-
-    def located_changes(self, shortest: float) -> Critical:
-        """The result, with changes of stability located to an interval of length `shortest`."""
-        crossings = list[float]()
-        unstable_above = list[bool]()
-        for low, high in list(pairwise(sorted(self.motions))):
-            stable_below = self.is_stable(low)
-            if stable_below != self.is_stable(high):
-                crossings.append(self._bisect(low, high, shortest))
-                unstable_above.append(stable_below)
-        computed = sorted(self.motions)
-        first = next((value for value in computed if not self.is_stable(value)), math.nan)
-        return Critical(
-            parameters=self.p,
-            name=self.name,
-            value=first,
-            crossings=np.array(crossings),
-            unstable_above=np.array(unstable_above, dtype=bool),
-            values=np.array(computed),
-            growth_rate=np.array([self.motions[value].growth_rate for value in computed]),
-            resolution=float(np.diff(computed).max()),
-            kind=self.kind,
-        )
-
-    def _bisect(self, low: float, high: float, shortest: float) -> float:
-        """The upper end of a short interval within a longer one, at whose ends stability
-        differs."""
-        stable_below = self.is_stable(low)
-        while high - low > shortest:
-            middle = 0.5 * (low + high)
-            if not low < middle < high:
-                break
-            if self.is_stable(middle) == stable_below:
-                low = middle
-            else:
-                high = middle
-        return high
-
-
-class _SlidingScan(_Scan):
-    """Steady sliding by the value of one parameter."""
-
-    kind = SLIDING
-
-    def motion_of(self, case: Parameters) -> SteadySliding:
-        return steady_sliding(case)
-
-    def settles(self, motion: SteadySliding) -> bool:
-        return motion.status is SlidingStatus.OK and not motion.growing.size
-
-    def refine(self, narrowest: float, bar: Bar) -> None:
-        """Compute the greatest growth rates among stable neighbours, and the least ones among
-        unstable ones: of modes that meet, only one may grow for a stretch."""
-        known = sorted(self.motions)
-        for low, middle, high in zip(known, known[1:], known[2:], strict=False):
-            stable = {self.is_stable(x) for x in (low, middle, high)}
-            if len(stable) > 1:
-                continue
-            sign = -1.0 if stable == {True} else 1.0
-            ends = sign * np.array([self._rate(x) for x in (low, middle, high)])
-            if ends[1] <= min(ends[0], ends[2]):
-                search = partial(self._signed_rate, sign)
-                minimize_scalar(
-                    search, bounds=(low, high), method="bounded", options={"xatol": narrowest}
-                )
-
-    def _rate(self, x: float) -> float:
-        """The growth rate at a value, 1/s, which is known then."""
-        self.is_stable(x)
-        return float(self.motions[x].growth_rate)
-
-    def _signed_rate(self, sign: float, x: float) -> float:
-        return sign * self._rate(float(x))
-
-
-def _doubtful_shares(first: FloquetResult, second: FloquetResult) -> list[float]:
-    """Shares of the way from one cycle to another at which stability may change, or the cycle
-    end."""
-    ends_between = len(first.multipliers) != len(second.multipliers)
-    if not (len(first.multipliers) and len(second.multipliers)):
-        return [0.5] if ends_between else []
-    shares = set[float]()
-    for exponent in MATCHES:
-        before, after = _matched(first.multipliers, second.multipliers, exponent)
-        shares |= _shares_of_change(before, after)
-    return sorted(shares)
-
-
-def _matched(
-    first: ComplexArray, second: ComplexArray, exponent: float
-) -> tuple[ComplexArray, ComplexArray]:
-    """Multipliers of two cycles, each beside the one that it becomes: the sum of distances, to the
-    power `exponent`, is least."""
-    distance = np.abs(first[:, None] - second[None, :])
-    rows, columns = linear_sum_assignment(distance**exponent)
-    return first[rows], second[columns]
-
-
-def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
-    """As `_doubtful_shares`, from multipliers that are matched."""
-    slow = spectrum.are_slow(before, after)
-    on_axis_before = int(np.sum(slow & (before.imag == 0)))
-    on_axis_after = int(np.sum(slow & (after.imag == 0)))
-    between = spectrum.turns_of(before, after)
-    longest = float(np.abs(between.turns).max(initial=0))
-    later = between.angles + between.turns
-    shares = {each.share for each in spectrum.passings(between) if 0 < each.share < 1}
-    shares.update(_returns_from_axis(between.angles, later, longest))
-    if longest > LONGEST_TURN or on_axis_before != on_axis_after:
-        shares.add(0.5)
-    return shares
-
-
-def _returns_from_axis(before: Array, after: Array, longest: float) -> list[float]:
-    """Shares of the way at which multipliers may have met the real axis, from their angles at both
-    ends (rad): a pair that passes through the axis looks like one that has turned back."""
-    shares = list[float]()
-    for first, second in ((before, after), (math.pi - before, math.pi - after)):
-        way = first + second
-        may_have_met = (first > 0) & (second > 0) & (way <= MAY_HAVE_MET * longest)
-        shares += (first[may_have_met] / way[may_have_met]).tolist()
-    return shares
+def _result(scan: Scan, kind: str, shortest: float) -> Critical:
+    """What a scan has found, with changes of stability located to an interval of length
+    `shortest`."""
+    crossings, unstable_above = scan.located_changes(shortest)
+    computed = sorted(scan.motions)
+    first = next((value for value in computed if not scan.is_stable(value)), math.nan)
+    return Critical(
+        parameters=scan.p,
+        name=scan.name,
+        value=first,
+        crossings=np.array(crossings),
+        unstable_above=np.array(unstable_above, dtype=bool),
+        values=np.array(computed),
+        growth_rate=np.array([scan.motions[value].growth_rate for value in computed]),
+        resolution=float(np.diff(computed).max()),
+        kind=kind,
+    )

@@ -12,7 +12,6 @@ stick-slip from those that come to steady sliding.
 
 import math
 from collections.abc import Sequence
-from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -106,6 +105,7 @@ class SlippingMap:
         self.diameters = columns.diameters_of_rows(self.model)[modes]
         self.scale = columns.energy_scale(self.model)[self._rows]
         self.size = len(self._rows)
+        self.compression = compression_coordinates(self.model, self._rows)
 
         # columns of the variational equations: by the coordinates, then by the parameters
         self._names = parameters
@@ -118,11 +118,6 @@ class SlippingMap:
         static = float(np.linalg.norm(self._coordinates()))
         self.deflection = math.hypot(static, p.mu_s * p.N / math.sqrt(p.k_p))
         self._gradient = self._gradient_of_turn()
-
-    @cached_property
-    def compression(self) -> Array:
-        """As `SectionMap` says."""
-        return compression_coordinates(self.model, self._rows)
 
     def evaluate(
         self,

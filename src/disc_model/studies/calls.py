@@ -13,13 +13,17 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
-from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion, violations
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict
 
 OF_SWEEPS = ("status", "message")
 """Variables that every sweep has."""
+RETURNED = (
+    "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
+    "xarray.Dataset"
+)
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 
@@ -83,6 +87,22 @@ class Call:
             for part in parts:
                 point.update(part)
             yield point
+
+    def checked(self, result: Any, variables: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the variables of a result without arguments of the function whose names a
+        coordinate has; raises `ParameterError`, with the name of the function, if there are
+        none."""
+        if not variables:
+            rule = f"returned {as_text(result)}, and {RETURNED}"
+            raise ParameterError(Fault((self.title,), "", rule))
+        kept = dict(variables)
+        taken = {name for dimension in self.dimensions for name in dimension.coordinates}
+        for name in taken & kept.keys():
+            if name not in self.arguments:
+                rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
+                raise ParameterError(Fault((self.title,), "", rule))
+            del kept[name]
+        return kept
 
 
 def checked_call(

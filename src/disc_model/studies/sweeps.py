@@ -10,7 +10,6 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.errors import Fault, ParameterError, as_text
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.studies.calls import Call, checked_call
@@ -20,10 +19,6 @@ from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.workers import checked_workers
 
-RETURNED = (
-    "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
-    "xarray.Dataset"
-)
 FAILED = "failed"  # status of a point whose call raised an error
 
 
@@ -164,8 +159,8 @@ def _row(
             raise
         return _failure(error)
     try:
-        variables = _variables_of(result, call)
-    except ParameterError as error:
+        variables = call.checked(result, variables_of_result(result))
+    except NUMERICAL as error:
         if number == 0:
             raise
         return _failure(error)
@@ -185,20 +180,3 @@ def _failure(error: Exception) -> dict[str, xr.Variable]:
         "status": xr.Variable((), FAILED),
         "message": xr.Variable((), f"{type(error).__name__}: {error}"),
     }
-
-
-def _variables_of(result: Any, call: Call) -> dict[str, xr.Variable]:
-    """The variables of a result, without arguments of the function whose names a coordinate has;
-    raises `ParameterError`, with the name of the function, if there are none."""
-    variables = variables_of_result(result)
-    if not variables:
-        raise ParameterError(
-            Fault((call.title,), "", f"returned {as_text(result)}, and {RETURNED}")
-        )
-    taken = {name for dimension in call.dimensions for name in dimension.coordinates}
-    for name in taken & variables.keys():
-        if name not in call.arguments:
-            rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
-            raise ParameterError(Fault((call.title,), "", rule))
-        del variables[name]
-    return variables

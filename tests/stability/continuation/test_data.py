@@ -219,5 +219,12 @@ def test_another_dataset_is_no_branch(data: xr.Dataset) -> None:
     for other in (data.drop_vars("special_a"), data.drop_attrs(), "branch.nc"):
         with pytest.raises(dm.ParameterError, match=r"must be a dataset of Branch\.to_dataset"):
             dm.Branch.from_dataset(other)
-    with pytest.raises(dm.ParameterError, match=r"Branch\.from_dataset makes a branch"):
-        dm.plot_sweep(data, "growth_rate", x="Omega")
+
+
+def test_a_stored_branch_is_drawn_over_its_parameter_without_lines(data: xr.Dataset) -> None:
+    """Its points follow the branch, and turn at folds: `Branch.plot` joins them."""
+    axes = dm.plot_sweep(data, "growth_rate", x="Omega")
+    (points,) = (line for line in axes.lines if line.get_marker() == "o")
+    drawn = np.asarray(points.get_xdata(), dtype=float)
+    assert_array_equal(drawn[np.isfinite(drawn)], data["Omega"])
+    assert points.get_linestyle() == "None"

@@ -14,10 +14,8 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
-from disc_model.stability.continuation.spectrum import spectrum_of
-from disc_model.stability.return_map import MapFactory, ReturnMap, SectionMap
+from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
-from disc_model.stability.slipping_map import SlippingMap
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -36,8 +34,6 @@ LABELS: dict[str, str] = {
 CHANGES = ("fold", "period_doubling", "neimark_sacker")
 """Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
 circle."""
-SAME_PERIOD = 1e-3  # relative difference of a cycle's period from that of fewer releases
-SENSE = 1e-6  # way along a direction, over the static deflection, by which its sense is found
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 
 
@@ -259,27 +255,19 @@ class Branch:
         Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
         """
         stored = StoredBranch(data)
-        states = stored.states()
-        slips = bool(states) and states[0].phase == "slip"
-        make_map: MapFactory = SlippingMap if slips else ReturnMap
+        make_map = stored.make_map
         special = _stored_special_points(stored, make_map)
         folds = [each.values for each in special if each.kind == "fold"]
-        values = stored.values()
-        scale = make_map(stored.case).scale
-        points = []
-        for state, row in zip(states, values, strict=True):
-            own = make_map(stored.case_at(row))
-            points.append(own.point(state) / own.scale * scale)
         branch = cls(
             parameters=stored.parameters,
-            values=values,
+            values=stored.values(),
             period=data["period"].values,
             stick_fraction=data["stick_fraction"].values,
             growth_rate=data["growth_rate"].values,
             multipliers=data["multipliers"].values.astype(complex),
             diameters=data["diameters"].values,
             separations=data["separations"].values,
-            points=np.array(points),
+            points=stored.points(),
             folds=np.array(folds).reshape(-1, len(stored.parameters)),
             ended=stored.ended,
             case=stored.case,
@@ -328,24 +316,9 @@ class Branch:
         reference = self._make_map(self.case)
         point = self.points[i] / reference.scale * own.scale
         if push and own.size:
-            point = point + push * own.deflection * self._direction(own, point, i)
+            direction = leading_direction(own, point, float(self.period[i]))
+            point = point + push * own.deflection * direction
         return own.state(point)
-
-    def _direction(self, own: SectionMap, point: Array, i: int) -> Array:
-        """The direction of the leading multiplier's eigenvector at the i-th cycle's point, of unit
-        length, in the sense that stretches the spring."""
-        releases = 1
-        orbit = own.evaluate(point, releases=releases, may_separate=True)
-        while orbit.returned and orbit.period < (1 - SAME_PERIOD) * self.period[i]:
-            releases += 1
-            orbit = own.evaluate(point, releases=releases, may_separate=True)
-        spectrum = spectrum_of(orbit.jacobian)
-        leading = int(np.argmax(np.abs(spectrum.values)))
-        direction = np.real(spectrum.right[:, leading])
-        direction = direction / np.linalg.norm(direction)
-        small = SENSE * own.deflection * direction
-        stretched = own.state(point + small).psi - own.state(point - small).psi
-        return -direction if stretched < 0 else direction
 
     @cached_property
     def range(self) -> Array:

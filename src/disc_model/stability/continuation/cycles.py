@@ -1,7 +1,6 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
-import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -144,18 +143,7 @@ def continue_cycle(  # noqa: PLR0913
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
     tol = float(tol)
     start = case.numbers[name]
-    slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
-    within = span[0] - slack <= start <= span[1] + slack
-    unit = case.unit(name).removeprefix("1")
-    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
-    outside = []
-    for given, value in zip(values, wanted, strict=True):
-        if not span[0] - slack <= value <= span[1] + slack:
-            outside.append(given)
-    require(
-        (within, name, start, f"{rule}, to start from there"),
-        (not outside, "values", next(iter(outside), None), rule),
-    )
+    _check_within(span, case, name, dict(zip(values, wanted, strict=True)))
 
     scale, steps = _scaled(case, name, span, steps)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
@@ -167,6 +155,24 @@ def continue_cycle(  # noqa: PLR0913
     return branch_of(problem, course, (*span, start), wanted)
 
 
+def _check_within(
+    span: tuple[float, float], case: Parameters, name: str, wanted: Mapping[Any, float]
+) -> None:
+    """Raise `ParameterError` unless the case, and values as given and in SI units, lie within
+    bounds."""
+    slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
+    least = span[0] - slack
+    greatest = span[1] + slack
+    start = case.numbers[name]
+    outside = [given for given, value in wanted.items() if not least <= value <= greatest]
+    unit = case.unit(name).removeprefix("1")
+    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
+    require(
+        (least <= start <= greatest, name, start, f"{rule}, to start from there"),
+        (not outside, "values", next(iter(outside), None), rule),
+    )
+
+
 def _scaled(
     case: Parameters, name: str, span: tuple[float, float], steps: StepControl
 ) -> tuple[float, StepControl]:
@@ -174,7 +180,7 @@ def _scaled(
     if steps.scale is not None:
         return steps.scale, steps
     stretch = stretch_of(case, name)
-    shorter = {"step": steps.step / stretch, "longest": steps.longest / math.sqrt(stretch)}
+    shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch**0.5}
     scale = stretch * parameter_scale(case, name, max(map(abs, span)))
     return scale, steps.model_copy(update=shorter)
 

@@ -12,6 +12,8 @@ from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
 from disc_model.errors import require
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.states import State
+from disc_model.stability.return_map import MapFactory, ReturnMap
+from disc_model.stability.slipping_map import SlippingMap
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation.branch import Branch
@@ -120,6 +122,21 @@ class StoredBranch:
         columns = {name: self.data[begin + name].values.tolist() for name in STATE}
         rows = zip(*columns.values(), strict=True)
         return [State(time=0.0, **dict(zip(columns, row, strict=True))) for row in rows]
+
+    @property
+    def make_map(self) -> MapFactory:
+        """What makes the map of whose section the states are."""
+        slips = "slip" in self.data["phase"].values[:1]
+        return SlippingMap if slips else ReturnMap
+
+    def points(self) -> np.ndarray:
+        """The points of the section, (n, n_coordinates), scaled as those of the case."""
+        scale = self.make_map(self.case).scale
+        points = []
+        for state, values in zip(self.states(), self.values(), strict=True):
+            own = self.make_map(self.case_at(values))
+            points.append(own.point(state) / own.scale * scale)
+        return np.array(points)
 
 
 class _Columns:
