@@ -60,10 +60,17 @@ def drawn(rng: np.random.Generator, law: str) -> Parameters:
     )
 
 
-def first_separation(p: Parameters, horizon: float = HORIZON, start: State | None = None) -> float:
+def first_separation(
+    p: Parameters, horizon: float = HORIZON, start: State | None = None, tol: float = 1e-10
+) -> float:
     return simulate(
-        p, horizon, events=False, stop_at="first_separation", initial_state=start
+        p, horizon, events=False, stop_at="first_separation", initial_state=start, tol=tol
     ).first_separation
+
+
+def is_regular(p: Parameters) -> bool:
+    """Whether the tolerance leaves the first separation where it is, so that rounding does, too."""
+    return first_separation(p, tol=1e-12) == pytest.approx(first_separation(p), rel=SAME_TIME / 10)
 
 
 def separating(law: str, count: int, seed: int = 0) -> list[Parameters]:
@@ -82,20 +89,24 @@ def test_outcome_loses_contact_when_the_simulated_static_start_does(law: str) ->
     """With an offset, two of three first separations were wrong by more than 1 %."""
     rng = np.random.default_rng(8)
     separated = 0
-    for _ in range(100):
-        p = drawn(rng, law)
+    # under some laws few cases separate by chance
+    for p in [*(drawn(rng, law) for _ in range(90)), *separating(law, 10)]:
         found = functions.outcome(p, HORIZON, evaluation_time=0.05, after_separation=0.05)
         first = found["first_separation"].item()
-        assert first == pytest.approx(first_separation(p), rel=SAME_TIME, nan_ok=True), p
         assert (found["outcome"].item() == "separation") == math.isfinite(first)
-        separated += math.isfinite(first)
+        if first == pytest.approx(first_separation(p), rel=SAME_TIME, nan_ok=True):
+            separated += math.isfinite(first)
+        else:
+            assert not is_regular(p), p
     assert separated >= 10
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("law", ["vertical_coupled", "normal_coupled", "vertical_coupled_falling"])
 def test_first_separations_of_many_cases_are_the_simulated_ones(law: str, seed: int) -> None:
-    for p in separating(law, 40, seed):
+    cases = [p for p in separating(law, 40, seed) if is_regular(p)]
+    assert len(cases) >= 30
+    for p in cases:
         first = functions.outcome(p, HORIZON)["first_separation"].item()
         assert first == pytest.approx(first_separation(p), rel=SAME_TIME), p
 
@@ -212,8 +223,10 @@ def test_hysteresis_follows_the_motion_from_speed_to_speed(law: str) -> None:
                         least = 5.0
                     near = 0.1 * value + least
                     assert there[name].item() == pytest.approx(value, abs=near), (way, speed)
-        rates = found["separation_rate"].sel(direction="up").values
-        assert found["onset_speed"].item() == speeds[(rates > 0).argmax()]
+        separates = found["separation_rate"].sel(direction="up").values > 0
+        lowest = speeds[separates].min(initial=math.inf)
+        onset = found["onset_speed"].item()
+        assert onset == lowest or (math.isnan(onset) and not separates.any())
 
 
 @EACH_LAW
