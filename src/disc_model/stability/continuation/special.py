@@ -62,8 +62,11 @@ def _between(
     if after.orbit.counts != before.orbit.counts:
         yield GRAZING, before, leading(before)
         return
+    knots = [before, after]
     if folded:
-        yield FOLD, locate_fold(tracer, before, after), 1.0 + 0j
+        fold = locate_fold(tracer, before, after)
+        knots.insert(1, fold)
+        yield FOLD, fold, 1.0 + 0j
     elif before.orientation != after.orientation:
         yield BRANCH_POINT, before, 1.0 + 0j
     if _doubling_test(before) * _doubling_test(after) < 0:
@@ -72,7 +75,9 @@ def _between(
             critical = nearest(doubled, -1.0 + 0j)
             if abs(critical + 1) < ON_CIRCLE:
                 yield PERIOD_DOUBLING, doubled, critical
-    yield from _neimark_sackers(tracer, before, after)
+    # a pair that crosses the circle before a fold often is two real multipliers at the fold
+    for first, last in pairwise(knots):
+        yield from _neimark_sackers(tracer, first, last)
 
 
 def locate_fold(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> CurvePoint:
@@ -96,13 +101,7 @@ def _neimark_sackers(
 ) -> Iterator[tuple[str, CurvePoint, complex]]:
     """The points between two neighbours where a pair of complex multipliers crosses the unit
     circle."""
-    successors = follow_multipliers(before.spectrum, after.spectrum)
-    for i, multiplier in enumerate(before.spectrum.values):
-        successor = after.spectrum.values[successors[i]]
-        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
-        if not crosses or multiplier.imag <= 0 or successor.imag == 0:
-            continue
-        follower = _Follower(before, i)
+    for follower in _crossing_pairs(before, after):
         point = tracer.locate(before, after, follower.excess)
         if point is None:
             continue
@@ -111,20 +110,44 @@ def _neimark_sackers(
             yield NEIMARK_SACKER, point, complex(critical.real, abs(critical.imag))
 
 
+def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[_Follower]:
+    """The pairs that are complex at one of two neighbours at least, and may have crossed the unit
+    circle at the other."""
+    successors = follow_multipliers(before.spectrum, after.spectrum)
+    for i, multiplier in enumerate(before.spectrum.values):
+        j = int(successors[i])
+        successor = complex(after.spectrum.values[j])
+        if multiplier.imag > 0 and successor.imag != 0:
+            if (abs(multiplier) - 1) * (abs(successor) - 1) < 0:
+                yield _Follower(before, i)
+        elif multiplier.imag > 0:
+            yield _Follower(before, i)
+        elif multiplier.imag == 0 and successor.imag > 0:
+            yield _Follower(after, j)
+
+
 class _Follower:
-    """The multiplier of a point that continues the i-th one of another."""
+    """The multiplier of a point that continues the i-th one of another, which is complex."""
 
     def __init__(self, start: CurvePoint, i: int) -> None:
         self.start = start
         self.i = i
+        values = start.spectrum.values
+        self.conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
 
     def multiplier(self, point: CurvePoint) -> complex:
         j = follow_multipliers(self.start.spectrum, point.spectrum)[self.i]
         return complex(point.spectrum.values[j])
 
     def excess(self, point: CurvePoint) -> float:
-        """By how much its modulus exceeds one."""
-        return abs(self.multiplier(point)) - 1
+        """By how much its modulus exceeds one; the mean modulus of both multipliers where the pair
+        has become two real ones."""
+        successors = follow_multipliers(self.start.spectrum, point.spectrum)
+        followed = complex(point.spectrum.values[successors[self.i]])
+        if followed.imag != 0:
+            return abs(followed) - 1
+        other = complex(point.spectrum.values[successors[self.conjugate]])
+        return abs(followed * other) ** 0.5 - 1
 
 
 def nearest(point: CurvePoint, value: complex) -> complex:
