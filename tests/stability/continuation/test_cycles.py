@@ -192,6 +192,22 @@ def test_a_cycle_is_not_followed_with_twice_its_releases(doubled: Branch) -> Non
         continue_cycle(p, "Omega", (12, 15), guess=state, releases=2)
 
 
+def test_stability_that_changes_twice_within_a_step_is_found() -> None:
+    start = Parameters(N=359.452, Omega=12.6441, normalization="orthonormal")
+    points = continue_cycle(start, "Omega", (12.5, 15.1)).special
+    speeds = [point.values[0] for point in points if point.changes_stability]
+    assert len(speeds) == 3
+    _, regained, lost = speeds
+    assert 0.2 < lost - regained < 0.3  # rad/s; a step there is one of 0.3 rad/s
+    for speed, stable in (
+        (regained - 0.001, False),
+        (regained + 0.001, True),
+        (lost - 0.001, True),
+        (lost + 0.001, False),
+    ):
+        assert floquet(start.replace(Omega=speed)).stable == stable
+
+
 def test_a_branch_can_stop_where_the_cycle_first_loses_stability() -> None:
     p = Parameters(N=300, Omega=18.5, normalization="orthonormal")
     branch = continue_cycle(p, "Omega", (18.2, 30), direction=1, stop_at="neimark_sacker")
