@@ -396,6 +396,15 @@ def test_a_stiff_contact_is_followed_past_the_bends_of_its_vibration(stiff: Bran
     assert moves[1] / moves[0] == pytest.approx(2, rel=0.02)  # of the second order in it
 
 
+def test_a_stiff_contact_grazes_the_limit_within_a_vibration_of_its_release() -> None:
+    case = Parameters(N=385, Omega=15.0, friction_offset="surface", contact_compliance=1e-8)
+    branch = continue_cycle(case, "Omega", (15.0, 15.4), direction=1)
+    assert branch.ended == "a grazing release: during stick the pull touches friction's limit"
+    left = margins(branch, -1)
+    assert abs(left["earlier release"]) < 1e-3  # of the preload; samples are 1e-4 apart there
+    assert left["release"] > 1
+
+
 def test_cycles_of_a_stiff_contact_are_those_of_floquet(stiff: Branch) -> None:
     for i in range(0, len(stiff), 12):
         cycle = floquet(stiff.case_at(i), guess=stiff.state(i))
