@@ -192,6 +192,22 @@ def test_a_cycle_is_not_followed_with_twice_its_releases(doubled: Branch) -> Non
         continue_cycle(p, "Omega", (12, 15), guess=state, releases=2)
 
 
+def test_stability_that_changes_twice_within_a_step_is_found() -> None:
+    start = Parameters(N=359.452, Omega=12.6441, normalization="orthonormal")
+    points = continue_cycle(start, "Omega", (12.5, 15.1)).special
+    speeds = [point.values[0] for point in points if point.changes_stability]
+    assert len(speeds) == 3
+    _, regained, lost = speeds
+    assert 0.2 < lost - regained < 0.3  # rad/s; a step there is one of 0.3 rad/s
+    for speed, stable in (
+        (regained - 0.001, False),
+        (regained + 0.001, True),
+        (lost - 0.001, True),
+        (lost + 0.001, False),
+    ):
+        assert floquet(start.replace(Omega=speed)).stable == stable
+
+
 def test_a_branch_can_stop_where_the_cycle_first_loses_stability() -> None:
     p = Parameters(N=300, Omega=18.5, normalization="orthonormal")
     branch = continue_cycle(p, "Omega", (18.2, 30), direction=1, stop_at="neimark_sacker")
@@ -378,6 +394,15 @@ def test_a_stiff_contact_is_followed_past_the_bends_of_its_vibration(stiff: Bran
     rigid = continue_cycle(FOLDED, "Omega", (14.85, 15.3))
     moves = rigid.folds[0, 0] - np.array([stiff.folds[0, 0], softer.folds[0, 0]])
     assert moves[1] / moves[0] == pytest.approx(2, rel=0.02)  # of the second order in it
+
+
+def test_a_stiff_contact_grazes_the_limit_within_a_vibration_of_its_release() -> None:
+    case = Parameters(N=385, Omega=15.0, friction_offset="surface", contact_compliance=1e-8)
+    branch = continue_cycle(case, "Omega", (15.0, 15.4), direction=1)
+    assert branch.ended == "a grazing release: during stick the pull touches friction's limit"
+    left = margins(branch, -1)
+    assert abs(left["earlier release"]) < 1e-3  # of the preload; samples are 1e-4 apart there
+    assert left["release"] > 1
 
 
 def test_cycles_of_a_stiff_contact_are_those_of_floquet(stiff: Branch) -> None:

@@ -385,7 +385,8 @@ class Branch:
         own need the same unit, such as `labels={"y": "Range (mm)"}`. The axis of growth rates is
         linear near 0 and logarithmic beyond, on both sides. A wide range is drawn on a logarithmic axis.
 
-        Stability changes at special points, which are located to rounding. A branch in two
+        Stability changes at special points, which are located to rounding; in the bends of a very
+        stiff contact it may do so between two points, and the line is thin there. A branch in two
         parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
         as in `Result.plot`; the legend of axes with several branches has the entries of all.
         Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be

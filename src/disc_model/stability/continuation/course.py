@@ -112,7 +112,8 @@ class Search:
             end = ends.reason_of_loss(self.problem, points[-1], rejected)
         else:
             end = ends.at_most_points(self.steps.max_points)
-        return self._located(special.reveal_folds(self.tracer, points), end)
+        points = special.reveal_folds(self.tracer, points)
+        return self._located(special.reveal_stability(self.tracer, points), end)
 
     def _located(self, points: list[CurvePoint], end: End) -> Course:
         """A course with its special points; it ends before a fold that cannot be located, and at

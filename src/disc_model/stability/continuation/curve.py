@@ -34,7 +34,6 @@ DEFECT = 0.02
 # the last correction of a point whose residual is limited by rounding; a residual that is as small
 # but no zero, as beside a narrow fold, leads to corrections a hundred times as large
 UNCERTAIN = 1e-7
-EXACT = 1e-9  # length of a last correction after which derivatives are not computed anew
 LAST_CORRECTIONS = 3
 DIVERGES = "Newton's method does not converge"
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
@@ -87,11 +86,13 @@ class Evaluation(NamedTuple):
 class Problem(Protocol):
     """F, whose zeros form the curve. Both methods raise `Rejected` where F has no value.
 
-    n : number of rows of F; tol : relative tolerance of its values
+    n : number of rows of F; tol : relative tolerance of its values; exact : length of a last
+        correction after which derivatives are not computed anew
     """
 
     n: int
     tol: float
+    exact: float
 
     def residual(self, z: Array) -> Array:
         """F at z, which costs little."""
@@ -203,7 +204,7 @@ def _settle(
         z = z - step
         if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
             raise Rejected("the corrector moves too far")
-        if length <= EXACT:
+        if length <= problem.exact:
             break
         last = length
     return z, found

@@ -37,6 +37,10 @@ BEYOND = (1e-6, 1e-5, 1e-4)
 # chance on which side a motion goes.
 TRIED = (*BEYOND, 2e-6, 5e-6, 2e-5, 5e-5, 2e-4, 5e-4, 1e-3)
 SAME_TIME = 5e-3  # largest difference of two times of one event, over the period
+# A stiff contact's vibration makes a motion farther away differ without a grazing, and may graze
+# friction's limit within a vibration of the release.
+TRIED_STIFF = (1e-6, 1e-5)
+SAME_TIME_STIFF = 1e-3
 
 GRAZINGS = {
     ("stick_to_slip", True): "a grazing release: during stick the pull touches friction's limit",
@@ -86,12 +90,14 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
             problem.case(z)
         except ParameterError as fault:
             return End(LIMIT, f"beyond it the case is not valid: {fault}")
-    cycle = _events(problem, last.z, last.orbit.period)
-    # a stiff contact's vibration needs no event to differ as much as farther motions do
-    tried = BEYOND if has_own_vibration(problem.base) else TRIED
+    stiff = has_own_vibration(problem.base)
+    tried = TRIED_STIFF if stiff else TRIED
+    same_time = SAME_TIME_STIFF if stiff else SAME_TIME
+    until = (1 - same_time) * last.orbit.period
+    cycle = _events(problem, last.z, last.orbit.period, until)
     for distance in tried:
-        motion = _events(problem, last.z + distance * last.tangent, last.orbit.period)
-        text = _first_difference(cycle, motion)
+        motion = _events(problem, last.z + distance * last.tangent, last.orbit.period, until)
+        text = _first_difference(cycle, motion, same_time)
         if text:
             return End(GRAZED, text)
     text = f"no step from {problem.words(last)} succeeds: {rejected}"
@@ -100,9 +106,9 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
     return End(LOST, text)
 
 
-def _events(problem: CycleProblem, z: np.ndarray, period: float) -> list[Event]:
-    """The events of the motion from a point of the section up to the last release of the period,
-    which a leading multiplier of a million, as beside a grazing release, displaces."""
+def _events(problem: CycleProblem, z: np.ndarray, period: float, until: float) -> list[Event]:
+    """The events of the motion from a point of the section until a time before the last release of
+    the period, which a leading multiplier of a million, as beside a grazing release, displaces."""
     section_map = problem.map_at(z)
     start = section_map.state(problem.section_point(z))
     try:
@@ -110,24 +116,24 @@ def _events(problem: CycleProblem, z: np.ndarray, period: float) -> list[Event]:
     except DiscModelError:
         return []
     table = run.events
-    early = table[table["time"] < (1 - SAME_TIME) * period]
+    early = table[table["time"] < until]
     return [
         Event(str(kind), float(time) / period)
         for kind, time in zip(early["kind"], early["time"], strict=True)
     ]
 
 
-def _are_same(one: Event | None, other: Event | None) -> bool:
+def _are_same(one: Event | None, other: Event | None, same_time: float) -> bool:
     """Whether two motions have the same event, or neither has one."""
     if one is None or other is None:
         return one is other
-    return one.kind == other.kind and abs(one.time - other.time) < SAME_TIME
+    return one.kind == other.kind and abs(one.time - other.time) < same_time
 
 
-def _first_difference(cycle: list[Event], motion: list[Event]) -> str:
+def _first_difference(cycle: list[Event], motion: list[Event], same_time: float = SAME_TIME) -> str:
     """Words for the first event that only one of two motions has; none if they have the same."""
     for ours, theirs in zip_longest(cycle, motion):
-        if _are_same(ours, theirs):
+        if _are_same(ours, theirs, same_time):
             continue
         appears = ours is None or (theirs is not None and theirs.time < ours.time)
         kind = theirs.kind if appears else ours.kind

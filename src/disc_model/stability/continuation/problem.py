@@ -47,6 +47,7 @@ SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of inte
 # In a stiff contact a cycle bends within a millionth of the static deflection: a parameter then counts
 # for so much less that its folds are round, and steps are so much shorter.
 STRETCH = 100.0
+EXACT = 1e-9  # last correction of a point on such a contact; on any other one the first is the last
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
 
 WITHOUT_RETURN = {
@@ -112,6 +113,7 @@ class CycleProblem:
         self.base = base
         self.names = names
         self.tol = tol
+        self.exact = EXACT if has_own_vibration(base) else math.inf
         self.order = order
         self.make_map: MapFactory = make_map or ReturnMap
         self.reference = self.make_map(base, tol)

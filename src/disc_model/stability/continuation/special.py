@@ -3,13 +3,14 @@ bifurcations, changes of the order of events, and branch points.
 
 Between two neighbouring points a test function changes sign, and its root along the curve is
 located to rounding.  A pair of folds within a step leaves the sign of the slope unchanged; it is
-found because the slope nearly vanishes there.
+found because the slope nearly vanishes there.  Stability that changes twice within a step is found
+because the leading multiplier is nearly neutral.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -26,9 +27,12 @@ GRAZING = "grazing"
 BRANCH_POINT = "branch_point"
 ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
 NEARLY_FOLDED = (
-    0.5  # least slope between three points, over that of the middle one, that is looked at
+    0.5  # least value between three points, over that of the middle one, that is looked at
 )
 MOST_REFINEMENTS = 4  # of the points round a slope that nearly vanishes
+# least distance of the leading multiplier's modulus from one at both ends of a step, over its largest
+# change in that step and its neighbours, at which stability may change twice within the step
+NEARLY_NEUTRAL = 0.5
 
 
 class Located(NamedTuple):
@@ -62,8 +66,11 @@ def _between(
     if after.orbit.counts != before.orbit.counts:
         yield GRAZING, before, leading(before)
         return
+    knots = [before, after]
     if folded:
-        yield FOLD, locate_fold(tracer, before, after), 1.0 + 0j
+        fold = locate_fold(tracer, before, after)
+        knots.insert(1, fold)
+        yield FOLD, fold, 1.0 + 0j
     elif before.orientation != after.orientation:
         yield BRANCH_POINT, before, 1.0 + 0j
     if _doubling_test(before) * _doubling_test(after) < 0:
@@ -72,7 +79,9 @@ def _between(
             critical = nearest(doubled, -1.0 + 0j)
             if abs(critical + 1) < ON_CIRCLE:
                 yield PERIOD_DOUBLING, doubled, critical
-    yield from _neimark_sackers(tracer, before, after)
+    # a pair that crosses the circle before a fold often is two real multipliers at the fold
+    for first, last in pairwise(knots):
+        yield from _neimark_sackers(tracer, first, last)
 
 
 def locate_fold(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> CurvePoint:
@@ -96,13 +105,7 @@ def _neimark_sackers(
 ) -> Iterator[tuple[str, CurvePoint, complex]]:
     """The points between two neighbours where a pair of complex multipliers crosses the unit
     circle."""
-    successors = follow_multipliers(before.spectrum, after.spectrum)
-    for i, multiplier in enumerate(before.spectrum.values):
-        successor = after.spectrum.values[successors[i]]
-        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
-        if not crosses or multiplier.imag <= 0 or successor.imag == 0:
-            continue
-        follower = _Follower(before, i)
+    for follower in _crossing_pairs(before, after):
         point = tracer.locate(before, after, follower.excess)
         if point is None:
             continue
@@ -111,20 +114,44 @@ def _neimark_sackers(
             yield NEIMARK_SACKER, point, complex(critical.real, abs(critical.imag))
 
 
+def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[_Follower]:
+    """The pairs that are complex at one of two neighbours at least, and may have crossed the unit
+    circle at the other."""
+    successors = follow_multipliers(before.spectrum, after.spectrum)
+    for i, multiplier in enumerate(before.spectrum.values):
+        j = int(successors[i])
+        successor = complex(after.spectrum.values[j])
+        if multiplier.imag > 0 and successor.imag != 0:
+            if (abs(multiplier) - 1) * (abs(successor) - 1) < 0:
+                yield _Follower(before, i)
+        elif multiplier.imag > 0:
+            yield _Follower(before, i)
+        elif multiplier.imag == 0 and successor.imag > 0:
+            yield _Follower(after, j)
+
+
 class _Follower:
-    """The multiplier of a point that continues the i-th one of another."""
+    """The multiplier of a point that continues the i-th one of another, which is complex."""
 
     def __init__(self, start: CurvePoint, i: int) -> None:
         self.start = start
         self.i = i
+        values = start.spectrum.values
+        self.conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
 
     def multiplier(self, point: CurvePoint) -> complex:
         j = follow_multipliers(self.start.spectrum, point.spectrum)[self.i]
         return complex(point.spectrum.values[j])
 
     def excess(self, point: CurvePoint) -> float:
-        """By how much its modulus exceeds one."""
-        return abs(self.multiplier(point)) - 1
+        """By how much its modulus exceeds one; the mean modulus of both multipliers where the pair
+        has become two real ones."""
+        successors = follow_multipliers(self.start.spectrum, point.spectrum)
+        followed = complex(point.spectrum.values[successors[self.i]])
+        if followed.imag != 0:
+            return abs(followed) - 1
+        other = complex(point.spectrum.values[successors[self.conjugate]])
+        return abs(followed * other) ** 0.5 - 1
 
 
 def nearest(point: CurvePoint, value: complex) -> complex:
@@ -141,7 +168,7 @@ def leading(point: CurvePoint) -> complex:
     return complex(values[np.argmax(np.abs(values))])
 
 
-# ---- Pairs of folds within a step
+# ---- Pairs of special points within a step
 
 
 def reveal_folds(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[CurvePoint]:
@@ -149,7 +176,7 @@ def reveal_folds(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[Cur
     pair of folds hides within a step."""
     revealed = {}
     for i in range(1, len(points) - 1):
-        point = _hidden_turn(tracer, list(points[i - 1 : i + 2]))
+        point = _hidden_change(tracer, list(points[i - 1 : i + 2]), lambda point: point.slope)
         if point is not None:
             behind = float((point.z - points[i].z) @ points[i].tangent) < 0
             revealed[i - 1 if behind else i] = point
@@ -161,17 +188,56 @@ def reveal_folds(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[Cur
     return complete
 
 
-def _hidden_turn(tracer: BranchTracer, three: list[CurvePoint]) -> CurvePoint | None:
-    """The point between three neighbours whose slope differs from theirs in sign, if a parabola
-    through the slopes suggests one and it exists."""
-    sign = math.copysign(1.0, three[1].slope)
+def reveal_stability(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[CurvePoint]:
+    """The points of a branch and, between them, one of the other stability, wherever it changes
+    twice within a step and the leading multiplier suggests so."""
+    excess = np.array([_leading_excess(point) for point in points])
+    changes = np.abs(np.diff(excess))
+    complete = list(points[:1])
+    for i, (before, after) in enumerate(pairwise(points)):
+        largest = changes[max(i - 1, 0) : i + 2].max()
+        nearly = np.abs(excess[i : i + 2]).min() < NEARLY_NEUTRAL * largest
+        if nearly and excess[i] * excess[i + 1] > 0:
+            point = _hidden_stability(tracer, before, after)
+            if point is not None:
+                complete.append(point)
+        complete.append(after)
+    return complete
+
+
+def _hidden_stability(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
+) -> CurvePoint | None:
+    """A point between two neighbours of one stability that has the other one, if it is found."""
+    if before.orbit.counts != after.orbit.counts:
+        return None
+    try:
+        middle = tracer.between(before, after, 0.5)
+    except Rejected:
+        return None
+    if _leading_excess(middle) * _leading_excess(before) < 0:
+        return middle
+    return _hidden_change(tracer, [before, middle, after], _leading_excess)
+
+
+def _leading_excess(point: CurvePoint) -> float:
+    """By how much the modulus of the leading multiplier exceeds one."""
+    return abs(leading(point)) - 1
+
+
+def _hidden_change(
+    tracer: BranchTracer, three: list[CurvePoint], test: Callable[[CurvePoint], float]
+) -> CurvePoint | None:
+    """The point between three neighbours at which a test function differs from theirs in sign, if a
+    parabola through its values suggests one and it exists."""
+    sign = math.copysign(1.0, test(three[1]))
     for _ in range(MOST_REFINEMENTS):
-        slopes = [sign * point.slope for point in three]
-        if not 0 < slopes[1] < min(slopes[0], slopes[2]):
+        values = [sign * test(point) for point in three]
+        if not 0 < values[1] < min(values[0], values[2]):
             return None
         lengths = [float(np.linalg.norm(b.z - a.z)) for a, b in pairwise(three)]
-        place, least = _least_of_parabola(lengths, slopes)
-        if least > NEARLY_FOLDED * slopes[1]:
+        place, least = _least_of_parabola(lengths, values)
+        if least > NEARLY_FOLDED * values[1]:
             return None
         if place < 0:
             before = three[0]
@@ -187,11 +253,11 @@ def _hidden_turn(tracer: BranchTracer, three: list[CurvePoint]) -> CurvePoint | 
             there = tracer.between(before, after, share)
         except Rejected:
             return None
-        if sign * there.slope < 0:
+        if sign * test(there) < 0:
             return there
         middle = three[1].tangent
         four = sorted([*three, there], key=lambda point: float(point.z @ middle))
-        lowest = min((1, 2), key=lambda i: sign * four[i].slope)
+        lowest = min((1, 2), key=lambda i: sign * test(four[i]))
         three = four[lowest - 1 : lowest + 2]
     return None
 

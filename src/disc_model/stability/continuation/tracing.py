@@ -54,6 +54,7 @@ LEAPS = tuple(1e-5 * 2.0**i for i in range(10))
 AT_BRANCH_POINT = 1e-3  # distance of the critical multiplier from one at such a step's ends
 BEHIND = (0.5, 4.0, np.inf)  # distances of the points from which it is expected there, over these
 PRECISION = 1e-11  # of the share of a step at which a point is located
+EVEN = 0.5  # least slope over the largest one, of a curve without folds between two points
 STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
 
 
@@ -143,8 +144,7 @@ class BranchTracer:
     def between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
         """The point of the curve at a share of the way between two neighbours."""
         guess = interpolate(before, after, share)
-        chord = after.z - before.z
-        return self._near(before, after, guess, chord / np.linalg.norm(chord))
+        return self._near(before, after, guess, _plane_between(before, after))
 
     def at_value(
         self, before: CurvePoint, after: CurvePoint, value: float, share: float
@@ -164,17 +164,18 @@ class BranchTracer:
     ) -> CurvePoint | None:
         """The point between two neighbours where a test function vanishes; None if it has the same
         sign at both, or the curve cannot be followed to the point."""
-        ends = {0.0: before, 1.0: after}
+        known = {0.0: before, 1.0: after}
 
         def value(share: float) -> float:
-            point = ends.get(share)
-            return test(self.between(before, after, share) if point is None else point)
+            if share not in known:
+                known[share] = self.between(before, after, share)
+            return test(known[share])
 
         if value(0.0) * value(1.0) > 0:
             return None
         try:
             root = float(brentq(value, 0.0, 1.0, xtol=PRECISION, rtol=4 * np.finfo(float).eps))
-            return ends.get(root) or self.between(before, after, root)
+            return known.get(root) or self.between(before, after, root)
         except Rejected:
             return None
 
@@ -268,6 +269,17 @@ def _plane(tangent: Array) -> Array:
     if abs(tangent[-1]) < STEEP:
         return tangent
     return parameter_row(len(tangent), float(tangent[-1]))
+
+
+def _plane_between(before: CurvePoint, after: CurvePoint) -> Array:
+    """Normal of the planes in which points between two neighbours lie: that of a fixed parameter
+    where the curve is steep all the way, and that of the chord elsewhere, as round a fold."""
+    chord = after.z - before.z
+    along = chord / np.linalg.norm(chord)
+    slopes = float(np.sign(along[-1])) * np.array([before.slope, along[-1], after.slope])
+    if slopes.min() > max(STEEP, EVEN * slopes.max()):
+        return parameter_row(len(along), float(along[-1]))
+    return np.asarray(along, dtype=float)
 
 
 def parameter_row(width: int, sense: float) -> Array:
