@@ -321,10 +321,11 @@ def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_
         [line.get_ydata() for line in enlarged.lines if line.get_marker() in "os"]
     )
     assert sorted(heights) == pytest.approx([1.0, 3.0, 35.0]), "what is far off stands at the edge"
-    assert labels(figure)[:3] == [
+    assert labels(figure)[:4] == [
         "modes as published",
         "heavy",
         "no frequency carries 95 % of height and contact force",
+        "(b) from flights: (π · time apart)²/8",
     ]
 
 
@@ -346,6 +347,13 @@ def test_the_scatter_of_ranges_is_drawn_whole_on_a_linear_axis_and_counted() -> 
     inside["deviation"][:] = inside["deviation"] / 10
     _, enlarged = draw("range_law", inside).axes
     assert "higher: see (a)" not in _said(enlarged)
+
+
+def test_the_curve_of_the_range_law_is_named_in_the_legend() -> None:
+    """Its words in the panel lay on the curve and on motions."""
+    figure = draw("range_law", separating_motions())
+    assert any("from flights" in text.get_text() for text in figure.legends[0].get_texts())
+    assert not any("from flights" in text for text in _said(figure.axes[1]))
 
 
 # ---- locking
