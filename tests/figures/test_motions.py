@@ -22,6 +22,7 @@ from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOST
+from disc_model.figures.locking import NEVER_STICKS
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
@@ -29,7 +30,7 @@ from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
 from tests.figures.described import branches, campbell, of_example, sensitivity, sliding_modes
-from tests.figures.reading import crosses, draw, labels, lines
+from tests.figures.reading import assert_fit_for_print, crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
 
@@ -51,6 +52,13 @@ def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:
     assert not crosses(ax)
     assert lines(ax)["steady sliding"].get_xdata() == [2]
     assert lines(ax)["no event while sampled"].get_xdata() == [3]
+
+
+def test_periods_have_no_number_below_one() -> None:
+    samples, _ = made_up_samples()
+    axis = draw("bifurcation", samples, x="N").axes[1].yaxis
+    assert axis.get_view_interval()[0] < 0.5
+    assert min(axis.get_majorticklocs()) == 1
 
 
 def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
@@ -313,10 +321,11 @@ def test_motions_of_one_frequency_are_filled_and_those_set_apart_have_their_own_
         [line.get_ydata() for line in enlarged.lines if line.get_marker() in "os"]
     )
     assert sorted(heights) == pytest.approx([1.0, 3.0, 35.0]), "what is far off stands at the edge"
-    assert labels(figure)[:3] == [
+    assert labels(figure)[:4] == [
         "modes as published",
         "heavy",
         "no frequency carries 95 % of height and contact force",
+        "(b) from flights: (π · time apart)²/8",
     ]
 
 
@@ -338,6 +347,13 @@ def test_the_scatter_of_ranges_is_drawn_whole_on_a_linear_axis_and_counted() -> 
     inside["deviation"][:] = inside["deviation"] / 10
     _, enlarged = draw("range_law", inside).axes
     assert "higher: see (a)" not in _said(enlarged)
+
+
+def test_the_curve_of_the_range_law_is_named_in_the_legend() -> None:
+    """Its words in the panel lay on the curve and on motions."""
+    figure = draw("range_law", separating_motions())
+    assert any("from flights" in text.get_text() for text in figure.legends[0].get_texts())
+    assert not any("from flights" in text for text in _said(figure.axes[1]))
 
 
 # ---- locking
@@ -390,6 +406,20 @@ def test_zooms_stand_below_each_other_in_a_column() -> None:
         figure = draw("staircase", study, width=width, **phrase)
         shapes[width] = figure.axes[0].get_subplotspec().get_gridspec().get_geometry()
     assert shapes == {"page": (2, 2), "column": (3, 1)}
+
+
+def test_a_column_names_motions_that_never_stick_in_its_legend() -> None:
+    """The words above the steps were cut at the figure's edge."""
+    study = locked_at([19.8, 19.9], [34, 35], [371, 372])
+    slipping = locked_at([19.8, 19.9], [0, 0], [0, 0])
+    slipping["motion"][:] = 2
+    for width, in_legend in (("page", False), ("column", True)):
+        figure = draw("staircase", study, {"slipping": slipping}, width=width, x="Omega")
+        words = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
+        assert (words == [NEVER_STICKS]) is in_legend
+        said = [text.get_text() for text in figure.axes[0].texts]
+        assert (NEVER_STICKS in said) is not in_legend
+        assert_fit_for_print(figure)
 
 
 def test_periods_of_other_separations_are_other_steps() -> None:

@@ -15,7 +15,7 @@ from disc_model.figures.classes import name_of
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.words import unit_text
 from tests.figures.measured import Shown, assert_shows
-from tests.figures.reading import labels
+from tests.figures.reading import assert_numbers_are_apart, labels
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
@@ -463,6 +463,43 @@ def test_a_logarithmic_scale_leaves_no_cell_or_point_blank() -> None:
     assert line.get_ylabel() == "Cycle rate"
     low, high = line.get_ylim()
     assert low < -8 < 8 < high, "all values are within the axis"
+    pyplot.close("all")
+
+
+def test_numbers_of_a_logarithmic_scale_through_zero_are_apart() -> None:
+    """Numbers within the linear part, 0.1 and -0.1 for values from 0.3 on, covered zero."""
+    speeds = np.array([8.0, 10, 11, 12, 13, 14, 16])
+    rates = np.array([-300.0, -20, -0.3, 0, 0.3, 20, 300])
+    found = xr.Dataset({"cycle_rate": ("Omega", rates)}, {"Omega": speeds})
+    _, ax = pyplot.subplots(figsize=(3.31, 2.4), layout="constrained")
+    dm.plot_sweep(found, "cycle_rate", log=True, ax=ax)
+    assert ax.get_yticks().tolist() == [-100, -10, -1, 0, 1, 10, 100]
+    assert_numbers_are_apart(ax)
+    pyplot.close("all")
+
+
+def test_the_last_number_along_an_axis_is_not_cut() -> None:
+    """The layout, whose width decides between 20 and 20.0, left room for 20 alone."""
+    speeds = np.linspace(8, 20, 25)
+    power = {"units": "W", "long_name": "Power into the disc"}
+    data = {"power": ("Omega", 300 * np.linspace(-1, 1, 25) ** 3, power)}
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout="constrained")
+    dm.plot_sweep(xr.Dataset(data, {"Omega": speeds}), ax=ax)
+    for _ in range(3):
+        figure.draw_without_rendering()
+        low, high = ax.get_xlim()
+        for tick in ax.xaxis.get_major_ticks():
+            if low <= tick.get_loc() <= high:
+                assert tick.label1.get_window_extent().x1 <= figure.bbox.x1
+    pyplot.close("all")
+
+
+def test_a_bar_has_the_minus_of_other_axes() -> None:
+    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
+    bar = dm.plot_sweep(found, "cycle_rate", log=True).figure.axes[1]
+    said = [text.get_text() for text in bar.get_yticklabels()]
+    assert any(text.startswith("\N{MINUS SIGN}") for text in said)
+    assert not any(text.startswith("-") for text in said)
     pyplot.close("all")
 
 

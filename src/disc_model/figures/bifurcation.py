@@ -141,7 +141,7 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
     ax.set_yscale("log")
     ax.set_ylabel("Events in\na period")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
-    plain_decades(ax.yaxis)
+    plain_decades(ax.yaxis, least=1)  # there is no half of an event
     ax.yaxis.set_minor_locator(NullLocator())
     mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
     if not repeats.all():

@@ -101,10 +101,10 @@ def _through_zero(values: np.ndarray) -> Scale:
     elif low == high == 0:
         high = linear
     norm = AsinhNorm(linear_width=linear, vmin=low, vmax=high)
-    return Scale(cmap, norm, places=_decades_through_zero(linear, low, high))
+    return Scale(cmap, norm, places=decades_through_zero(linear, low, high))
 
 
-def _decades_through_zero(linear: float, low: float, high: float) -> list[float]:
+def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
     """Ticks between two numbers: zero and powers of ten beyond where the scale is linear, or the
     numbers if there are less than two of these."""
     first = np.ceil(np.log10(linear))

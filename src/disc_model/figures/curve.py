@@ -6,10 +6,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.ticker import FixedLocator
 from matplotlib.transforms import ScaledTranslation
 
 from disc_model.figures.classes import AT_BOUND, name_of
-from disc_model.figures.colours import linear_to, needs_zero
+from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -197,7 +198,11 @@ def _scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
     if _are_rates(array, log):
         scale_rates(ax)
     elif log and needs_zero(array.values):
-        ax.set_yscale("symlog", linthresh=linear_to(array.values), subs=range(2, 10))
+        linear = linear_to(array.values)
+        ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
+        # numbers below the linear part's end would cover that of zero
+        ends = (float(array.min()), float(array.max()))
+        ax.yaxis.set_major_locator(FixedLocator(decades_through_zero(linear, *ends)))
         ax.yaxis.set_major_formatter("{x:g}")
         if (array > 0).any():
             ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)

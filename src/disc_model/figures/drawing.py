@@ -167,11 +167,16 @@ class PlainDecades(Locator):
     """Ticks of a logarithmic axis: powers of ten; 1, 2 and 5 over few decades; more over less than
     half of one. All are labelled."""
 
+    def __init__(self, least: float = 0.0) -> None:
+        """Have no ticks below `least`."""
+        self.least = least
+
     def __call__(self) -> Any:
         """The ticks between the limits of the axis."""
         axis: Any = self.axis
         low, high = sorted(axis.get_view_interval())
-        return self.tick_values(low, high)
+        ticks = self.tick_values(low, high)
+        return ticks[ticks >= self.least]
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
         """The ticks between two positive values."""
@@ -185,9 +190,9 @@ class PlainDecades(Locator):
         return ticks[(ticks >= vmin) & (ticks <= vmax)]
 
 
-def plain_decades(axis: Axis) -> None:
-    """Label a logarithmic axis by plain numbers, far enough apart; over more than two decades, by
-    powers of ten."""
+def plain_decades(axis: Axis, least: float = 0.0) -> None:
+    """Label a logarithmic axis by plain numbers from `least` on, far enough apart; over more than two
+    decades, by powers of ten."""
     powers = LogFormatterSciNotation()
     powers.set_axis(axis)
 
@@ -197,7 +202,7 @@ def plain_decades(axis: Axis) -> None:
             return str(powers(value))
         return f"{value:.6g}"
 
-    axis.set_major_locator(PlainDecades())
+    axis.set_major_locator(PlainDecades(least))
     axis.set_major_formatter(FuncFormatter(text))
     axis.set_minor_formatter(NullFormatter())
 

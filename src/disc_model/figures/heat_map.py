@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
+from matplotlib.ticker import Formatter
 
 from disc_model.data.variables import EXCLUDED, TRUTH
 from disc_model.figures.cells import (
@@ -181,7 +182,7 @@ def number_panels(
         return entries(used, looks)
     bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
     if colours.places:
-        bar.set_ticks(colours.places, labels=[f"{place:g}" for place in colours.places])
+        bar.set_ticks(colours.places, labels=_numbers(colours.places))
         bar.minorticks_off()
     elif colours.ticks:
         bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
@@ -190,3 +191,8 @@ def number_panels(
         bar.ax.yaxis.set_minor_formatter("{x:g}")
         bar.ax.yaxis.set_major_formatter("{x:g}")
     return entries(used, looks)
+
+
+def _numbers(places: Sequence[float]) -> list[str]:
+    """The texts of ticks, with the sign that other axes have below zero."""
+    return [Formatter.fix_minus(f"{place:g}") for place in places]

@@ -141,25 +141,31 @@ def seen(word: str) -> int:
 
 
 def part_numbers(ax: Axes) -> None:
-    """Have fewer numbers along a horizontal linear axis, as long as they meet."""
+    """Have fewer numbers along a horizontal linear axis, as long as they meet or leave the figure.
+
+    matplotlib's layout can leave no room for the last one where their count depends on the width.
+    """
     axis: Any = ax.xaxis
     if not isinstance(axis.get_major_locator(), MaxNLocator):
         return
     for steps in range(MOST_STEPS, 0, -1):
-        if _numbers_are_apart(axis):
+        if _numbers_have_room(axis):
             return
         ax.locator_params(axis="x", nbins=steps)
-    if not _numbers_are_apart(axis):
+    if not _numbers_have_room(axis):
         ax.set_xticks(_shown(axis, axis.get_majorticklocs())[[0, -1]])
 
 
-def _numbers_are_apart(axis: Any) -> bool:
-    """Whether numbers along a horizontal axis have a gap between them."""
+def _numbers_have_room(axis: Any) -> bool:
+    """Whether numbers along a horizontal axis have a gap between them, and end within the figure."""
     labels = axis.get_ticklabels()  # also sets their texts and places
     shown = _shown(axis, axis.get_majorticklocs())
     boxes = [text.get_window_extent() for text in labels if text.get_position()[0] in shown]
     ends = sorted((box.x0, box.x1) for box in boxes)
-    gap = NUMBERS_APART * axis.get_figure(root=True).dpi / 72
+    figure = axis.get_figure(root=True)
+    if ends and ends[-1][1] > figure.bbox.x1:
+        return False
+    gap = NUMBERS_APART * figure.dpi / 72
     return all(after[0] - before[1] > gap for before, after in pairwise(ends))
 
 

@@ -41,6 +41,9 @@ class _Step(NamedTuple):
         return self.low < high and self.high > low
 
 
+NEVER_STICKS = "beside it, at these speeds, a motion that never sticks"
+
+
 def draw_staircase(
     plot: Staircase, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]
 ) -> Figure:
@@ -51,7 +54,8 @@ def draw_staircase(
         parts.append(overlays["fine"].squeeze(drop=True))
     label, factor = axis_of(plot.x)
 
-    layout = _layout(len(plot.zooms), beside=plot.inches == drawing.PAGE)
+    narrow = plot.inches != drawing.PAGE
+    layout = _layout(len(plot.zooms), beside=not narrow)
     figure = drawing.new_figure(plot.inches, 0.1 + 2.2 * len(layout))
     panels = list(figure.subplot_mosaic(layout).values())
     whole, *zooms = panels
@@ -60,7 +64,7 @@ def draw_staircase(
     _draw_steps(whole, steps, study[plot.x].values[[0, -1]] * factor)
     _draw_undecided(whole, parts, plot.x, factor)
     if "slipping" in overlays:
-        _draw_slipping(whole, overlays["slipping"], plot.x, factor)
+        _draw_slipping(whole, overlays["slipping"], plot.x, factor, narrow=narrow)
     for ax, (low, high) in zip(zooms, plot.zooms, strict=True):
         _draw_steps(ax, steps, np.array([low, high]) * factor)
         _draw_undecided(ax, parts, plot.x, factor)
@@ -70,6 +74,8 @@ def draw_staircase(
         ax.set_xlabel(label)
         ax.set_ylabel(APART)
         ax.xaxis.set_major_formatter("{x:.6g}")
+        if narrow:
+            ax.locator_params(axis="x", nbins=5)  # numbers have up to six digits
     drawing.letters(panels)
     return figure
 
@@ -203,8 +209,13 @@ def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: fl
             drawing.mark_failed(ax, part[name].values[failed(part).values] * factor)
 
 
-def _draw_slipping(ax: Axes, slipping: xr.Dataset, name: str, factor: float) -> None:
-    """Mark, above the steps, where a motion without stick exists beside."""
+def _draw_slipping(
+    ax: Axes, slipping: xr.Dataset, name: str, factor: float, *, narrow: bool
+) -> None:
+    """Mark, above the steps, where a motion without stick exists beside.
+
+    narrow : whether the panel is as wide as a column, and has no room for the words
+    """
     part = slipping.squeeze(drop=True)
     never = flag_names(part["motion"]) == "without_stick"
     places = part[name].values[never] * factor
@@ -213,9 +224,16 @@ def _draw_slipping(ax: Axes, slipping: xr.Dataset, name: str, factor: float) -> 
     edge = ax.get_xaxis_transform()
     heights = np.full(places.size, TOP)
     ax.plot(places, heights, "D", color=BLUE, markersize=mark(2.5), transform=edge)
+    if narrow:
+        sign = drawing.sample(
+            color=BLUE, marker="D", markersize=mark(2.5), linestyle="", label=NEVER_STICKS
+        )
+        figure: Any = ax.get_figure()
+        figure_legend(figure, [sign], loc="outside lower center", columns=1)
+        return
     drawing.say(
         ax,
-        "beside it, at these speeds, a motion that never sticks",
+        NEVER_STICKS,
         (float(places[0]), TOP),
         (3, 2),
         xycoords=edge,

@@ -137,14 +137,6 @@ def _draw_enlarged(ax: Axes, motions: _Motions) -> None:
     ax.set_ylim(low - margin, high + margin)
     ax.set_xlabel("Time apart (%)")
     drawing.say(ax, "within 5 %", (times[-1], -BAND), (-3, 2), fontsize=large(7), color="0.35")
-    drawing.say(
-        ax,
-        "from flights:\n(π · time apart)²/8",
-        (times[-1], BAND),
-        (-3, 3),
-        fontsize=large(7),
-        path_effects=drawing.halo(),
-    )
     if (excess > high).any():
         drawing.say(ax, "higher: see (a)", (0, high), (3, -7), fontsize=large(7))
     if (excess < low).any():
@@ -170,4 +162,6 @@ def _explain(figure: Figure, motions: _Motions, share: float) -> None:
             label=hollow,
         )
     )
+    from_flights = "(b) from flights: (π · time apart)²/8"
+    handles.append(drawing.sample(color=BLACK, linewidth=wide(0.8), label=from_flights))
     figure_legend(figure, handles, loc="outside lower center", columns=2)
