@@ -62,9 +62,7 @@ def _with_its_name(raw: Any) -> Any:
 
 
 Distribution = Annotated[
-    Uniform | TruncatedNormal,
-    Field(discriminator="distribution"),
-    BeforeValidator(_with_its_name),
+    Uniform | TruncatedNormal, Field(discriminator="distribution"), BeforeValidator(_with_its_name)
 ]
 
 

@@ -107,7 +107,10 @@ _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_le
 Name = Annotated[str, _LETTERS]
 CaseName = Annotated[Name, AfterValidator(_no_variable)]
 WindowName = Annotated[
-    Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a parameter, variable or group of results")
+    Name,
+    _but(
+        TAKEN | BESIDE_WINDOWS, "must not be the name of a parameter, variable or group of results"
+    ),
 ]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
