@@ -231,9 +231,10 @@ def modes(p: Parameters, options: ModesOptions) -> None:
 
 def print_report(report: DiscReport) -> None:
     """Print what was used of a file and what was left out."""
-    rows = report.table
-    columns = {str(head): map("{:.5g}".format, rows[head]) for head in rows}
-    table("Shapes of the file", columns, justify="right", overflow="fold")
+    if report.has_shapes:
+        rows = report.table
+        columns = {str(head): map("{:.5g}".format, rows[head]) for head in rows}
+        table("Shapes of the file", columns, justify="right", overflow="fold")
     print_rows(report.summary())
 
 

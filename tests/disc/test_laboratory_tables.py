@@ -113,6 +113,24 @@ def test_units_may_have_a_row_of_their_own(tmp_path: Path) -> None:
     assert_right(read(tmp_path, text + table))
 
 
+def test_a_report_says_how_each_column_was_understood(tmp_path: Path) -> None:
+    """There was none of a table of single modes, so that a percentage could be one of a hundred."""
+    text = "diameters;f (kHz);amplitude (kg^-1/2);damping in %\n2;1,5;0,54;0,1\n3;2;0,43;0,3\n"
+    disc = read(tmp_path, text)
+    assert str(disc.report).splitlines() == [
+        "disc.csv: 2 modes",
+        "read: 'diameters' as nodal diameters, 2 to 3",
+        "read: 'f (kHz)' as frequency, 1500 to 2000 Hz",
+        "read: 'amplitude (kg^-1/2)' as amplitude, 0.43 to 0.54 kg^-1/2",
+        "read: 'damping in %' as damping ratio, 0.001 to 0.003",
+    ]
+    poles = read(tmp_path, "diameters,amplitude_per_sqrt_kg,pole (rad/s)\n2,0.5,-300+400i\n")
+    assert "'pole (rad/s)' as damping ratio, 0.6" in str(poles.report)
+    case = dm.Parameters(N=8000, Omega=80, disc=disc, r_0=0.1)
+    with pytest.raises(dm.ParameterError, match="does not come from a file with both halves"):
+        dm.split_growth(case)
+
+
 DAMPED = np.array(RATIOS)
 OSCILLATING = np.sqrt(1 - DAMPED**2)
 POLES = OMEGA * (-DAMPED + 1j * OSCILLATING)

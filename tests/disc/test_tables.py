@@ -191,7 +191,7 @@ def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFix
     path.write_text(disc_table(P.replace(damping_ratio=0.00375)))
     shown = command.out("modes", "--disc", str(path))
     assert "a disc of 5 modes" in shown
-    assert shown.count("0.00375") == 5
+    assert shown.count("0.00375") == 5 + 1  # of the modes, and of the column as it was read
 
 
 @pytest.mark.parametrize(

@@ -92,6 +92,9 @@ def test_faults_of_all_kinds_come_in_one_round() -> None:
     assert len(faults) == len(ALL_OF_THEM), "and none that only what was left out makes"
 
 
+SAMPLED = {"distributions": {"mu_s": {"mean": 0.4, "deviation": 0.01}}, "samples": 8}
+
+
 @pytest.mark.parametrize(
     ("change", "count"),
     [
@@ -99,11 +102,29 @@ def test_faults_of_all_kinds_come_in_one_round() -> None:
         ({"axes": {"Omega": [10, 20], "mus": [0.4, 0.5]}}, 1),
         ({"base": {"N": 200, "mu_k": -1}, "quantity": "outcom"}, 2),
         ({"figures": {"f": {"kind": "heat", "x": "k"}}}, 1),
+        ({"quantity": "sensitivity", "options": SAMPLED}, 1),  # not also empty distributions
     ],
 )
 def test_a_fault_makes_no_other_ones(change: dict[str, Any], count: int) -> None:
     faults = faults_of(parse_study, GRID | change)
     assert len(faults) == count, faults
+
+
+def test_cases_with_wrong_names_are_not_missed_elsewhere() -> None:
+    """Cases were said to be empty, and to be unknown to figures, once those were left out."""
+    case = {"parameters": {"N": 385, "Omega": 15}, "t_end": 10}
+    window = {"late": {"last": 4, "rate": 1000}}
+    figure = {"kind": "history", "window": "late", "variables": ["u"]}
+    raw = {
+        "study": "s",
+        "record": {"windows": window},
+        "cases": {"a": case, "steps": case},
+        "figures": {"one": figure | {"case": "a"}, "other": figure | {"case": "slow"}},
+    }
+    faults = faults_of(parse_study, raw)
+    assert len(faults) == 2, faults
+    assert_named(faults, "cases.a parameter inner radius case_a")
+    assert_named(faults, "cases.steps variable of results case_steps")
 
 
 @pytest.mark.parametrize(("text", "words"), FAULTS["texts"])

@@ -171,6 +171,8 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
 ) -> None:
     handed: list[Any] = []
     found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": ""})
+    found["critical_speed"] = ("horizon", [5.0])
+    found["horizon"] = [7.0]
 
     def take(*parts: Any, progress: bool = False) -> xr.Dataset:
         handed.extend(parts)
@@ -225,6 +227,15 @@ def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str
 def test_a_critical_speed_counts_the_speeds_of_its_scan(capsys: pytest.CaptureFixture[str]) -> None:
     dm.critical_speed(P, (14, 16), 0.5, progress=True)
     assert re.search(r"critical_speed .*3/3", capsys.readouterr().err)
+
+
+def test_a_critical_speed_that_is_nan_is_said_in_words() -> None:
+    """It was nan with an empty message."""
+    quiet = dm.Parameters(N=100, Omega=15)
+    speeds = dm.critical_speed(quiet, (1, 3), [1.0, 2.0])
+    assert np.isnan(speeds["critical_speed"]).all()
+    said = "no separation within 1, 2 s at 3 speeds from 1 to 3 rad/s"
+    assert speeds.attrs["message"] == said
 
 
 SCANNING = pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])

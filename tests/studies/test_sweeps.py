@@ -273,6 +273,34 @@ def test_pairs_that_do_not_fit_are_refused(table: Any, message: str) -> None:
         sweep(products, P, zip=table, Omega=[10.0])
 
 
+@pytest.mark.parametrize("values", [np.ones((2, 2)), [[1.0, 2.0], [3.0]]])
+def test_an_axis_of_two_dimensions_is_one_fault(values: Any) -> None:
+    """Each of its rows was told to be no number."""
+    with pytest.raises(dm.ParameterError, match=r"values in one dimension") as caught:
+        sweep(products, P, Omega=values)
+    assert len(caught.value.faults) == 1
+    with pytest.raises(dm.ParameterError, match=r"^zip.Omega=.*one dimension") as caught:
+        sweep(products, P, zip={"Omega": values, "N": [1.0, 2.0]})
+    assert len(caught.value.faults) == 1
+
+
+def alone() -> float:
+    """A function that takes no case."""
+    return 3.0
+
+
+def by_name(*, case: dm.Parameters) -> float:
+    """A function that takes a case only by its name."""
+    return case.N
+
+
+@pytest.mark.parametrize("function", [alone, by_name])
+def test_a_function_must_take_a_case(function: Any) -> None:
+    """The error was Python's, about positional arguments."""
+    with pytest.raises(dm.ParameterError, match="must take a case first"):
+        sweep(function, P, Omega=[10.0, 12.0])
+
+
 @pytest.mark.parametrize("as_index", [False, True])
 def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path) -> None:
     """A column of names was refused, as it is no number of the case."""

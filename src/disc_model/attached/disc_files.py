@@ -40,6 +40,7 @@ def from_csv(
     Returns
     -------
     Disc
+        `report` says how each column was understood, and within which values it lies.
 
     Examples
     --------

@@ -62,7 +62,7 @@ class DiscReport(Summarised):
     source : name of the file
     modes : a `ModeOrigin` for each mode of the disc, in its order
     left_out : number of datasets or modes that were not used, by the reason
-    notes : how the file was understood: axis, centre, circle of nodes, units
+    notes : how the file was understood: axis, centre, circle of nodes, units; of a table each column
     doubts : what a reader should check; each was also given as a warning
 
     Examples
@@ -76,6 +76,10 @@ class DiscReport(Summarised):
     split.csv: 1 mode
      diameters  lower (Hz)  upper (Hz)  split (%)  shapes
          2        1209        1215    0.49505       2
+    read: 'diameters' as nodal diameters, 2
+    read: 'f (Hz)' as frequency, 1212 Hz
+    read: 'amplitude (kg^-1/2)' as amplitude, 0.545 kg^-1/2
+    read: no damping
     """
 
     source: str
@@ -89,6 +93,12 @@ class DiscReport(Summarised):
         """Relative difference of the two frequencies of each mode of the disc, 0 where only one was
         found."""
         return tuple(mode.split for mode in self.modes)
+
+    @property
+    def has_shapes(self) -> bool:
+        """Whether the file says more of its modes than a disc keeps: both halves of pairs, or
+        shapes along the circle."""
+        return any(mode.shapes > 1 or not math.isnan(mode.followed) for mode in self.modes)
 
     @property
     def table(self) -> pd.DataFrame:
@@ -119,6 +129,7 @@ class DiscReport(Summarised):
     def __str__(self) -> str:
         head, *lines = self.summary()
         texts = [head[1]]
-        texts += self.table.to_string(index=False, float_format="{:.5g}".format).splitlines()
+        if self.has_shapes:
+            texts += self.table.to_string(index=False, float_format="{:.5g}".format).splitlines()
         texts += [f"{name}: {text}" for name, text in lines]
         return "\n".join(text.rstrip() for text in texts)

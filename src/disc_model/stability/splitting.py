@@ -150,10 +150,10 @@ def _splits(p: Parameters, split: Any, modes: Modes) -> list[float]:
     count = len(modes.omega)
     if split is None:
         rule = "must be given: the disc does not come from a file with both halves of pairs"
-        known = p.disc is not None and p.disc.report is not None
-        require((known, "split", split, rule))
-        if p.disc is not None and p.disc.report is not None:
-            split = p.disc.report.split
+        report = p.disc.report if p.disc is not None else None
+        require((report is not None and report.has_shapes, "split", split, rule))
+        if report is not None:
+            split = report.split
     numbers = split
     if is_number(split):
         numbers = [split] * count

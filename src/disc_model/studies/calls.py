@@ -24,6 +24,12 @@ RETURNED = (
     "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
     "xarray.Dataset"
 )
+BY_PLACE = (
+    inspect.Parameter.POSITIONAL_ONLY,
+    inspect.Parameter.POSITIONAL_OR_KEYWORD,
+    inspect.Parameter.VAR_POSITIONAL,
+)
+"""Kinds of arguments that can be given without a name."""
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 
@@ -116,6 +122,8 @@ def checked_call(
 
     # what is named is a number of the case, or an argument of the function
     parameters = inspect.signature(function).parameters
+    takes_case = any(each.kind in BY_PLACE for each in parameters.values())
+    faults += violations((takes_case, "function", function, "must take a case first"))
     faults += _faults_of_unnamed(unnamed, [*parameters][1:])
     raise_faults(faults)
     names = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
@@ -261,6 +269,9 @@ def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any
     raw = list(values) if several else [values]
     if not raw:
         faults.append(Fault.of((*within, name), values, "must have one value or more"))
+    if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
+        faults.append(Fault.of((*within, name), values, "must be values in one dimension"))
+        return raw
     model: type[Strict] = SomeParameters
     if name not in Parameters.model_fields:  # a ratio, or a number of a disc's mode
         number: dict[str, Any] = {name: Finite}

@@ -1,12 +1,14 @@
 """Distributions of uncertain parameters, and samples of them from one scrambled Sobol' sequence."""
 
+from collections.abc import Mapping
 from functools import lru_cache
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
-from pydantic import Field
+from pydantic import BeforeValidator, Field
 
 from disc_model.arrays import Array
+from disc_model.errors import Fault, ParameterError
 from disc_model.studies.quantity import Ruled, Rules
 from disc_model.units import Finite, Positive
 
@@ -44,7 +46,24 @@ class TruncatedNormal(Uniform):
     )
 
 
-Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distribution")]
+DISTRIBUTIONS = ("uniform", "truncated_normal")
+
+
+def _with_its_name(raw: Any) -> Any:
+    """A distribution as it is given; raises `ParameterError` unless it says which one it is."""
+    if not isinstance(raw, Mapping) or raw.get("distribution") in DISTRIBUTIONS:
+        return raw
+    known = " or ".join(DISTRIBUTIONS)
+    if "distribution" in raw:
+        fault = Fault.of(("distribution",), raw["distribution"], f"must be {known}")
+    else:
+        fault = Fault(("distribution",), "", f"is required: {known}")
+    raise ParameterError(fault)
+
+
+Distribution = Annotated[
+    Uniform | TruncatedNormal, Field(discriminator="distribution"), BeforeValidator(_with_its_name)
+]
 
 
 # ---- Samples

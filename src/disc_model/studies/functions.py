@@ -194,7 +194,8 @@ def critical_speed(  # noqa: PLR0913
     xarray.Dataset
         `critical_speed` (rad/s, nan if there is none) and crossings by horizon; outcomes and first separations along
         the scan. Contact was lost at the critical speed, and kept at the next lower one computed, which is lower by
-        `precision`. The attribute `options` states precision, scan and horizons.
+        `precision`. The attribute `options` states precision, scan and horizons, and `message` which horizons have
+        no critical speed.
 
     Raises
     ------
@@ -217,7 +218,23 @@ def critical_speed(  # noqa: PLR0913
         "extrapolate": extrapolate,
         "tol": tol,
     }
-    return _quantity("critical_speed", case, options, progress=progress)
+    found = _quantity("critical_speed", case, options, progress=progress)
+    return _with_reason(found)
+
+
+def _with_reason(speeds: xr.Dataset) -> xr.Dataset:
+    """Results of a scan whose message says which horizons have no critical speed, unless it says
+    what went wrong."""
+    kept = speeds["horizon"].values[np.isnan(speeds["critical_speed"].values)]
+    if not kept.size or speeds.attrs["message"]:
+        return speeds
+    scan = speeds["scan_Omega"].values
+    horizons = ", ".join(f"{horizon:g}" for horizon in kept)
+    message = (
+        f"no separation within {horizons} s at {scan.size} speeds from {scan[0]:g} to"
+        f" {scan[-1]:g} rad/s"
+    )
+    return speeds.assign_attrs(message=message)
 
 
 def basins(  # noqa: PLR0913

@@ -12,7 +12,8 @@ from disc_model.errors import Fault, ParameterError, as_text
 ROUNDS = 10  # greatest number of times that the rest is checked
 MEANT = re.compile(r"did you mean ([^?]+)\?")
 ANY = 1.0  # value of a required number
-REQUIRED = "is required"  # what a value that was left out leaves behind
+REQUIRED = "is required"  # what a value that was left out leaves behind,
+EMPTY = "must not be empty"  # and what the only one does
 
 
 def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], object]) -> list[str]:
@@ -127,9 +128,15 @@ def _entry(part: Any, step: str) -> Any:
 
 def _is_further(fault: Fault, left_out: Mapping[str, Sequence[str]]) -> bool:
     """Whether a fault of the rest is one of the content, and not only of what was left out: figures
-    may show an axis that was."""
+    may show an axis that was, and a part may have nothing else."""
     without_axis = any(path[0] in ("axes", "zip") for path in left_out.values())
     if without_axis and fault.path[:1] == ("figures",):
+        return False
+    emptied = [path[:-1] for path in left_out.values()]
+    if fault.rule == EMPTY and fault.path in emptied:
+        return False
+    without_cases = ("cases",) in left_out.values()
+    if without_cases and fault.path[:1] == ("figures",) and fault.path[-1:] == ("case",):
         return False
     said = fault.partition(" (known:")[0]
     names = {*re.findall(r"\w+", said)}

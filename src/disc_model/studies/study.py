@@ -5,6 +5,7 @@ right.
 """
 
 import json
+import re
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, reduce
@@ -22,7 +23,7 @@ from pydantic import (
     create_model,
 )
 
-from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, values_text
+from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, attributes, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
@@ -90,11 +91,26 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
     return AfterValidator(must(lambda name: name not in taken, rule))
 
 
+def _no_variable(name: str) -> str:
+    """The name of a case, which is not that of a parameter or of another variable."""
+    if name in Parameters.model_fields:
+        meaning, *_ = re.split("[,:;]", attributes(name)["long_name"])
+        rule = f"must not be the name of a parameter ({meaning}); case_{name} would do"
+        raise ValueError(rule)
+    if name in TAKEN:
+        rule = f"must not be the name of a variable of results; case_{name} would do"
+        raise ValueError(rule)
+    return name
+
+
 _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
 Name = Annotated[str, _LETTERS]
-CaseName = Annotated[Name, _but(TAKEN, "must not be the name of a variable")]
+CaseName = Annotated[Name, AfterValidator(_no_variable)]
 WindowName = Annotated[
-    Name, _but(TAKEN | BESIDE_WINDOWS, "must not be the name of a variable or group")
+    Name,
+    _but(
+        TAKEN | BESIDE_WINDOWS, "must not be the name of a parameter, variable or group of results"
+    ),
 ]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
@@ -34,6 +34,20 @@ WRITTEN = (
 LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
 """Heads of a first column that only labels modes, in lower case with "_" between words."""
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
+READ_AS = {
+    "diameters": ("nodal diameters", 1.0, ""),
+    "circles": ("nodal circles", 1.0, ""),
+    "omega": ("frequency", 1 / math.tau, " Hz"),
+    "amplitude": ("amplitude", 1.0, " kg^-1/2"),
+    "tangential": ("tangential amplitude", 1.0, " kg^-1/2"),
+    "damping_ratio": ("damping ratio", 1.0, ""),
+}
+"""Words for fields of a `Disc`, factors from their SI units to those of a report, and these."""
+FIELDS_OF_POLES = {
+    "pole": ("omega", "damping_ratio"),
+    "pole_real": ("damping_ratio",),
+    "pole_imag": ("omega",),
+}
 
 
 class Column(NamedTuple):
@@ -90,16 +104,48 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     columns = _columns(rows_of([line for line in lines if not line.lstrip().startswith("#")]))
     values = _values(columns)
     values["static_compliance"] = static
-    report = None
+    origins: list[ModeOrigin] = []
     if pairs == "mean" and _all_numbers(values):
         values, origins = _mean_of_pairs(values)
-        report = DiscReport(source, tuple(origins))
     try:
         disc = Disc(**values)
     except ParameterError as error:
         raise ParameterError(*(_of_table(fault, columns) for fault in error.faults)) from None
     check_compliance(disc)
-    return disc if report is None else disc.with_report(report)
+    if not origins:
+        origins = [
+            ModeOrigin(l, omega, omega, 1)
+            for l, omega in zip(disc.diameters, disc.omega, strict=True)
+        ]
+    notes = tuple(_notes(columns, disc))
+    return disc.with_report(DiscReport(source, tuple(origins), notes=notes))
+
+
+# ---- Report
+
+
+def _notes(columns: list[Column], disc: Disc) -> Iterator[str]:
+    """Yield how each column of a table was understood: as what, and from which value to which."""
+    for column in columns:
+        head = column.head
+        if head.quantity == "shape":
+            yield f"{head.text!r} as shape at {head.radius:g} m"
+            continue
+        for field in FIELDS_OF_POLES.get(head.quantity, (head.quantity,)):
+            yield f"{head.text!r} as {_range(disc, field)}"
+    if not any(disc.damping_ratio):
+        yield "no damping"
+
+
+def _range(disc: Disc, field: str) -> str:
+    """What a field of a disc is, with its least and greatest value."""
+    name, factor, unit = READ_AS[field]
+    values = getattr(disc, field)
+    low = f"{factor * min(values):.5g}"
+    high = f"{factor * max(values):.5g}"
+    if low == high:
+        return f"{name}, {low}{unit}"
+    return f"{name}, {low} to {high}{unit}"
 
 
 # ---- Columns
