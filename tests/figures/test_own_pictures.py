@@ -283,15 +283,36 @@ def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
 
 
 def test_branches_on_the_same_axes_share_a_legend() -> None:
-    """It was that of the last one, without the marks of the others."""
+    """All were black, with "fold at 15.095" and "2 folds" beside each other."""
     bounds = (14.8, 15.2)
     folded = dm.continue_cycle(QUIET, "Omega", bounds)
     ax = branch().plot("period")
-    other = {"fold at 15.095": "limit"}
-    folded.plot("period", ax=ax, labels=other)
+    folded.plot("period", ax=ax, labels={"branch": "quiet"})
     orthonormal_branch().plot("period", ax=ax)
-    assert labels(ax) == ["stable", "unstable", "limit", "2 folds", "4 Neimark-Sacker bifurcations"]
-    assert not ax.figure.legends
+    (legend,) = ax.figure.legends
+    words = [text.get_text() for text in legend.get_texts()]
+    kinds = ["stable", "unstable", "fold", "Neimark-Sacker bifurcation"]
+    assert words[1] == "quiet"
+    assert words[3:] == kinds
+    colours = [line.get_color() for line in legend.get_lines()[:3]]
+    assert len({*colours}) == 3
+    drawn = {line.get_color() for line in ax.lines if line.get_linestyle() == "-"}
+    assert {*colours} <= drawn
+
+
+def test_a_title_says_what_all_branches_have_in_common() -> None:
+    """It was that of the first one."""
+    cases = [QUIET.replace(N=N, m=0.11) for N in (380, 385)]
+    first, second = [dm.continue_cycle(case, "Omega", (14.8, 15.2)) for case in cases]
+    ax = first.plot("period")
+    assert "380" in ax.figure.get_suptitle()
+    widths = [line.get_linewidth() for line in ax.lines]
+    second.plot("period", ax=ax)
+    assert "380" not in ax.figure.get_suptitle()
+    assert "110" in ax.figure.get_suptitle()
+    words = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert words[:2] == ["N = 380 N", "N = 385 N"]
+    assert {line.get_linewidth() for line in ax.lines} == {*widths}
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:

@@ -2,8 +2,8 @@
 what the reader asks of its legend, labels and title."""
 
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from inspect import signature
 from typing import Any, Literal
@@ -20,6 +20,7 @@ from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
 
 Place = Literal["inside", "below"]
+OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
 MOST_LINES = 3  # of values of a case above a picture
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
@@ -75,6 +76,7 @@ class Page:
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
     joins : whether the entries of a legend that the axes have are kept
+    replaced : words of such entries that are not
     bars : axes of bars of colours
     is_map : whether a new figure grows so that its panels keep their height beside the legend
     """
@@ -86,6 +88,7 @@ class Page:
     heading: str = ""
     note: str = ""
     joins: bool = False
+    replaced: Collection[str] = ()
     bars: Sequence[Axes] = field(default_factory=list)
     is_map: bool = False
 
@@ -126,25 +129,15 @@ def page_for(
         page = Page(_given(wishes.ax, rows * columns), own=False)
         figure: Any = page.ax.get_figure(root=True)
         before = set(figure.axes)
-        yield page
-        _restate(page, wishes)
-        page.bars = [ax for ax in figure.axes if ax not in before]
-        shown = [*page.axes, *page.bars]
-        unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
-        _write_legend(page, wishes)
-        for ax in shown:  # which may be lower or narrower now
-            for label in (ax.xaxis.label, ax.yaxis.label):
-                label.set_text(unbroken.get(label, ""))
-        break_labels(figure, shown)
-        if page.beside == "below":  # also below labels that have more lines now
-            _write_legend(page, wishes)
-        for ax in page.axes:
-            part_numbers(ax)
-        if page.bars:
-            _check_room(page)
+        # what is added to a figure of this package has its style
+        style = readers_style() if figure.get_gid() == OWN else nullcontext()
+        with style:
+            yield page
+            _finish(page, wishes, before)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
+        figure.set_gid(OWN)
         page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
         try:
             yield page
@@ -161,6 +154,27 @@ def page_for(
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise
+
+
+def _finish(page: Page, wishes: Wishes, before: Collection[Axes]) -> None:
+    """Write labels, title and legend on a reader's axes; `before` are the axes of the figure before
+    it was drawn."""
+    figure: Any = page.ax.get_figure(root=True)
+    _restate(page, wishes)
+    page.bars = [ax for ax in figure.axes if ax not in before]
+    shown = [*page.axes, *page.bars]
+    unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
+    _write_legend(page, wishes)
+    for ax in shown:  # which may be lower or narrower now
+        for label in (ax.xaxis.label, ax.yaxis.label):
+            label.set_text(unbroken.get(label, ""))
+    break_labels(figure, shown)
+    if page.beside == "below":  # also below labels that have more lines now
+        _write_legend(page, wishes)
+    for ax in page.axes:
+        part_numbers(ax)
+    if page.bars:
+        _check_room(page)
 
 
 def _given(ax: Any, count: int) -> list[Axes]:
@@ -219,9 +233,9 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
         handle.set_label(labels.get(usual, usual))
 
 
-def _joined(ax: Axes, handles: Sequence[Artist]) -> list[Artist]:
-    """The entries of the legend that axes have, or that their figure has of them alone, and those
-    of some others whose words are not among these; the legend is removed."""
+def _joined(ax: Axes, handles: Sequence[Artist], replaced: Collection[str]) -> list[Artist]:
+    """The entries of the legend that axes have, or that their figure has of them alone, but some
+    that are replaced, and others whose words are not among these; the legend is removed."""
     figure: Any = ax.get_figure()
     former: list[Any] = []
     own = ax.get_legend()
@@ -232,6 +246,8 @@ def _joined(ax: Axes, handles: Sequence[Artist]) -> list[Artist]:
     entries: dict[str, Artist] = {}
     for legend in former:
         for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
+            if text.get_text() in replaced:
+                continue
             handle.set_label(text.get_text())
             entries.setdefault(text.get_text(), handle)
         legend.remove()
@@ -247,13 +263,13 @@ def _write_legend(page: Page, wishes: Wishes) -> None:
     if not page.handles or legend is False:
         return
     if page.joins and not page.own:
-        page.handles = _joined(page.ax, page.handles)
+        page.handles = _joined(page.ax, page.handles, page.replaced)
     if isinstance(legend, Mapping):
         try:
             page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
         except (TypeError, ValueError) as error:
             raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
-    elif page.own:
+    elif page.figure.get_gid() == OWN:
         figure_legend(page.figure, page.handles, title=page.heading)
     elif page.beside == "below":
         legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)

@@ -33,12 +33,18 @@ def parameters_of(case: xr.DataTree) -> Parameters:
     return Parameters.model_validate_json(case.attrs["parameters"])
 
 
+def stated_values(p: Parameters, *varied: str) -> dict[str, Any]:
+    """What titles say of a case, by name, but what varies."""
+    # what varies has the value of a number, so that the ratio of another is kept
+    values = p.replace(**{name: p.numbers[name] for name in varied}).stated
+    return {name: value for name, value in values.items() if name not in varied}
+
+
 def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     """The values of a case, such as that of a run, but those of what varies."""
     p = parameters_of(case) if isinstance(case, xr.DataTree) else case
-    # what varies has the value of a number, so that the ratio of another is kept
-    values = p.replace(**{name: p.numbers[name] for name in varied}).stated
-    said = what_case({name: value for name, value in values.items() if name not in varied})
+    values = stated_values(p, *varied)
+    said = what_case(values)
     ramps = []
     if isinstance(case, xr.DataTree):
         ramps = json.loads(case.attrs.get("ramps", "[]"))

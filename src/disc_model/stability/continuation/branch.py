@@ -388,7 +388,8 @@ class Branch:
         Stability changes at special points, which are located to rounding; in the bends of a very
         stiff contact it may do so between two points, and the line is thin there. A branch in two
         parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
-        as in `Result.plot`; the legend of axes with several branches has the entries of all.
+        as in `Result.plot`. Several branches on the same axes have a colour each, and are named in
+        the legend by what differs between their cases, or as `labels={"branch": "upper sheet"}` says.
         Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
         understood.
 
