@@ -45,6 +45,11 @@ MARGIN = 0.01
 SINGULAR = 1e-7
 """Least ratio of singular values of the Jacobian; below it, differences no longer tell parameters
 apart."""
+PARABOLA = (0.3, 3.0)
+"""Increase of chi squared over a standard deviation of the least known combination of parameters,
+which is 1 where predictions are linear; beyond these, intervals would mislead."""
+WEAK = 0.3
+"""Part of a parameter in that combination from which it belongs to it, of 1 in all."""
 
 
 @dataclass(frozen=True)
@@ -147,6 +152,8 @@ class Fit(Summarised, Drawn):
     deviations : computed minus measured values, in standard deviations, (m,)
     chi_squared : sum of the squared deviations
     converged, message : whether and why the search ended at a minimum
+    indistinct : names of parameters that the measurements do not determine, or not apart from each other: a standard
+        deviation away chi squared does not rise as linear predictions would have it, so that intervals mean nothing
     doubt : why values and intervals mean nothing, such as a search that has not converged; "" where all is well
 
     Examples
@@ -171,6 +178,7 @@ class Fit(Summarised, Drawn):
     chi_squared: float
     converged: bool
     message: str
+    indistinct: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -202,6 +210,13 @@ class Fit(Summarised, Drawn):
         """Why values and intervals mean nothing; "" where the fit is consistent."""
         if not self.converged:
             return "the search has not converged"
+        if self.indistinct:
+            names = " and ".join(self.indistinct)
+            remedy = (
+                "fix one of them, or measure more" if len(self.indistinct) > 1 else "measure more"
+            )
+            apart = " apart" if len(self.indistinct) > 1 else ""
+            return f"the measurements do not determine {names}{apart}: {remedy}"
         if not self.consistent:
             return "model or uncertainties are wrong"
         return ""
@@ -433,7 +448,7 @@ def fit(
             ftol=TOLERANCE,
             gtol=TOLERANCE,
         )
-    return _result(problem, search, confidence)
+    return _result(problem, search, confidence, deviations)
 
 
 def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> Array:
@@ -448,9 +463,11 @@ def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> 
     return moved
 
 
-def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
-    """Return the fit at the end of a search. Raises `ParameterError` if the Jacobian is
-    singular."""
+def _result(
+    problem: _Problem, search: Any, confidence: float, deviations: Callable[[Array], Array]
+) -> Fit:
+    """Return the fit at the end of a search, whose `deviations` are over the scaled parameters.
+    Raises `ParameterError` if the Jacobian is singular."""
     from scipy import stats
 
     names = problem.names
@@ -460,6 +477,10 @@ def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
         weak = [name for name, part in zip(names, directions[-1], strict=True) if abs(part) > 0.1]
         rule = "cannot be determined by these measurements: fewer parameters, or others"
         raise ParameterError(Fault.of(("vary",), weak, rule))
+    indistinct: tuple[str, ...] = ()
+    if not _is_parabola(search, directions[-1] / sizes[-1], deviations):
+        parts = np.abs(directions[-1])
+        indistinct = tuple(name for name, part in zip(names, parts, strict=True) if part > WEAK)
     inverse = directions.T / sizes
     covariance = inverse @ inverse.T * np.outer(scale, scale)
 
@@ -487,7 +508,24 @@ def _result(problem: _Problem, search: Any, confidence: float) -> Fit:
         chi_squared=float(search.fun @ search.fun),
         converged=bool(search.success),
         message=str(search.message).strip("`. ").replace("`", "") + ".",
+        indistinct=indistinct,
     )
+
+
+def _is_parabola(search: Any, step: Array, deviations: Callable[[Array], Array]) -> bool:
+    """Whether chi squared rises by about 1 over a standard deviation of the least known combination
+    of parameters on both sides of a minimum; at a limit of a parameter that is not asked."""
+    if np.any(search.active_mask):
+        return True
+    least = float(search.fun @ search.fun)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", ImplausibleValue)
+        for side in (1, -1):
+            moved = deviations(search.x + side * step)
+            rise = float(moved @ moved) - least
+            if not PARABOLA[0] <= rise <= PARABOLA[1]:
+                return False
+    return True
 
 
 # ---- Checks of the arguments
