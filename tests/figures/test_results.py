@@ -1,6 +1,7 @@
 """What results draw of themselves."""
 
 import functools
+import math
 from itertools import combinations
 from pathlib import Path
 from typing import Any
@@ -296,3 +297,35 @@ def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
         dm.steady_sliding(P.replace(Omega=0)).plot()
     with pytest.raises(dm.DiscModelError, match=r"no cycle of .* by disc_model\.continue_cycle\."):
         dm.floquet(P).plot()
+
+
+@pytest.mark.parametrize(
+    ("last", "named", "label"),
+    [
+        (0.1, {"140 Hz"}, "Frequency (Hz), resolution 10 Hz"),
+        (8, {"2.4 Hz", "137.8 Hz"}, "Frequency (Hz)"),
+    ],
+)
+def test_frequencies_of_peaks_have_the_digits_of_the_window(
+    last: float, named: set[str], label: str
+) -> None:
+    """Of lines at 2.4 and 137.8 Hz, 0.1 s gave "11.4 Hz" and "135.5 Hz"."""
+    time = np.arange(round(last * 4000) + 1) / 4000
+    signal = 1e-3 * np.sin(math.tau * 2.4 * time) + 1e-3 * np.sin(math.tau * 137.8 * time)
+    samples = xr.Dataset({"w_point": ("time", signal)}, {"time": time})
+    figure, ax = pyplot.subplots()
+    draw_spectrum(ax, samples, "w_point", 400)
+    figure.draw_without_rendering()
+    assert {text.get_text() for text in ax.texts if text.get_visible()} == named
+    assert ax.get_xlabel() == label
+    pyplot.close(figure)
+
+
+def test_a_spectrum_of_a_run_without_windows_says_how_to_record_one() -> None:
+    """A window "late" was blamed, which nobody had named."""
+    with pytest.raises(
+        dm.ParameterError, match=r"window: none is named.*record a window"
+    ) as caught:
+        dm.simulate(P, 0.01).plot_spectrum()
+    assert "late'=" not in str(caught.value)
+    assert pyplot.get_fignums() == []

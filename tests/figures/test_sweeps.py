@@ -607,3 +607,24 @@ def test_a_bar_keeps_its_numbers_in_other_colours() -> None:
     assert [text.get_text() for text in other.get_yticklabels()] == texts
     assert "0" in texts
     pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("name", "label"), [("f_ss", "f_ss"), ("x", "x"), ("sl", "sl"), ("cycle_rate", "Cycle rate")]
+)
+def test_names_of_own_quantities_stay_unless_they_are_words(name: str, label: str) -> None:
+    found = dm.sweep(lambda case: {name: case.Omega}, CASE, Omega=SPEEDS)
+    assert dm.plot_sweep(found).get_ylabel() == label
+    pyplot.close("all")
+
+
+def test_points_without_a_cycle_are_not_unstable_ones() -> None:
+    """They were drawn as "no", as if a cycle were unstable."""
+    stable = dm.sweep(dm.floquet, CASE, Omega=[10, 12], N=[300, 385])
+    assert stable["status"].sel(Omega=12, N=300) == "no_cycle"
+    ax = dm.plot_sweep(stable, "stable")
+    [legend] = ax.figure.legends
+    assert "no cycle found" in [text.get_text() for text in legend.get_texts()]
+    line = dm.plot_sweep(stable.sel(N=300), "stable")
+    assert [text.get_text() for text in line.texts] == ["no cycle found"]
+    pyplot.close("all")

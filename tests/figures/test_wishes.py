@@ -11,7 +11,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
-from disc_model.figures.canvas import Page, _check_room
+from disc_model.figures.placing import check_room
 from disc_model.figures.sizes import COLUMN, PAGE
 from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
 
@@ -289,17 +289,56 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     pyplot.close("all")
 
 
-def page_of_a_panel(millimetres: float) -> Page:
+def page_of_a_panel(millimetres: float) -> list[Axes]:
     """A panel of a width, with room around it."""
     figure = pyplot.figure(figsize=(4, 4))
     width = millimetres / 25.4 / 4
     ax = figure.add_axes((0.3, 0.3, width, 0.5))
-    return Page([ax], own=False)
+    return [ax]
 
 
 def test_a_panel_beside_a_bar_has_eight_millimetres_at_least() -> None:
     wide = page_of_a_panel(9.0)
-    _check_room(wide)
+    check_room(wide)
     narrow = page_of_a_panel(7.0)
     with pytest.raises(dm.ParameterError, match="ax='7 mm for the panel': must have room"):
-        _check_room(narrow)
+        check_room(narrow)
+
+
+@pytest.mark.parametrize("tight", [False, True])
+@pytest.mark.parametrize("name", ["map", "words", "line"])
+@pytest.mark.parametrize("placed", [False, True])
+def test_pictures_on_plain_axes_stay_on_the_page(name: str, tight: bool, placed: bool) -> None:
+    """The legend of a map lay below the page, and `tight_layout` drew its bar over it."""
+    figure = pyplot.figure()
+    if placed:
+        ax = figure.add_axes((0.15, 0.15, 0.7, 0.7))
+    else:
+        ax = figure.add_subplot()
+    DRAWN[name](ax=ax)
+    if tight and not placed:
+        figure.tight_layout()
+    figure.draw_without_rendering()
+    boxes = [each.get_tightbbox() for each in figure.axes]
+    if ax.get_legend() is not None:
+        boxes.append(ax.get_legend().get_window_extent())
+    for box in boxes:
+        # a pixel, to which texts are rounded
+        assert min(box.x0, box.y0) >= -1
+        assert box.x1 <= figure.bbox.width + 1
+        assert box.y1 <= figure.bbox.height + 1
+    for bar in figure.axes[1:]:
+        assert bar.bbox.x0 > ax.bbox.x1
+    assert ax.bbox.height > 0.5 * figure.bbox.height
+    pyplot.close(figure)
+
+
+def test_a_legend_of_a_map_stands_above_the_next_row_of_plain_axes() -> None:
+    figure, axes = pyplot.subplots(2, 1, figsize=(5, 6))
+    for ax in axes:
+        DRAWN["map"](ax=ax)
+    figure.draw_without_rendering()
+    above, below = (ax.get_legend().get_window_extent() for ax in axes)
+    assert above.y0 > axes[1].bbox.y1
+    assert below.y0 >= 0
+    pyplot.close(figure)

@@ -453,6 +453,24 @@ def test_an_error_of_another_kind_names_the_point(workers: int) -> None:
     assert caught.value.__notes__ == ["at the point Omega=12.0, mu_k=0.4 of the sweep"]
 
 
+@pytest.mark.parametrize("workers", [1, 2])
+def test_errors_of_any_kind_can_be_recorded(workers: int) -> None:
+    """A ValueError at the last point lost the results of all."""
+
+    def found(case: dm.Parameters) -> float:
+        if case.Omega == 12:
+            raise ValueError("no root")
+        return case.Omega
+
+    case = dm.Parameters(N=385, Omega=15)
+    kept = sweep(found, case, Omega=[10, 12, 14], workers=workers, errors="record")
+    assert kept["status"].values.tolist() == ["ok", "failed", "ok"]
+    assert kept["message"].values[1] == "ValueError: no root"
+    assert kept["value"].values[[0, 2]].tolist() == [10, 14]
+    with pytest.raises(dm.ParameterError, match="errors='keep': must be one of raise, record"):
+        sweep(found, case, Omega=[10], errors="keep")
+
+
 def test_an_error_leaves_out_the_calls_that_have_not_begun() -> None:
     called = []
 

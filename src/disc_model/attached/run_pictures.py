@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from disc_model.attached.drawing import drawings
+from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -19,6 +20,12 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from disc_model.simulation.result import Result
+
+UNNAMED = (
+    "none is named, and the end of the run {}; simulate longer, or record a window, as by"
+    " simulate(case, 20, windows={{'late': Window(last=8, rate=8000)}})"
+)
+"""What is said of the stretch that is drawn if no window is named."""
 
 
 def plot(
@@ -120,7 +127,9 @@ def plot_spectrum(
 
     Without a named window it is that of the last 8 s, or of the second half of a shorter run,
     with 16 samples in a period of the highest mode. What vibrates faster than half a window's
-    rate appears at wrong frequencies. `ax`, `legend`, `labels` and `title` are as in `plot`.
+    rate appears at wrong frequencies. The resolution is 1 over the length of the window: frequencies
+    beside peaks have no more digits, and peaks below 4 times it have none, since the window cannot
+    tell them from a drift. `ax`, `legend`, `labels` and `title` are as in `plot`.
     Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too
     short or nothing vibrates in it.
 
@@ -134,9 +143,15 @@ def plot_spectrum(
 
     pictures = drawings()
     case, name = shown_window(self, window, "late")
-    return pictures.plot_spectrum(
-        case, name, variable, highest, ax=ax, legend=legend, labels=labels, title=title
-    )
+    try:
+        return pictures.plot_spectrum(
+            case, name, variable, highest, ax=ax, legend=legend, labels=labels, title=title
+        )
+    except ParameterError as error:
+        for fault in error.faults:
+            if window is None and fault.path == ("window",):
+                raise ParameterError(Fault(fault.path, "", UNNAMED.format(fault.rule))) from None
+        raise
 
 
 def plot_poincare(

@@ -1,7 +1,6 @@
 """The page of a picture that a result draws of itself: a figure of its own, or a reader's axes, and
 what the reader asks of its legend, labels and title."""
 
-import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
@@ -16,6 +15,7 @@ from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels, part_numbers
 from disc_model.figures.legends import figure_legend, keep_height, legend_below, legend_inside
+from disc_model.figures.placing import check_room, fit_to_page
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
 
@@ -23,7 +23,6 @@ Place = Literal["inside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
 MOST_LINES = 3  # of values of a case above a picture
-LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
 
@@ -173,8 +172,11 @@ def _finish(page: Page, wishes: Wishes, before: Collection[Axes]) -> None:
         _write_legend(page, wishes)
     for ax in page.axes:
         part_numbers(ax)
+    if figure.get_layout_engine() is None:
+        for ax in page.axes:
+            fit_to_page(ax, page.bars)
     if page.bars:
-        _check_room(page)
+        check_room(page.axes)
 
 
 def _given(ax: Any, count: int) -> list[Axes]:
@@ -183,23 +185,6 @@ def _given(ax: Any, count: int) -> list[Axes]:
     fit = len(given) == count and all(isinstance(each, Axes) for each in given)
     require((fit, "ax", given, f"must be {count} axes of matplotlib, one for each panel"))
     return given
-
-
-def _check_room(page: Page) -> None:
-    """Raise `ParameterError` if a bar and a legend leave no room for the panels of a reader's axes."""
-    figure: Any = page.ax.get_figure(root=True)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        figure.draw_without_rendering()  # sets the sizes
-    collapsed = any("collapsed to zero" in str(each.message) for each in caught)
-    sides = [side for ax in page.axes for side in (ax.bbox.width, ax.bbox.height)]
-    left = 25.4 * min(sides) / figure.dpi
-    rule = "must have room beside a colour bar and a legend: larger axes, or legend=False"
-    said = f"{left:.0f} mm for the panel"
-    if collapsed:
-        said = "nothing for the panel"
-    enough = not collapsed and left >= LEAST_PANEL
-    require((enough, "ax", said, rule))
 
 
 def _restate(page: Page, wishes: Wishes) -> None:

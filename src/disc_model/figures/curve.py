@@ -146,7 +146,7 @@ def draw_lines(
     """
     if marks is None:
         marks = {}
-    names, array = as_numbers(as_classes(study[variable]))
+    names, array = as_numbers(as_classes(study, variable))
     array = array.copy(data=measured(array).values)
     by = remaining(array, [x])
     label, along = _along(array[x])
@@ -266,7 +266,7 @@ def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
 
 def _lines_of(study: xr.Dataset, variable: str, x: str) -> list[Part[xr.DataArray]]:
     """The lines of a variable in a panel."""
-    array = as_classes(study[variable])
+    array = as_classes(study, variable)
     return parts_along(array, remaining(array, [x]))
 
 

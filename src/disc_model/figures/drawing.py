@@ -330,3 +330,11 @@ def letters(axes: Sequence[Axes] | np.ndarray, titles: Iterable[str] = (), **loo
 def set_label(ax: Axes, along: Literal["x", "y"], variable: xr.DataArray) -> None:
     """Label an axis by the variable that is drawn along it."""
     getattr(ax, f"set_{along}label")(measured(variable).label)
+
+
+def parents_of_bar(axes: Sequence[Axes]) -> Any:
+    """The axes that make room for a bar of colours. Alone, they share their cell with it, so that
+    `tight_layout` knows of both."""
+    if len(axes) == 1:
+        return axes[0]
+    return list(axes)

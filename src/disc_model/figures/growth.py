@@ -11,6 +11,7 @@ from matplotlib.colors import AsinhNorm, to_hex
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
+from disc_model.figures.drawing import parents_of_bar
 from disc_model.figures.selection import class_of_gap, has_values, statuses_like
 from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import label_of
@@ -77,7 +78,8 @@ def growth_panels(
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
     if not has_values(planes, name):
         return entries(used, MAP_LOOKS)
-    bar = figure.colorbar(mesh, ax=list(axes), extend="both", format="{x:g}", pad=0.01, aspect=30)
+    shared = parents_of_bar(axes)
+    bar = figure.colorbar(mesh, ax=shared, extend="both", format="{x:g}", pad=0.01, aspect=30)
     bar.set_label(label_of(planes[0][name])[0])
     largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
     bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])

@@ -20,11 +20,12 @@ from disc_model.figures.cells import (
 )
 from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
 from disc_model.figures.colours import colours_of, within_a_decade
-from disc_model.figures.drawing import COLUMN, letter, panels, set_label
+from disc_model.figures.drawing import COLUMN, letter, panels, parents_of_bar, set_label
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
+    WITHOUT_CYCLE,
     Part,
     at_lower_bound,
     classes_of_gaps,
@@ -34,12 +35,14 @@ from disc_model.figures.selection import (
     remaining,
     shown_words,
     statuses,
+    statuses_like,
     titles_of,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
 from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
 
 IN_A_ROW = 4  # panels on a page
+OF_CYCLES = "stable"  # False, and no answer, where there is no cycle
 
 
 def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -91,7 +94,7 @@ def draw_maps(
 ) -> Key:
     """Draw a variable of each plane, of dimensions (up, across), in colour on a panel; returns what
     a legend says, which names the variable if no bar does."""
-    arrays = [as_classes(plane[variable]) for plane in planes]
+    arrays = [as_classes(plane, variable) for plane in planes]
     first = arrays[0]
     if first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
         handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
@@ -117,14 +120,18 @@ def _all_positive(planes: Sequence[xr.Dataset], variable: str) -> bool:
     return all(not (plane[variable] <= 0).any() for plane in planes)
 
 
-def as_classes(array: xr.DataArray) -> xr.DataArray:
+def as_classes(study: xr.Dataset, variable: str) -> xr.DataArray:
     """The variable, with the words "no" and "yes" for False and True, and "" where there is
-    neither."""
+    neither, or no cycle that could be stable."""
+    array = study[variable]
     of_truth = array.attrs.get("comment") == TRUTH["comment"]
     if array.dtype.kind != "b" and not of_truth:
         return array
     words = np.where(array.values == 1, "yes", "no")
-    return array.copy(data=np.where(array.isnull(), "", words))
+    words = np.where(array.isnull(), "", words)
+    if variable == OF_CYCLES:
+        words = np.where(np.isin(statuses_like(study, array), WITHOUT_CYCLE), "", words)
+    return array.copy(data=words)
 
 
 def scale(coordinate: xr.DataArray) -> str:
@@ -180,7 +187,7 @@ def number_panels(
     looks = {**MARKED, NO_VALUE: unvalued, AT_BOUND.label: AT_BOUND}
     if not has_values(planes, variable):
         return entries(used, looks)
-    bar = figure.colorbar(mesh, ax=list(axes), pad=0.01, aspect=30, label=label)
+    bar = figure.colorbar(mesh, ax=parents_of_bar(axes), pad=0.01, aspect=30, label=label)
     if colours.places:
         bar.set_ticks(colours.places, labels=_numbers(colours.places))
         bar.minorticks_off()

@@ -50,7 +50,9 @@ def plot_sweep(  # noqa: PLR0913
         some values are negative or zero. Growth rates have such a scale in any case
     cmap : another colour map of matplotlib for a map of numbers; classes have the same colours in all pictures
     ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar".
-        Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set
+        Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set. In a figure
+        without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as by
+        ``figure.subplots_adjust``, until labels, bar and legend lie on the page
 
     Returns
     -------

@@ -1,5 +1,6 @@
 """Spectra: the amplitude of a variable over the frequency."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -24,7 +25,9 @@ HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for it
 MOST_NAMED = 5  # lines whose frequencies are written
 BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks,
 BELOW = ((3, -3), (-3, -3))  # and where there is no room, beside their lines
-ROUNDING = 1e-9  # relative, of half the rate of a window
+ROUNDING = 1e-9  # relative, of half the rate of a window; and of the decade of a resolution
+SAID_FROM = 1.0  # Hz, resolution from which the axis states it
+MOST_DECIMALS = 1  # of the frequency beside a peak
 
 
 def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
@@ -91,8 +94,15 @@ def draw_spectrum(
     # what is shown
     label, factor, colour = sampled(variable, samples)
     frequency, amplitude = amplitude_spectrum(time, values)
+    resolution = 1 / span_of(samples)
     if highest is None:
         highest = min(ROOM_BEYOND * highest_line(time, values, WEAKEST), float(frequency[-1]))
+        least_shown = RESOLVED * resolution
+        if highest < least_shown:
+            raise Missing(
+                f"lasts {span_of(samples):.3g} s, too short: lines show from {least_shown:.3g} Hz"
+                f" on, and what vibrates is below {highest:.3g} Hz"
+            )
     shown = (frequency > 0) & (frequency <= highest)
     frequency = frequency[shown]
     amplitude = factor * amplitude[shown]
@@ -103,27 +113,39 @@ def draw_spectrum(
     ax.semilogy(frequency, amplitude, color=colour, linewidth=wide(0.7))
     name, _, unit = label.rpartition(" (")
     ylabel = f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
-    ax.set_xlabel("Frequency (Hz)")
+    xlabel = "Frequency (Hz)"
+    if resolution >= SAID_FROM:
+        xlabel = f"{xlabel}, resolution {resolution:.2g} Hz"
+    ax.set_xlabel(xlabel)
     ax.set_ylabel(ylabel)
     ax.set_xlim((0, frequency[-1]))
     greatest = amplitude.max()
     lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)
     ax.set_ylim(lowest / 2, HEADROOM * greatest)
-    found = lines(time, values, below=highest)
-    name_lines(ax, [(line.frequency, factor * line.amplitude) for line in found])
+    found = lines(time, values, above=RESOLVED * resolution, below=highest)
+    peaks = [(line.frequency, factor * line.amplitude) for line in found]
+    name_lines(ax, peaks, resolution)
 
 
-def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]]) -> None:
+def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]], resolution: float = 0.1) -> None:
     """Write the frequencies, Hz, of the strongest lines beside their peaks, on the side away from
     the nearest other line if there is room; a name that would stand beyond another line is left
-    out."""
+    out. They have no more digits than the resolution, Hz, and a tenth at most."""
     names = Names(ax, MOST_NAMED, on_stems=True)
     every = [frequency for frequency, _ in peaks]
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
         sides = (*BESIDE, *BELOW)
         if _nearest(frequency, every) > frequency:
             sides = (*BESIDE[::-1], *BELOW[::-1])
-        names.add(f"{frequency:.1f} Hz", (frequency, height), sides, fontsize=large(7))
+        names.add(
+            frequency_text(frequency, resolution), (frequency, height), sides, fontsize=large(7)
+        )
+
+
+def frequency_text(frequency: float, resolution: float) -> str:
+    """A frequency in Hz, rounded to the place of the first digit of the resolution, or to a tenth."""
+    places = min(-math.floor(math.log10(resolution) + ROUNDING), MOST_DECIMALS)
+    return f"{round(frequency, places):.{max(places, 0)}f} Hz"
 
 
 def _nearest(frequency: float, every: Sequence[float]) -> float:

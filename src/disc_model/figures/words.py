@@ -69,6 +69,9 @@ SHORT = {
 WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
 """Variables that say what a motion does within the horizon that a study states."""
 NO_VALUE = "no_value"  # class of a point that was computed and has no value
+PLAIN_WORDS = re.compile(
+    "[a-z]{3,}(_[a-z]{3,})*"
+)  # names that are words, and no symbols such as f_ss
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -120,6 +123,8 @@ def named(variable: xr.DataArray) -> Named:
     # disturbances have one name in all figures
     words = _words_of(variable).replace("disturbances of ", "")
     phrase = words[0].upper() + words[1:]
+    if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
+        phrase = _name_of_own(str(variable.name))
     ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
@@ -128,6 +133,14 @@ def named(variable: xr.DataArray) -> Named:
     if IN_THOUSANDTHS.get(base) == f"m{units}":
         return Named(phrase, IN_THOUSANDTHS[base], 1e3)
     return Named(phrase, unit_text(units), 1.0)
+
+
+def _name_of_own(name: str) -> str:
+    """The name of a reader's own quantity: words begin with a capital, and all else, such as f_ss
+    or x, stays as it is."""
+    if PLAIN_WORDS.fullmatch(name):
+        return name.replace("_", " ").capitalize()
+    return name
 
 
 def _words_of(variable: xr.DataArray) -> str:

@@ -13,7 +13,15 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, suggestion, violations
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    as_text,
+    raise_faults,
+    require,
+    suggestion,
+    violations,
+)
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict
@@ -30,6 +38,8 @@ BY_PLACE = (
     inspect.Parameter.VAR_POSITIONAL,
 )
 """Kinds of arguments that can be given without a name."""
+ERRORS = ("raise", "record")
+"""What may become of an error that is neither of this package nor of arithmetic."""
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 
@@ -109,6 +119,13 @@ class Call:
                 raise ParameterError(Fault((self.title,), "", rule))
             del kept[name]
         return kept
+
+
+def are_recorded(errors: Any) -> bool:
+    """Whether a sweep goes on after any error; raises `ParameterError`."""
+    known = isinstance(errors, str) and errors in ERRORS
+    require((known, "errors", errors, f"must be one of {', '.join(ERRORS)}"))
+    return bool(errors == "record")
 
 
 def checked_call(

@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.studies.calls import Call, checked_call
+from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -31,6 +31,7 @@ def sweep(
     processes: bool = False,
     executor: Any = None,
     progress: bool = False,
+    errors: str = "raise",
     **named: Any,
 ) -> xr.Dataset:
     """Call a function for each combination of values of parameters, and gather the results.
@@ -50,16 +51,19 @@ def sweep(
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
         as an executor of mpi4py or a client of dask.distributed, or with `map`
     progress : whether a bar on standard error shows how many calls are done
+    errors : "raise" to end the sweep at an error of the function that is neither of this package nor of arithmetic, or
+        "record" to go on: the point has then failed, and `message` names the error
     **named : values of numbers of the case, each of which becomes a dimension; other names are passed to the function
 
     Returns
     -------
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
-        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic,
-        or returned nothing; `message` then says which. Numbers are nan there, words "", and a variable of True and
-        False, such as `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes state the
-        `function`, its other arguments (`options`, in JSON, defaults included) and the `parameters` of the case
+        "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
+        (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
+        words "", and a variable of True and False, such as `stable`, consists of 1, 0 and nan: select by
+        ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
+        included) and the `parameters` of the case
 
     Raises
     ------
@@ -67,7 +71,7 @@ def sweep(
         If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
         by itself; and if an argument of the function is missing, or refused at the first point, or the function
         returns nothing there. Where values of the case break a rule together, the point has failed. Any other error of
-        the function ends the sweep, with a note of what varies at the point.
+        the function ends the sweep, with a note of what varies at the point, unless `errors` is "record".
 
     Examples
     --------
@@ -84,7 +88,8 @@ def sweep(
     """
     call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
-    row = partial(_row, partial(function, **call.options), case, call)
+    records = are_recorded(errors)
+    row = partial(_row, partial(function, **call.options), case, call, records)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
 
     coordinates: dict[str, Any] = {}
@@ -146,7 +151,7 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, call: Call, numbered: tuple[int, Any]
+    function: Any, case: Parameters, call: Call, records: bool, numbered: tuple[int, Any]
 ) -> dict[str, xr.Variable]:
     """The variables of one call; what the function is wrongly given or returns at the first point
     is a fault of all."""
@@ -158,6 +163,10 @@ def _row(
         if number == 0 and call.arguments & refused:
             raise
         return _failure(error)
+    except Exception as error:
+        if records:
+            return _failure(error)
+        raise
     try:
         variables = call.checked(result, variables_of_result(result))
     except NUMERICAL as error:
