@@ -136,7 +136,7 @@ def continue_cycle(  # noqa: PLR0913
         ),
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
-        (numbers, "values", values, "must be finite numbers"),
+        (numbers, "values", values, "must be a list of finite numbers"),
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
