@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import xarray as xr
@@ -13,57 +10,24 @@ import xarray as xr
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
 from disc_model.figures.branches import STABLE, THIN, draw_branch, stable_segments
-from disc_model.figures.canvas import OWN, Page, Wishes, page_for
+from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    BROWN,
-    COLUMN,
-    GREEN,
-    ORANGE,
-    PURPLE,
-    SEPARATED,
-    SKY,
-    large,
-    mark,
-    sample,
-    wide,
+from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
+from disc_model.figures.family import (
+    SPECIAL_MARKS,
+    Shown,
+    join_family,
+    name_and_labels,
+    next_colour,
 )
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Axes
-from disc_model.figures.words import head_text, label_of, what_case
+from disc_model.figures.words import label_of
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch, SpecialPoint
 
 WIDE = 30.0  # largest over least range from which the axis is logarithmic
-SPECIAL_MARKS = {
-    "fold": ("s", SEPARATED, "fold"),
-    "period_doubling": ("D", BLUE, "period doubling"),
-    "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
-    "branch_point": ("*", BLACK, "branch point"),
-    "grazing": ("X", SEPARATED, "grazing"),
-    "hopf": ("^", BLUE, "Hopf point"),
-}
-"""Kinds of special points, with their mark, colour and name in the legend."""
-FAMILY = (BLACK, GREEN, BROWN, SKY, PURPLE, ORANGE)
-"""Colours of branches on the same axes, in their order."""
-
-
-@dataclass
-class _Shown:
-    """A branch on axes: its name, if the reader gives one, what titles say of its case, and its
-    entries of the legend."""
-
-    name: str
-    values: Mapping[str, Any]
-    looks: list[Any]
-    special: list[Any]
-
-
-_SHOWN: WeakKeyDictionary[Axes, list[_Shown]] = WeakKeyDictionary()
-"""The branches that axes have."""
 
 
 def plot_branch(
@@ -83,15 +47,10 @@ def plot_branch(
     label, upward = _axis_upward(branch, y)
     values = _upward(branch, branch, y) * upward
     case = stated(branch.case, *branch.parameters)
-    name = ""
-    if isinstance(labels, Mapping) and "branch" in labels:
-        name = labels["branch"]
-        require((isinstance(name, str), "labels.branch", name, "must be a text"))
-        labels = {word: text for word, text in labels.items() if word != "branch"}
+    name, labels = name_and_labels(labels)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
-        shown = _SHOWN.setdefault(axes, [])
-        colour = FAMILY[len(shown) % len(FAMILY)]
+        colour = next_colour(axes)
         # the stability changes at special points, which lie between the others
         stable = stable_segments(branch.refined_growth_rate())
         refined_x = branch.refined("values")[:, 0] * factor
@@ -110,53 +69,14 @@ def plot_branch(
             if occurs
         ]
         special = _mark_special_points(axes, branch, y, (factor, upward))
-        values_of_case = stated_values(branch.case, *branch.parameters)
-        shown.append(_Shown(name, values_of_case, handles, special))
         axes.margins(0.04)
         axes.set_xlabel(across)
         axes.set_ylabel(label)
         page.explain([*handles, *special])
         page.joins = True
-        if len(shown) > 1 or name:
-            _explain_family(page, shown, title)
+        values_of_case = stated_values(branch.case, *branch.parameters)
+        join_family(page, Shown(name, values_of_case, handles, special))
     return page.ax
-
-
-def _explain_family(page: Page, shown: Sequence[_Shown], title: str | None) -> None:
-    """Name the branches on the same axes by what differs between their cases, each kind of special
-    points once, and what all have in common above a figure of this package."""
-    names = dict.fromkeys(name for each in shown for name in each.values)
-    common = {}
-    for name in names:
-        values = [each.values.get(name) for each in shown]
-        if all(value == values[0] for value in values):
-            common[name] = values[0]
-
-    # the entries of the legend, which replace those that there were
-    former = [*(each.looks for each in shown), *(each.special for each in shown)]
-    replaced = {str(handle.get_label()) for handles in former for handle in handles}
-    handles: list[Any] = []
-    for number, each in enumerate(shown):
-        differing = {name: value for name, value in each.values.items() if name not in common}
-        text = each.name or what_case(differing) or f"branch {number + 1}"
-        handles.append(sample(color=FAMILY[number % len(FAMILY)], linewidth=wide(1.4), label=text))
-    looks: dict[str, Any] = {}
-    for each in shown:
-        looks |= {str(handle.get_label()): handle for handle in each.looks}
-    marks: dict[str, Any] = {}
-    for each in shown:
-        for handle in each.special:
-            marks.setdefault(str(handle.get_marker()), handle)
-    for sign, handle in marks.items():
-        handle.set_label(next(name for own, _, name in SPECIAL_MARKS.values() if own == sign))
-    handles += [*looks.values(), *marks.values()]
-    page.replaced = replaced | {str(handle.get_label()) for handle in handles}
-    page.explain(handles)
-
-    figure = page.figure
-    if figure.get_gid() == OWN and title is None:
-        width = float(figure.get_size_inches()[0])
-        figure.suptitle(head_text(width, "", what_case(common)), fontsize=large(8))
 
 
 def _axis_upward(branch: Branch, y: str) -> tuple[str, float]:

@@ -16,7 +16,7 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
-from matplotlib.ticker import FixedLocator
+from matplotlib.ticker import FixedLocator, Formatter
 
 from disc_model.errors import require
 from disc_model.figures.growth import is_growth
@@ -115,6 +115,11 @@ def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
     if len(ticks) < 2:
         return sorted({low, *ticks, high})
     return ticks
+
+
+def texts_of(places: Sequence[float]) -> list[str]:
+    """The texts of ticks, with the sign that other axes have below zero."""
+    return [Formatter.fix_minus(f"{place:g}") for place in places]
 
 
 def within_a_decade(norm: Normalize) -> bool:

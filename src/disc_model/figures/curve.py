@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.ticker import FixedLocator
 from matplotlib.transforms import ScaledTranslation
 
 from disc_model.figures.classes import AT_BOUND, name_of
@@ -202,7 +201,7 @@ def _scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
         ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         # numbers below the linear part's end would cover that of zero
         ends = (float(array.min()), float(array.max()))
-        ax.yaxis.set_major_locator(FixedLocator(decades_through_zero(linear, *ends)))
+        ax.set_yticks(decades_through_zero(linear, *ends))
         ax.yaxis.set_major_formatter("{x:g}")
         if (array > 0).any():
             ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)

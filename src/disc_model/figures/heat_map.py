@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 import xarray as xr
-from matplotlib.ticker import Formatter
 
 from disc_model.data.variables import EXCLUDED, TRUTH
 from disc_model.figures.cells import (
@@ -19,7 +18,7 @@ from disc_model.figures.cells import (
     scale_of,
 )
 from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
-from disc_model.figures.colours import colours_of, within_a_decade
+from disc_model.figures.colours import colours_of, texts_of, within_a_decade
 from disc_model.figures.drawing import COLUMN, letter, panels, parents_of_bar, set_label
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
@@ -189,7 +188,7 @@ def number_panels(
         return entries(used, looks)
     bar = figure.colorbar(mesh, ax=parents_of_bar(axes), pad=0.01, aspect=30, label=label)
     if colours.places:
-        bar.set_ticks(colours.places, labels=_numbers(colours.places))
+        bar.set_ticks(colours.places, labels=texts_of(colours.places))
         bar.minorticks_off()
     elif colours.ticks:
         bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
@@ -198,8 +197,3 @@ def number_panels(
         bar.ax.yaxis.set_minor_formatter("{x:g}")
         bar.ax.yaxis.set_major_formatter("{x:g}")
     return entries(used, looks)
-
-
-def _numbers(places: Sequence[float]) -> list[str]:
-    """The texts of ticks, with the sign that other axes have below zero."""
-    return [Formatter.fix_minus(f"{place:g}") for place in places]

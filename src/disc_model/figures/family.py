@@ -1,0 +1,123 @@
+"""Several branches on the same axes: their colours, and what legend and title say of them."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from disc_model.errors import require
+from disc_model.figures.canvas import MOST_LINES, OWN, Page
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    BROWN,
+    GREEN,
+    ORANGE,
+    PURPLE,
+    SEPARATED,
+    SKY,
+    large,
+    sample,
+    wide,
+)
+from disc_model.figures.types import Axes
+from disc_model.figures.words import head_text, what_case
+
+SPECIAL_MARKS = {
+    "fold": ("s", SEPARATED, "fold"),
+    "period_doubling": ("D", BLUE, "period doubling"),
+    "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", BLACK, "branch point"),
+    "grazing": ("X", SEPARATED, "grazing"),
+    "hopf": ("^", BLUE, "Hopf point"),
+}
+"""Kinds of special points, with their mark, colour and name in the legend."""
+COLOURS = (BLACK, GREEN, BROWN, SKY, PURPLE, ORANGE)
+"""Of branches on the same axes, in their order."""
+WIDTH = 1.4  # points, of their lines in the legend
+
+
+@dataclass
+class Shown:
+    """A branch on axes: its name, if the reader gives one, what titles say of its case, and its own
+    entries of the legend."""
+
+    name: str
+    values: Mapping[str, Any]
+    looks: list[Any]
+    special: list[Any]
+
+
+_SHOWN: WeakKeyDictionary[Axes, list[Shown]] = WeakKeyDictionary()
+"""The branches that axes have."""
+
+
+def name_and_labels(labels: Any) -> tuple[str, Any]:
+    """The name that a reader gives a branch, "" for none, and the other labels."""
+    if not isinstance(labels, Mapping) or "branch" not in labels:
+        return "", labels
+    name = labels["branch"]
+    require((isinstance(name, str), "labels.branch", name, "must be a text"))
+    return name, {word: text for word, text in labels.items() if word != "branch"}
+
+
+def next_colour(ax: Axes) -> str:
+    """The colour of the next branch on axes."""
+    return COLOURS[len(_SHOWN.get(ax, [])) % len(COLOURS)]
+
+
+def join_family(page: Page, new: Shown) -> None:
+    """Add a branch to those on its axes. Of several, the legend names each by what differs between
+    their cases, and each kind of special points once; the title of a figure of this package says
+    what all have in common."""
+    family = _SHOWN.setdefault(page.ax, [])
+    family.append(new)
+    if len(family) > 1 or new.name:
+        _explain(page, family)
+    if len(family) > 1:
+        _retitle(page.figure, family)
+
+
+def _explain(page: Page, family: Sequence[Shown]) -> None:
+    """Set the entries of the legend, which replace those of each branch alone."""
+    alone = [handle for each in family for handle in (*each.looks, *each.special)]
+    replaced = {str(handle.get_label()) for handle in alone}
+
+    common = _common_values(family)
+    handles: list[Any] = []
+    for number, each in enumerate(family):
+        differing = {name: value for name, value in each.values.items() if name not in common}
+        text = each.name or what_case(differing) or f"branch {number + 1}"
+        colour = COLOURS[number % len(COLOURS)]
+        handles.append(sample(color=colour, linewidth=wide(WIDTH), label=text))
+    looks: dict[str, Any] = {}
+    marks: dict[str, Any] = {}
+    for each in family:
+        looks |= {str(handle.get_label()): handle for handle in each.looks}
+        marks |= {str(handle.get_marker()): handle for handle in each.special}
+    for sign, _, name in SPECIAL_MARKS.values():
+        if sign in marks:
+            marks[sign].set_label(name)
+
+    handles += [*looks.values(), *marks.values()]
+    page.replaced = replaced | {str(handle.get_label()) for handle in handles}
+    page.explain(handles)
+
+
+def _retitle(figure: Any, family: Sequence[Shown]) -> None:
+    """Let the title say what all branches have in common, unless the reader has given another."""
+    width = float(figure.get_size_inches()[0])
+    former = head_text(width, "", what_case(_common_values(family[:-1])), MOST_LINES)
+    if figure.get_gid() == OWN and figure.get_suptitle() == former:
+        said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
+        figure.suptitle(said, fontsize=large(8))
+
+
+def _common_values(family: Sequence[Shown]) -> dict[str, Any]:
+    """The values that the cases of all branches have in common."""
+    first, *others = family
+    common = {}
+    for name, value in first.values.items():
+        if all(each.values.get(name) == value for each in others):
+            common[name] = value
+    return common
