@@ -19,7 +19,7 @@ PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
-EDGE = 0.02  # inch, least distance of a legend from the left edge of the figure
+LEFT = 0.02  # inch, least distance of such a legend from the left edge of the figure
 INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
@@ -225,7 +225,7 @@ def legend_below(
 
     # lower axes may have narrower numbers, and begin further to the left
     page.draw_without_rendering()
-    beyond = max(EDGE * page.dpi - legend.get_window_extent().x0, 0.0)
+    beyond = max(LEFT * page.dpi - legend.get_window_extent().x0, 0.0)
     anchor: Any = place.draw
     legend.set_bbox_to_anchor((beyond / ax.bbox.width, 0), anchor.keywords["bbox_transform"])
     return legend
