@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from disc_model.attached.drawing import drawings
-from disc_model.errors import Fault, ParameterError
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -140,6 +139,7 @@ def plot_spectrum(
     'Frequency (Hz)'
     """
     from disc_model.attached.shown import shown_window
+    from disc_model.errors import Fault, ParameterError
 
     pictures = drawings()
     case, name = shown_window(self, window, "late")
