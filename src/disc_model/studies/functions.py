@@ -339,7 +339,8 @@ def hysteresis(
     Returns
     -------
     xarray.Dataset
-        `onset_speed`, `offset_speed` (rad/s), and `separation_rate` (1/s) and others by direction and speed
+        `onset_speed`, `offset_speed` (rad/s), the latter the lowest one to which separation persists on the way down:
+        at the lower bound it may persist below; and `separation_rate` (1/s) and others by direction and speed
 
     Raises
     ------
