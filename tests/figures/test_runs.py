@@ -1,12 +1,15 @@
 """Stretches of stick, slip and separation between events."""
 
+import json
+
 import numpy as np
 import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures.runs import _course, spans_between, spans_in
+from disc_model.figures.runs import _course, ramps_of, spans_between, spans_in
+from disc_model.parameters import Parameters
 
 TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s
 WORDS = ["slip", "stick", "slip", "slip", "separation"]
@@ -55,8 +58,13 @@ def test_samples_stand_in_for_events_that_were_not_kept() -> None:
 
 
 def test_ramps_are_told_in_the_order_of_their_times() -> None:
-    up = {"parameter": "Omega", "to": 16.0, "start": 0.0}
-    down = {"parameter": "Omega", "to": 8.0, "start": 0.2}
-    other = {"parameter": "N", "to": 300.0, "start": 0.1}
-    said = _course("Omega", 15.1, [down, other, up])
+    up = {"parameter": "Omega", "to": 16.0, "start": 0.0, "end": 0.1}
+    down = {"parameter": "Omega", "to": 8.0, "start": 0.2, "end": 0.3}
+    other = {"parameter": "N", "to": 300.0, "start": 0.1, "end": 0.2}
+    attrs = {
+        "parameters": Parameters(N=385, Omega=15.1).canonical_json,
+        "ramps": json.dumps([down, other, up]),
+    }
+    run = xr.DataTree(xr.Dataset(attrs=attrs))
+    said = _course("Omega", ramps_of(run))
     assert said == "Ω = 15.1 to 16 to 8 rad/s"

@@ -132,7 +132,8 @@ def page_for(
         style = readers_style() if figure.get_gid() == OWN else nullcontext()
         with style:
             yield page
-            _finish(page, wishes, before)
+            page.bars = [ax for ax in figure.axes if ax not in before]
+            _finish(page, wishes)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -140,6 +141,7 @@ def page_for(
         page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
         try:
             yield page
+            page.bars = [ax for ax in figure.axes if ax not in page.axes]
             usual = wishes.title
             if usual is None:
                 usual = head_text(width, "", title, MOST_LINES)
@@ -155,12 +157,10 @@ def page_for(
             raise
 
 
-def _finish(page: Page, wishes: Wishes, before: Collection[Axes]) -> None:
-    """Write labels, title and legend on a reader's axes; `before` are the axes of the figure before
-    it was drawn."""
+def _finish(page: Page, wishes: Wishes) -> None:
+    """Write labels, title and legend on a reader's axes."""
     figure: Any = page.ax.get_figure(root=True)
     _restate(page, wishes)
-    page.bars = [ax for ax in figure.axes if ax not in before]
     shown = [*page.axes, *page.bars]
     unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
     _write_legend(page, wishes)

@@ -18,7 +18,7 @@ from disc_model.figures.cells import (
     scale_of,
 )
 from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
-from disc_model.figures.colours import colours_of, texts_of, within_a_decade
+from disc_model.figures.colours import colours_of, needs_zero, texts_of, within_a_decade
 from disc_model.figures.drawing import COLUMN, letter, panels, parents_of_bar, set_label
 from disc_model.figures.growth import growth_panels, is_growth
 from disc_model.figures.kinds.general import General, HeatMap
@@ -99,7 +99,8 @@ def draw_maps(
         handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
         has_bar = False
     else:
-        if is_growth(variable) and not (log and _all_positive(planes, variable)):
+        through_zero = any(needs_zero(plane[variable].values) for plane in planes)
+        if is_growth(variable) and (through_zero or not log):
             handles = growth_panels(figure, axes, planes, variable)
         else:
             handles = number_panels(figure, axes, planes, variable, log)
@@ -112,11 +113,6 @@ def draw_maps(
         set_label(ax, "x", across)
         set_label(ax, "y", up)
     return Key(handles, title)
-
-
-def _all_positive(planes: Sequence[xr.Dataset], variable: str) -> bool:
-    """Whether there are no numbers but positive ones."""
-    return all(not (plane[variable] <= 0).any() for plane in planes)
 
 
 def as_classes(study: xr.Dataset, variable: str) -> xr.DataArray:

@@ -45,11 +45,9 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     p = parameters_of(case) if isinstance(case, xr.DataTree) else case
     values = stated_values(p, *varied)
     said = what_case(values)
-    ramps = []
-    if isinstance(case, xr.DataTree):
-        ramps = json.loads(case.attrs.get("ramps", "[]"))
-    for name in {ramp["parameter"] for ramp in ramps}:
-        said = said.replace(what_case({name: values[name]}), _course(name, values[name], ramps))
+    ramps = ramps_of(case) if isinstance(case, xr.DataTree) else []
+    for name in {ramp.parameter for ramp in ramps}:
+        said = said.replace(what_case({name: values[name]}), _course(name, ramps))
     return said
 
 
@@ -76,12 +74,12 @@ def ramps_of(case: xr.DataTree) -> list[Course]:
     return courses
 
 
-def _course(name: str, value: float, ramps: Sequence[Mapping[str, Any]]) -> str:
+def _course(name: str, ramps: Sequence[Course]) -> str:
     """A parameter's value at the start and those at the ends of its ramps, in words."""
-    own = [ramp for ramp in ramps if ramp["parameter"] == name]
-    own.sort(key=itemgetter("start"))
+    own = [ramp for ramp in ramps if ramp.parameter == name]
     shown = SHOWN[name]
-    numbers = [f"{shown.factor * each:g}" for each in (value, *map(itemgetter("to"), own))]
+    values = [own[0].before, *(ramp.after for ramp in own)]
+    numbers = [f"{shown.factor * value:g}" for value in values]
     return f"{shown.symbol} = {' to '.join(numbers)} {shown.unit}"
 
 

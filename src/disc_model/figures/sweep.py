@@ -198,9 +198,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
         page.explain(page.ax.get_legend_handles_labels()[0])
     else:
         plane = study.transpose(drawn.second, drawn.across, ...)
-        before = set(page.figure.axes)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
-        page.bars = [ax for ax in page.figure.axes if ax not in before]
         page.explain(key.handles, beside="below", title=key.title)
         page.is_map = True
         whole = study[drawn.second].dtype.kind == "i"
