@@ -135,21 +135,24 @@ def test_a_cycle_is_simulated_from_its_row(branch: Branch, data: xr.Dataset) -> 
     )
 
 
+BLOCK = dm.Parameters(
+    n_diameters=-1,
+    m=0.538,
+    k=0,
+    k_p=6957,
+    c_p=5.946,
+    N=10,
+    mu_s=0.6,
+    mu_k=0.2,
+    friction_decay=10,
+    r_0=0.1,
+    Omega=2,
+)
+
+
 def test_a_rigid_disc_has_no_modes() -> None:
-    block = dm.Parameters(
-        n_diameters=-1,
-        m=0.538,
-        k=0,
-        k_p=6957,
-        c_p=5.946,
-        N=10,
-        mu_s=0.6,
-        mu_k=0.2,
-        friction_decay=10,
-        Omega=2,
-    )
     bounds = (1.9, 2.1)
-    branch = dm.continue_cycle(block, "Omega", bounds)
+    branch = dm.continue_cycle(BLOCK, "Omega", bounds)
     sizes = branch.to_dataset().sizes
     assert sizes["mode"] == 0
 
@@ -169,20 +172,7 @@ def test_a_frequency_of_a_given_disc_is_a_parameter_too() -> None:
 
 
 def slipping_branch() -> Branch:
-    case = dm.Parameters(
-        n_diameters=-1,
-        m=0.538,
-        k=0,
-        k_p=6957,
-        c_p=5.946,
-        N=10,
-        mu_s=0.6,
-        mu_k=0.2,
-        friction_decay=10,
-        r_0=0.1,
-        Omega=2,
-    )
-    return dm.continue_cycle(case, "Omega", (1.8, 2.2), kind="slipping")
+    return dm.continue_cycle(BLOCK, "Omega", (1.8, 2.2), kind="slipping")
 
 
 @pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])

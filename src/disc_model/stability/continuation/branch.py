@@ -255,8 +255,7 @@ class Branch:
         Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
         """
         stored = StoredBranch(data)
-        make_map = stored.make_map
-        special = _stored_special_points(stored, make_map)
+        special = _stored_special_points(stored)
         folds = [each.values for each in special if each.kind == "fold"]
         branch = cls(
             parameters=stored.parameters,
@@ -273,7 +272,7 @@ class Branch:
             case=stored.case,
             special=special,
             not_reached=stored.not_reached,
-            _make_map=make_map,
+            _make_map=stored.make_map,
         )
         vars(branch)["range"] = data["range"].values  # which takes a simulation of each cycle
         return branch
@@ -402,15 +401,12 @@ class Branch:
         return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)
 
 
-def _stored_special_points(stored: StoredBranch, make_map: MapFactory) -> tuple[SpecialPoint, ...]:
+def _stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
     """The special points of a branch's dataset."""
     data = stored.data
     points = []
-    for i, (state, values) in enumerate(
-        zip(stored.states("special_"), stored.values("special_"), strict=True)
-    ):
-        case = stored.case_at(values)
-        own = make_map(case)
+    modal = stored.modal("special_")
+    for i, values in enumerate(stored.values("special_")):
         point = SpecialPoint(
             kind=str(data["special_kind"].values[i]),
             values=values,
@@ -419,9 +415,9 @@ def _stored_special_points(stored: StoredBranch, make_map: MapFactory) -> tuple[
             growth_rate=float(data["special_growth_rate"].values[i]),
             multiplier=complex(data["special_multiplier"].values[i]),
             after=int(data["special_after"].values[i]),
-            case=case,
-            modal=own.point(state) / own.scale,
-            make_map=make_map,
+            case=stored.case_at(values),
+            modal=modal[i],
+            make_map=stored.make_map,
         )
         vars(point)["range"] = float(data["special_range"].values[i])
         points.append(point)

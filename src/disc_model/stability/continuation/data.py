@@ -131,12 +131,15 @@ class StoredBranch:
 
     def points(self) -> np.ndarray:
         """The points of the section, (n, n_coordinates), scaled as those of the case."""
-        scale = self.make_map(self.case).scale
+        return np.array(self.modal()) * self.make_map(self.case).scale
+
+    def modal(self, begin: str = "") -> list[np.ndarray]:
+        """The points of the section in modal coordinates, as `values`."""
         points = []
-        for state, values in zip(self.states(), self.values(), strict=True):
+        for state, values in zip(self.states(begin), self.values(begin), strict=True):
             own = self.make_map(self.case_at(values))
-            points.append(own.point(state) / own.scale * scale)
-        return np.array(points)
+            points.append(own.point(state) / own.scale)
+        return points
 
 
 class _Columns:

@@ -140,17 +140,20 @@ class _Follower:
         self.conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
 
     def multiplier(self, point: CurvePoint) -> complex:
-        j = follow_multipliers(self.start.spectrum, point.spectrum)[self.i]
+        return self._successor(point, self.i)
+
+    def _successor(self, point: CurvePoint, i: int) -> complex:
+        """The multiplier of another point that continues the i-th one."""
+        j = follow_multipliers(self.start.spectrum, point.spectrum)[i]
         return complex(point.spectrum.values[j])
 
     def excess(self, point: CurvePoint) -> float:
         """By how much its modulus exceeds one; the mean modulus of both multipliers where the pair
         has become two real ones."""
-        successors = follow_multipliers(self.start.spectrum, point.spectrum)
-        followed = complex(point.spectrum.values[successors[self.i]])
+        followed = self.multiplier(point)
         if followed.imag != 0:
             return abs(followed) - 1
-        other = complex(point.spectrum.values[successors[self.conjugate]])
+        other = self._successor(point, self.conjugate)
         return abs(followed * other) ** 0.5 - 1
 
 
