@@ -211,12 +211,10 @@ class Fit(Summarised, Drawn):
         if not self.converged:
             return "the search has not converged"
         if self.indistinct:
-            names = " and ".join(self.indistinct)
-            remedy = (
-                "fix one of them, or measure more" if len(self.indistinct) > 1 else "measure more"
-            )
-            apart = " apart" if len(self.indistinct) > 1 else ""
-            return f"the measurements do not determine {names}{apart}: {remedy}"
+            said = f"the measurements do not determine {' and '.join(self.indistinct)}"
+            if len(self.indistinct) == 1:
+                return f"{said}: measure more"
+            return f"{said} apart: fix one of them, or measure more"
         if not self.consistent:
             return "model or uncertainties are wrong"
         return ""
