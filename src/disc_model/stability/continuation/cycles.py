@@ -193,7 +193,7 @@ def _scaled(
     stretch = stretch_of(case, name)
     shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch**0.5}
     scale = stretch * parameter_scale(case, name, max(map(abs, span)))
-    return scale, steps.model_copy(update=shorter)
+    return scale, steps.replace(**shorter)
 
 
 def branch_of(
