@@ -74,7 +74,8 @@ class NeutralCurves(Drawn):
     ----------
     parameters, bounds : the case, and the bounds of both parameters by name, as given to `neutral_curves`
     curves : those that could be followed
-    failures : descriptions of those that could not
+    failures : descriptions of those that could not, and of places between points of a line where the branch ends at
+        something else, such as a grazing, which is not followed
     """
 
     _picture = "plot_neutral_curves"
@@ -123,7 +124,7 @@ def neutral_curves(
     ----------
     case : the case; its values of the two parameters are ignored
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
-    lines : values of the second parameter; along each of these lines the first parameter is scanned for curves
+    lines : values of the second parameter, within its bounds; along each of these lines the first parameter is scanned for curves
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
@@ -159,6 +160,13 @@ def neutral_curves(
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
+    if within and not wrong:
+        low, high = list(plane.values())[1]
+        beside = [line for line in lines if not low <= line <= high]
+        y = list(plane)[1]
+        wrong += violations(
+            (not beside, "lines", beside, f"must lie within the bounds of {y}, {low:g} to {high:g}")
+        )
     raise_faults(wrong + free_faults(case, list(plane)))
 
     search = _CurveSearch(case, plane, float(tol), steps)
@@ -289,12 +297,12 @@ def _border(
 ) -> _Seed | None:
     """The special point of a branch from a case to another value of a parameter at which a stable
     cycle first gains or loses stability, or ends; without a stable one, the first special point.
-    What cannot be followed is described in `failures`."""
+    What cannot be followed, or ends elsewhere, is described in `failures`."""
     begin = case.numbers[name]
     bounds = (min(begin, end), max(begin, end))
     direction = 1 if begin < end else -1
     try:
-        steps = StepControl(scale=abs(end - begin), max_points=MOST_ON_LINE)
+        steps = StepControl(max_points=MOST_ON_LINE)
         branch = continue_cycle(case, name, bounds, direction=direction, tol=tol, steps=steps)
     except ParameterError as error:
         failures.append(f"{name}={begin:.6g}: {error}")
@@ -303,6 +311,11 @@ def _border(
         failures.append(branch.ended)
     borders = [special for special in branch.special if special.kind in BORDER_KINDS]
     if not borders:
+        reaches = (
+            branch.values[-1, 0] == end
+        )  # the cycle, which is only far from the static start there
+        if not reaches:
+            failures.append(f"{name} from {begin:.6g} to {end:.6g}: {branch.ended}")
         return None
     stable = branch.growth_rate < 0
     next_to_stable = [each for each in borders if stable[each.after : each.after + 2].any()]
