@@ -14,7 +14,14 @@ from matplotlib.legend import Legend
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels, part_numbers
-from disc_model.figures.legends import figure_legend, keep_height, legend_below, legend_inside
+from disc_model.figures.legends import (
+    figure_legend,
+    finds_room_below,
+    finds_room_inside,
+    keep_height,
+    legend_below,
+    legend_inside,
+)
 from disc_model.figures.placing import check_room, fit_to_page
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
@@ -22,6 +29,10 @@ from disc_model.figures.words import head_text
 Place = Literal["inside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+ROUNDS = 4  # in which legends find their places after axes have got other sizes
+SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
+PLACED = "_disc_model_placed"
+"""Attribute of a legend that has been placed here: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
@@ -77,6 +88,8 @@ class Page:
     joins : whether the entries of a legend that the axes have are kept
     replaced : words of such entries that are not
     bars : axes of bars of colours
+    legend : the one that was written beside a reader's axes, unless the reader has placed it
+    spare : inches beside a legend below a reader's axes that it leaves free
     is_map : whether a new figure grows so that its panels keep their height beside the legend
     """
 
@@ -89,6 +102,8 @@ class Page:
     joins: bool = False
     replaced: Collection[str] = ()
     bars: Sequence[Axes] = field(default_factory=list)
+    legend: Any = None
+    spare: float = 0.0
     is_map: bool = False
 
     @property
@@ -172,11 +187,45 @@ def _finish(page: Page, wishes: Wishes) -> None:
         _write_legend(page, wishes)
     for ax in page.axes:
         part_numbers(ax)
-    if figure.get_layout_engine() is None:
-        for ax in page.axes:
-            fit_to_page(ax, page.bars)
+    _make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
+
+
+def _make_room(page: Page, wishes: Wishes) -> None:
+    """Let axes, labels and legends of a reader's figure not meet, also those of former pictures,
+    whose axes have other sizes since this one has been drawn."""
+    figure: Any = page.ax.get_figure(root=True)
+    if page.legend is not None:
+        vars(page.legend)[PLACED] = (page, wishes)
+    changed = [page]
+    for _ in range(ROUNDS):
+        if figure.get_layout_engine() is None:
+            for each in changed:
+                for ax in each.axes:
+                    fit_to_page(ax, each.bars)
+        figure.draw_without_rendering()  # sets the places
+        cramped = [each for each in _pictures_of(figure) if not _finds_room(each[0])]
+        if not cramped:
+            return
+        for former, asked in cramped:
+            former.spare += SPARE
+            _write_legend(former, asked)
+            vars(former.legend)[PLACED] = (former, asked)
+        changed = [former for former, _ in cramped]
+
+
+def _pictures_of(figure: Any) -> list[tuple[Page, Wishes]]:
+    """The pictures of this package on the axes of a figure whose legends a reader has left alone."""
+    legends = [ax.get_legend() for ax in figure.axes if ax.get_legend() is not None]
+    return [vars(legend)[PLACED] for legend in legends if PLACED in vars(legend)]
+
+
+def _finds_room(page: Page) -> bool:
+    """Whether the legend of a picture covers nothing, and meets nothing beside it."""
+    if page.beside == "below":
+        return finds_room_below(page.axes[-1], page.bars)
+    return finds_room_inside(page.ax)
 
 
 def _given(ax: Any, count: int) -> list[Axes]:
@@ -256,8 +305,12 @@ def _write_legend(page: Page, wishes: Wishes) -> None:
             raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
     elif page.figure.get_gid() == OWN:
         figure_legend(page.figure, page.handles, title=page.heading)
-    elif page.beside == "below":
-        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)
-    elif not legend_inside(page.ax, page.handles, title=page.heading):
-        page.beside = "below"
-        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)
+    else:
+        if page.beside == "inside":
+            page.legend = legend_inside(page.ax, page.handles, title=page.heading)
+        if page.beside == "below" or page.legend is None:
+            page.beside = "below"
+            last = page.axes[-1]
+            page.legend = legend_below(
+                last, page.handles, page.bars, page.spare, title=page.heading
+            )

@@ -212,6 +212,7 @@ def branch_of(
         multipliers=np.array(every),
         diameters=np.array([problem.leading_diameters(point) for point in points]),
         separations=np.array([point.orbit.counts.separations for point in points]),
+        releases=np.array([point.orbit.counts.releases for point in points]),
         points=np.array([problem.reference_point(point.z) for point in points]),
         folds=np.array(folds).reshape(-1, len(problem.names)),
         ended="; ".join(dict.fromkeys(reasons)),
