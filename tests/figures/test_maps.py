@@ -258,6 +258,8 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     figure = draw("late_range", study, by="disc", thickness=0.01)
     lines = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
+    column = draw("late_range", study, by="disc", thickness=0.01, width="column")
+    assert [bool(ax.get_xlabel()) for ax in column.axes] == [False, True]
     named = {"8 kN", "with separation", "separates", "beyond linear plate theory"}
     assert named <= set(labels(figure))
     assert not [ax for ax in figure.axes if ax.texts], "lines would lie on it"

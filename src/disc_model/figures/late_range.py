@@ -82,7 +82,8 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         titles.append("speed in the plane")
     for ax in axes:
         ax.margins(x=0.05)
-        ax.set_xlabel(SPEED)
+        if ax.xaxis.get_tick_params()["labelbottom"]:  # its numbers are not those of a panel below
+            ax.set_xlabel(SPEED)
     letters(axes, titles)
     _legend(figure, study["N"].values, has_drive=bool(moving))
     return figure
