@@ -75,6 +75,7 @@ def test_a_logarithmic_scale_of_positive_numbers_ends_at_them() -> None:
         ([0.0, 0.0], (0, 1), 1.0, [0, 1]),
         ([-0.7, -0.5], (-0.7, -0.5), 0.5, [-0.7, -0.5]),
         ([0.0, 0.7, 0.5], (0, 0.7), 0.5, [0, 0.7]),
+        ([-1.13, -0.29], (-1.13, -0.29), 0.29, [-1.13, -0.29]),
     ],
 )
 def test_a_logarithmic_scale_passes_through_zero(

@@ -27,6 +27,7 @@ from disc_model.figures.types import Array, Axes, FigureBase
 FEW = 12  # counts below which each has a colour of its own
 SPAN = 1e3  # of a logarithmic scale on each side of zero, from where it is linear to its end
 MOST_TICKS = 3  # on each side of zero
+NEAR = 0.2  # of the larger end of a scale, where another number would meet that of an end
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
 COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
@@ -216,19 +217,22 @@ def _through_zero(cmap: Colormap, values: Array, low: float, high: float) -> Sca
 def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
     """Ticks between two numbers: zero and powers of ten beyond where the scale is linear, or the
     numbers if there are less than two of these."""
+    size = max(-low, high)
     first = np.ceil(np.log10(linear))
-    last = np.floor(np.log10(max(-low, high)))
+    last = np.floor(np.log10(size))
     every = max(1.0, np.ceil((last - first + 1) / MOST_TICKS))
     sizes = 10.0 ** np.arange(last, first - 0.5, -every)
     ticks = [tick for tick in sorted([*(-sizes), 0.0, *sizes]) if low <= tick <= high]
     if len(ticks) < 2:
-        return sorted({low, *ticks, high})
+        apart = [tick for tick in ticks if min(abs(tick - low), abs(tick - high)) > NEAR * size]
+        return sorted({low, *apart, high})
     return ticks
 
 
 def texts_of(places: Sequence[float]) -> list[str]:
     """The texts of ticks, with the sign that other axes have below zero."""
-    return [Formatter.fix_minus(f"{place:g}") for place in places]
+    rounded = [float(f"{place:.3g}") for place in places]
+    return [Formatter.fix_minus(f"{place:g}") for place in rounded]
 
 
 def within_a_decade(norm: Normalize) -> bool:

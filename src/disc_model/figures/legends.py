@@ -292,7 +292,8 @@ def _free_below(ax: Axes, bars: Sequence[Axes]) -> Sides:
 
 def finds_room_below(ax: Axes, bars: Sequence[Axes] = ()) -> bool:
     """Whether the legend below axes stays clear of what stands beside them, and of their labels."""
-    box = ax.get_legend().get_window_extent()
+    legend: Legend = ax.get_legend()
+    box = legend.get_window_extent()
     free = _free_below(ax, bars)
     labels = ax.xaxis.get_tightbbox()
     clear = labels is None or box.y1 <= labels.y0 + ROUNDING

@@ -112,16 +112,16 @@ class Row(NamedTuple):
     between two over their length."""
 
     whole: float
-    count: int
+    number: int
     gap: float
 
     def gap_in(self, whole: float, wider: float) -> float:
         """The gap over the axes in another length, where it has the width that it had, and is wider
         by a share of the page."""
-        size = self.whole / (self.count + self.gap * (self.count - 1))
+        size = self.whole / (self.number + self.gap * (self.number - 1))
         width = self.gap * size + wider
-        left = (whole - width * (self.count - 1)) / self.count
-        return width / max(left, LEAST_SHARE * whole / self.count)
+        left = (whole - width * (self.number - 1)) / self.number
+        return width / max(left, LEAST_SHARE * whole / self.number)
 
 
 def _beyond(ax: Axes, bars: Sequence[Axes]) -> Beyond:
