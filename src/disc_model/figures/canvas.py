@@ -5,13 +5,16 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from inspect import signature
+from itertools import chain
 from typing import Any, Literal
+from weakref import WeakSet
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
+from disc_model.figures.colours import bars_of
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels, part_numbers
 from disc_model.figures.legends import (
@@ -177,19 +180,18 @@ def _finish(page: Page, wishes: Wishes) -> None:
     figure: Any = page.ax.get_figure(root=True)
     _restate(page, wishes)
     shown = [*page.axes, *page.bars]
-    unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
+    break_labels(figure, shown)  # long ones would leave the legend no room
     _write_legend(page, wishes)
-    for ax in shown:  # which may be lower or narrower now
-        for label in (ax.xaxis.label, ax.yaxis.label):
-            label.set_text(unbroken.get(label, ""))
-    break_labels(figure, shown)
+    break_labels(figure, shown)  # of axes that may be lower or narrower now
     if page.beside == "below":  # also below labels that have more lines now
         _write_legend(page, wishes)
-    for ax in page.axes:
-        part_numbers(ax)
     _make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
+
+
+_DRAWN_ON: WeakSet[Axes] = WeakSet()
+"""Axes of readers that have a picture of this package."""
 
 
 def _make_room(page: Page, wishes: Wishes) -> None:
@@ -198,21 +200,29 @@ def _make_room(page: Page, wishes: Wishes) -> None:
     figure: Any = page.ax.get_figure(root=True)
     if page.legend is not None:
         vars(page.legend)[PLACED] = (page, wishes)
-    changed = [page]
+    _DRAWN_ON.update(page.axes)
+    panels = {ax: bars_of(ax) for ax in figure.axes if ax in _DRAWN_ON}
+    for ax in page.axes:
+        part_numbers(ax)
+
+    plain = figure.get_layout_engine() is None
     for _ in range(ROUNDS):
-        if figure.get_layout_engine() is None:
-            for each in changed:
-                for ax in each.axes:
-                    fit_to_page(ax, each.bars)
+        if plain:
+            fit_to_page(figure, panels)
+        if len(panels) > len(page.axes):
+            break_labels(figure, [*panels, *chain(*panels.values())])
         figure.draw_without_rendering()  # sets the places
         cramped = [each for each in _pictures_of(figure) if not _finds_room(each[0])]
         if not cramped:
-            return
+            break
         for former, asked in cramped:
             former.spare += SPARE
             _write_legend(former, asked)
             vars(former.legend)[PLACED] = (former, asked)
-        changed = [former for former, _ in cramped]
+    if plain:
+        fit_to_page(figure, panels)
+    for ax in panels:
+        part_numbers(ax)
 
 
 def _pictures_of(figure: Any) -> list[tuple[Page, Wishes]]:

@@ -270,3 +270,9 @@ def draw_bar(figure: FigureBase, axes: Sequence[Axes], mesh: Any, scale: Scale, 
     elif isinstance(scale.norm, LogNorm) and within_a_decade(scale.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
         bar.ax.yaxis.set_major_formatter("{x:g}")
+
+
+def bars_of(ax: Axes) -> list[Axes]:
+    """The axes of the bars of colours that belong to a panel alone."""
+    bars = [mesh.colorbar for mesh in ax.collections]
+    return [bar.ax for bar in bars if bar is not None]

@@ -90,6 +90,7 @@ def plot_run(
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
+            _leave_to_first(column, grid[:, 0])
             handles += _draw_ramps(column, case)
             entries |= {str(handle.get_label()): handle for handle in handles}
         page.explain([*entries.values()])
@@ -98,6 +99,23 @@ def plot_run(
         else:
             _share_heights(grid)
     return grid.squeeze()[()]
+
+
+def _leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
+    """Leave names and numbers of the vertical axes to the first column, if it stands beside this
+    one."""
+    for ax, left in zip(column, first, strict=True):
+        places = [each.get_position(original=True) for each in (left, ax)]
+        if math.isclose(places[0].y0, places[1].y0) and places[0].x1 < places[1].x0:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+
+
+def _stands_above(ax: Axes, other: Axes) -> bool:
+    """Whether axes stand above others, whose numbers then are those of both."""
+    place = ax.get_position(original=True)
+    below = other.get_position(original=True)
+    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
 
 
 def _draw_ramps(axes: Sequence[Axes], case: xr.DataTree) -> list[Artist]:
@@ -145,7 +163,9 @@ def draw_history(
     of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         show(ax, case, window, name, named=ax is axes[0])
-        ax.label_outer()
+        if _stands_above(ax, axes[-1]):
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
 

@@ -2,17 +2,19 @@
 the page."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
 ROUNDS = 3  # numbers along an axis may change with its length
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
+LEAST_STEP = 0.1  # pixel, less than which is rounding
+LEAST_SIDE = 0.9  # inch, of a panel, up to which gaps between panels are widened
 LEAST_SHARE = 0.1  # of their size, or of the page, that axes keep in any case
 
 
@@ -26,24 +28,29 @@ class Beyond(NamedTuple):
     above: float
 
 
-def fit_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
-    """Make room on the page for labels, titles and legend of axes and of bars of colours beside them,
-    and between those of neighbours in a grid.
+def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
+    """Make room on the page for labels, titles and legends of panels and of bars of colours beside
+    them, and between those of neighbours in a grid.
 
     Axes of a grid get larger margins and gaps, as by `subplots_adjust`, so that rows and columns stay
     in line and a later `tight_layout` works; others shrink.
     """
-    page: Any = ax.get_figure(root=True)
-    place = ax.get_subplotspec()
     for _ in range(ROUNDS):
-        page.draw_without_rendering()  # sets the places
-        beyond = _beyond(ax, bars)
-        if not any(beyond):
+        figure.draw_without_rendering()  # sets the places
+        changed = False
+        for ax, bars in panels.items():
+            beyond = _beyond(ax, bars)
+            if max(beyond) < LEAST_STEP:
+                continue
+            changed = True
+            place = ax.get_subplotspec()
+            if place is None:
+                _shrink(ax, bars, beyond)
+            else:
+                _widen_margins(figure, place.get_topmost_subplotspec(), beyond)
+            figure.draw_without_rendering()  # so that a gap is not widened from both sides
+        if not changed:
             return
-        if place is None:
-            _shrink(ax, bars, beyond)
-        else:
-            _widen_margins(page, place.get_topmost_subplotspec(), beyond)
 
 
 def _shrink(ax: Axes, bars: Sequence[Axes], beyond: Beyond) -> None:
@@ -102,8 +109,8 @@ def _widen_margins(page: Any, place: Any, beyond: Beyond) -> None:
         right=right,
         bottom=lower,
         top=upper,
-        wspace=columns.gap_in(right - left, across),
-        hspace=rows.gap_in(upper - lower, up),
+        wspace=columns.gap_in(right - left, across, LEAST_SIDE * page.dpi / width),
+        hspace=rows.gap_in(upper - lower, up, LEAST_SIDE * page.dpi / height),
     )
 
 
@@ -115,13 +122,17 @@ class Row(NamedTuple):
     number: int
     gap: float
 
-    def gap_in(self, whole: float, wider: float) -> float:
+    def gap_in(self, whole: float, wider: float, least: float) -> float:
         """The gap over the axes in another length, where it has the width that it had, and is wider
-        by a share of the page."""
-        size = self.whole / (self.number + self.gap * (self.number - 1))
-        width = self.gap * size + wider
-        left = (whole - width * (self.number - 1)) / self.number
-        return width / max(left, LEAST_SHARE * whole / self.number)
+        by a share of the page; but axes that are longer than the least length have that at least."""
+        gaps = self.number - 1
+        if not gaps:
+            return self.gap
+        width = self.gap * self.whole / (self.number + self.gap * gaps)
+        before = (whole - width * gaps) / self.number
+        after = (whole - (width + wider) * gaps) / self.number
+        size = max(after, min(before, least))
+        return (whole - size * self.number) / gaps / size
 
 
 def _beyond(ax: Axes, bars: Sequence[Axes]) -> Beyond:

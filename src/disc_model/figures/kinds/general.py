@@ -104,7 +104,7 @@ class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted.
 
     limits : ends of the scale of colours, so that figures can be compared, or small differences be
-        seen
+        seen; on both sides of zero the larger one counts for both
     """
 
     is_map = True
