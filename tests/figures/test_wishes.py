@@ -1,6 +1,7 @@
 """What a reader asks of pictures: own axes, legend, labels, title and settings of matplotlib."""
 
 import functools
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -282,8 +283,10 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     study = growth()
     partly = study.assign(growth_rate=study["growth_rate"].where(study["Omega"] < 13))
     _, ax = pyplot.subplots(figsize=(40 / 25.4, 40 / 25.4), layout="constrained")
-    with pytest.raises(dm.ParameterError, match=r"ax=.*: must have room beside a colour bar"):
-        dm.plot_sweep(partly, ax=ax)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # the error says it
+        with pytest.raises(dm.ParameterError, match=r"ax=.*: must have room beside a colour bar"):
+            dm.plot_sweep(partly, ax=ax)
     figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
     dm.plot_sweep(partly, ax=ax)
     assert min(ax.bbox.width, ax.bbox.height) / figure.dpi * 25.4 > 20

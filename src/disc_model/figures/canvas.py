@@ -1,6 +1,7 @@
 """The page of a picture that a result draws of itself: a figure of its own, or a reader's axes, and
 what the reader asks of its legend, labels and title."""
 
+import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
@@ -151,7 +152,9 @@ def page_for(
         with style:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in before]
-            _finish(page, wishes)
+            with warnings.catch_warnings():  # of sizes before everything has its place
+                warnings.filterwarnings("ignore", message="constrained_layout not applied")
+                _finish(page, wishes)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -212,7 +215,8 @@ def _make_room(page: Page, wishes: Wishes) -> None:
         if len(panels) > len(page.axes):
             break_labels(figure, [*panels, *chain(*panels.values())])
         figure.draw_without_rendering()  # sets the places
-        cramped = [each for each in _pictures_of(figure) if not _finds_room(each[0])]
+        pictures = [each for each in _pictures_of(figure) if each[0].spare < ROUNDS * SPARE]
+        cramped = [each for each in pictures if not _finds_room(each[0])]
         if not cramped:
             break
         for former, asked in cramped:

@@ -2,13 +2,14 @@
 the page."""
 
 import warnings
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
-from disc_model.figures.types import Axes, Figure
+from disc_model.figures.types import Array, Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
 ROUNDS = 3  # numbers along an axis may change with its length
@@ -42,15 +43,22 @@ def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
             beyond = _beyond(ax, bars)
             if max(beyond) < LEAST_STEP:
                 continue
-            changed = True
+            before = _places_of(panels)
             place = ax.get_subplotspec()
             if place is None:
                 _shrink(ax, bars, beyond)
             else:
                 _widen_margins(figure, place.get_topmost_subplotspec(), beyond)
-            figure.draw_without_rendering()  # so that a gap is not widened from both sides
+            if np.abs(_places_of(panels) - before).max() > LEAST_STEP:
+                changed = True
+                figure.draw_without_rendering()  # so that a gap is not widened from both sides
         if not changed:
             return
+
+
+def _places_of(panels: Iterable[Axes]) -> Array:
+    """Corners of panels, in pixels."""
+    return np.array([ax.get_window_extent().extents for ax in panels])
 
 
 def _shrink(ax: Axes, bars: Sequence[Axes], beyond: Beyond) -> None:
