@@ -22,6 +22,18 @@ BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, togeth
 LEFT = 0.02  # inch, least distance of such a legend from the left edge of the figure
 HALF_GAP = 0.03  # inch, and from the middle between its axes and those beside them
 INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
+PLACES = (
+    "upper right",
+    "upper left",
+    "lower left",
+    "lower right",
+    "center left",
+    "center right",
+    "lower center",
+    "upper center",
+    "center",
+)
+"""Of a legend in axes, in the order of matplotlib."""
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
@@ -106,10 +118,21 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
         page.draw_without_rendering()  # sets the places
-        if not _covers(legend, ax):
-            return legend
+        for place in _places_inside(ax):
+            legend.set_loc(place)
+            if not _covers(legend, ax):
+                return legend
     legend.remove()
     return None
+
+
+def _places_inside(ax: Axes) -> tuple[str, ...]:
+    """Places of a legend in axes, in the order in which they are tried. The best one by matplotlib is
+    the first of them, unless there are points, which it takes for the corners of a line."""
+    for line in ax.lines:
+        if line.get_linestyle() == "None" and np.size(line.get_xdata()) > 1:
+            return PLACES
+    return ("best", *PLACES)
 
 
 def keep_height(figure: FigureBase, axes: Sequence[Axes], least: float = LEAST_MAP) -> None:
