@@ -100,9 +100,10 @@ NOTEBOOK = 90  # characters of a line in a notebook
 
 
 class Bar:
-    """A bar that counts what is done; without one of rich it is not shown."""
+    """A bar that counts what is done, of a `total` if that is known; without one of rich it is not
+    shown."""
 
-    def __init__(self, total: int, bar: Any = None, task: Any = None) -> None:
+    def __init__(self, total: int | None, bar: Any = None, task: Any = None) -> None:
         self.total = total
         self.bar = bar
         self.task = task
@@ -114,14 +115,20 @@ class Bar:
 
     def expect(self, more: int) -> None:
         """Count more that are to be done."""
-        self.total += more
+        if self.total is not None:
+            self.total += more
         if self.bar is not None:
             self.bar.update(self.task, total=self.total)
 
+    def describe(self, text: str) -> None:
+        """Say beside the bar what is done now."""
+        if self.bar is not None:
+            self.bar.update(self.task, description=text)
+
 
 @contextmanager
-def progress_bar(title: str, total: int, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error, while it is needed."""
+def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
+    """A bar on standard error, while it is needed; it only counts if the total is not known."""
     if not shown:
         yield Bar(total)
         return

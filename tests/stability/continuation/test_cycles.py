@@ -1,6 +1,7 @@
 """Branches of stick-slip cycles: compared with shorter steps, with `floquet`, with simulations, and
 their ends with the margins of the events."""
 
+import re
 from types import SimpleNamespace
 
 import numpy as np
@@ -288,6 +289,40 @@ def test_the_reason_of_an_end_is_the_margin_that_vanishes_there(ended: str) -> N
     assert abs(found[smallest]) < 0.02
     others = [value for name, value in found.items() if name != vanishing]
     assert min(others) > 2 * abs(found[smallest])
+
+
+def test_a_branch_in_a_parameter_without_columns_reaches_a_grazing_release() -> None:
+    """Differences of orbits whose dependence on mu_k is a square root there ended it at 0.059185."""
+    case = Parameters(N=400, Omega=14, mu_k=0.07)
+    single = continue_cycle(case, "mu_k", (0.066, 0.071))
+    doubling = next(each for each in single.special if each.kind == "period_doubling")
+    branch = continue_cycle(doubling.case, "mu_k", (0.05, 0.1), guess=doubling.state, releases=2)
+    released = "a grazing release: the pull touches friction's limit where stick ends"
+    assert branch.ended.endswith(released)
+    end = branch.special[-1]
+    assert end.kind == "grazing"
+    # the multiplier grows without bounds towards the grazing; at 0.059185 it is 10
+    assert end.multiplier.real > 1e3
+    shorter = continue_cycle(
+        doubling.case, "mu_k", (0.05, 0.1), guess=doubling.state, releases=2, steps=SHORT
+    )
+    # both end at about the square of the distance at which a difference of orbits fails, 1e-4
+    assert end.values[0] == pytest.approx(shorter.special[-1].values[0], abs=1e-6)
+
+
+def test_a_continuation_tells_how_far_it_is(capsys: pytest.CaptureFixture[str]) -> None:
+    p = Parameters(N=385, Omega=14.9)
+    branch = continue_cycle(p, "Omega", (14.8, 15))
+    assert capsys.readouterr() == ("", "")
+    continue_cycle(p, "Omega", (14.8, 15), progress=True)
+    told = re.findall(
+        r"continue_cycle at Omega = ([0-9.]+) rad/s .* ([0-9]+)/", capsys.readouterr().err
+    )
+    value, count = told[-1]
+    assert 14.8 <= float(value) <= 15
+    assert int(count) == len(branch) - 1  # all but that from which it starts
+    with pytest.raises(ParameterError, match="progress='yes': must be True or False"):
+        continue_cycle(p, "Omega", (14.8, 15), progress="yes")  # type: ignore[arg-type]
 
 
 # ---- Random starts

@@ -4,7 +4,7 @@ closes, or ends.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -51,9 +51,14 @@ class Course:
     last: End
 
 
+def _say_nothing(point: CurvePoint) -> None:
+    """Tell no one of a point."""
+
+
 class Search:
     """The search for a branch of a problem in one parameter, between the bounds of a span, up to
-    the first special point of the kind `stop_at` if there is one."""
+    the first special point of the kind `stop_at` if there is one. It tells of each point that is
+    found along the branch."""
 
     def __init__(
         self,
@@ -61,11 +66,13 @@ class Search:
         steps: StepControl,
         span: tuple[float, float],
         stop_at: str | None = None,
+        tell: Callable[[CurvePoint], None] = _say_nothing,
     ) -> None:
         self.problem = problem
         self.steps = steps
         self.span = span
         self.stop_at = stop_at
+        self.tell = tell
         self.low = span[0] / problem.scales[0]
         self.high = span[1] / problem.scales[0]
         limits = (-np.inf, np.inf) if steps.beyond else (self.low, self.high)
@@ -223,6 +230,7 @@ class _Watch:
 
     def __call__(self, points: list[CurvePoint]) -> bool:
         before, new = points[-2:]
+        self.search.tell(new)
         if len(points) > 3 and self.search.passes(before, new, points[0]):
             points[-1] = points[0]
             self.end = End(ends.CLOSED, "the branch closes on itself")

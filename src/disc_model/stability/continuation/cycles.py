@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from disc_model.display import progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -71,6 +72,7 @@ def continue_cycle(  # noqa: PLR0913
     values: Sequence[Quantity] = (),
     stop_at: str | None = None,
     kind: str = STICK_SLIP,
+    progress: bool = False,
 ) -> Branch:
     """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
 
@@ -93,6 +95,8 @@ def continue_cycle(  # noqa: PLR0913
     stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
+    progress : whether standard error shows how many cycles are found, and at which value of the parameter; how many
+        there will be is not known
 
     Returns
     -------
@@ -138,6 +142,7 @@ def continue_cycle(  # noqa: PLR0913
         (ways, "direction", direction, "must be -1, 0 or 1"),
         (numbers, "values", values, "must be a list of finite numbers"),
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
+        (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
@@ -149,9 +154,15 @@ def continue_cycle(  # noqa: PLR0913
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
     rising = np.zeros(problem.n + 1)
     rising[-1] = 1.0
-    search = Search(problem, steps, span, stop_at)
-    course = search.follow(problem.start(cycle, rising), int(direction))
-    course = search.with_values(course, wanted)
+    with progress_bar("continue_cycle", None, progress) as bar:
+
+        def tell(point: CurvePoint) -> None:
+            bar.describe(f"continue_cycle at {problem.words(point)}")
+            bar.advance()
+
+        search = Search(problem, steps, span, stop_at, tell)
+        course = search.follow(problem.start(cycle, rising), int(direction))
+        course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
 
 

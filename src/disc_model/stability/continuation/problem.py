@@ -49,6 +49,12 @@ SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of inte
 STRETCH = 100.0
 EXACT = 1e-9  # last correction of a point on such a contact; on any other one the first is the last
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
+# Beside a grazing release orbits depend on a parameter like a square root, with a curvature without
+# bounds: a difference of two orbits is that of shorter changes there, until their mean differs from
+# the orbit between them by this share of the difference, whose own error is about its square.
+CURVED = 1e-3
+SHORTER = 0.1
+MOST_SHORTER = 6
 
 WITHOUT_RETURN = {
     "time_over": "the slider slips on without sticking",
@@ -214,22 +220,36 @@ class CycleProblem:
                 by_parameters[:, i] = change * self.scales[i]
                 column += 1
             else:
-                by_parameters[:, i] = self._difference(z, i, releases)
+                by_parameters[:, i] = self._difference(z, residual, i, releases)
         by = np.hstack([jacobian - np.eye(self.n), by_parameters])
         if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
             raise Rejected("the variational equations are singular: a switch is grazed")
         return Evaluation(residual, by, orbit, jacobian)
 
-    def _difference(self, z: Array, i: int, releases: int | None) -> Array:
-        """Derivative of F by the i-th scaled parameter, by a difference of two orbits."""
-        move = np.zeros(len(z))
+    def _difference(self, z: Array, here: Array, i: int, releases: int | None) -> Array:
+        """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of two
+        orbits."""
         change = DIFFERENCE / stretch_of(self.base, self.names[i])
+        for _ in range(MOST_SHORTER):
+            try:
+                ahead, behind = self._beside(z, i, change, releases)
+            except Rejected:  # which a shorter change may pass
+                pass
+            else:
+                bend = (ahead + behind) / 2 - here
+                if np.linalg.norm(bend) <= CURVED * np.linalg.norm(ahead - behind):
+                    break
+            change *= SHORTER
+        else:
+            ahead, behind = self._beside(z, i, change, releases)
+        return np.asarray((ahead - behind) / (2 * change), dtype=float)
+
+    def _beside(self, z: Array, i: int, change: float, releases: int | None) -> tuple[Array, Array]:
+        """F beside z, ahead and behind by a change of the i-th scaled parameter."""
+        move = np.zeros(len(z))
         move[self.n + i] = change
-        ends = []
-        for side in (1, -1):
-            # x stays the same point of the reference's coordinates
-            ends.append(self.residual(z + side * move, releases))
-        return np.asarray((ends[0] - ends[1]) / (2 * change), dtype=float)
+        # x stays the same point of the reference's coordinates
+        return self.residual(z + move, releases), self.residual(z - move, releases)
 
     def place(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
