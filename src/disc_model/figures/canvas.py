@@ -201,8 +201,7 @@ def _make_room(page: Page, wishes: Wishes) -> None:
     """Let axes, labels and legends of a reader's figure not meet, also those of former pictures,
     whose axes have other sizes since this one has been drawn."""
     figure: Any = page.ax.get_figure(root=True)
-    if page.legend is not None:
-        vars(page.legend)[PLACED] = (page, wishes)
+    _remember(page, wishes)
     _DRAWN_ON.update(page.axes)
     panels = {ax: bars_of(ax) for ax in figure.axes if ax in _DRAWN_ON}
     for ax in page.axes:
@@ -215,24 +214,34 @@ def _make_room(page: Page, wishes: Wishes) -> None:
         if len(panels) > len(page.axes):
             break_labels(figure, [*panels, *chain(*panels.values())])
         figure.draw_without_rendering()  # sets the places
-        pictures = [each for each in _pictures_of(figure) if each[0].spare < ROUNDS * SPARE]
-        cramped = [each for each in pictures if not _finds_room(each[0])]
+        cramped = _cramped_in(figure)
         if not cramped:
             break
         for former, asked in cramped:
             former.spare += SPARE
             _write_legend(former, asked)
-            vars(former.legend)[PLACED] = (former, asked)
+            _remember(former, asked)
     if plain:
         fit_to_page(figure, panels)
     for ax in panels:
         part_numbers(ax)
 
 
-def _pictures_of(figure: Any) -> list[tuple[Page, Wishes]]:
-    """The pictures of this package on the axes of a figure whose legends a reader has left alone."""
-    legends = [ax.get_legend() for ax in figure.axes if ax.get_legend() is not None]
-    return [vars(legend)[PLACED] for legend in legends if PLACED in vars(legend)]
+def _remember(page: Page, wishes: Wishes) -> None:
+    """Note at the legend of a picture, if it was placed here, what it belongs to."""
+    if page.legend is not None:
+        vars(page.legend)[PLACED] = (page, wishes)
+
+
+def _cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
+    """The pictures on a figure whose legends have no room, but those that a reader has placed and
+    those that have found none in all rounds."""
+    found = []
+    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
+        page, wishes = vars(legend).get(PLACED, (None, None))
+        if page is not None and page.spare < ROUNDS * SPARE and not _finds_room(page):
+            found.append((page, wishes))
+    return found
 
 
 def _finds_room(page: Page) -> bool:
