@@ -139,7 +139,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.continue_cycle,
         {"case": P, "name": "Omega", "bounds": (10.0, 30.0)},
-        {"guess": "None", "values": "nothing", "stop_at": "None"},
+        {"guess": "None", "values": "nothing", "stop_at": "None", "progress": "True"},
     ),
     (
         StepControl,

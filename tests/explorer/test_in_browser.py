@@ -17,7 +17,7 @@ import disc_model as dm
 from disc_model.explorer import LEVELS, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, lightness
-from disc_model.figures.growth import growth_norm
+from disc_model.figures.colours import growth_norm
 from disc_model.studies.point_calls import SEARCHES, call_of
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import describe

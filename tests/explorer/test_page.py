@@ -20,7 +20,8 @@ from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated
 from disc_model.explorer import study_contents as contents_of
 from disc_model.explorer.contents import _gaps, _named, runs
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
-from disc_model.figures.growth import growth_norm, isolated
+from disc_model.figures.colours import growth_norm
+from disc_model.figures.growth import isolated
 from disc_model.studies.motions import SAMPLES, Motions
 from disc_model.studies.run import describe
 

@@ -40,7 +40,8 @@ LEAST_PANEL = 0.4  # inch
 
 def assert_fit_for_print(figure: Figure) -> None:
     """Nothing lies outside the page or over a title, and all axes are named; an empty panel says
-    why. Panels are not tiny, and numbers along an axis do not overlap."""
+    why. Panels are not tiny, numbers along an axis do not overlap, and no name stands along an axis
+    without them."""
     figure.draw_without_rendering()
     width, height = figure.get_size_inches()
     page = figure.get_tightbbox()
@@ -63,6 +64,7 @@ def assert_fit_for_print(figure: Figure) -> None:
         assert text.get_fontsize() >= 6
     for ax in figure.axes:
         assert_numbers_are_apart(ax)
+        assert not ax.get_xlabel() or ax.xaxis.get_tick_params()["labelbottom"]
         frame = ax.get_window_extent()
         if ax.axison and ax.get_label() != "<colorbar>" and ax.get_subplotspec() is not None:
             assert min(frame.width, frame.height) > LEAST_PANEL * figure.dpi

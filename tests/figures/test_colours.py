@@ -4,12 +4,21 @@ import numpy as np
 import pytest
 import xarray as xr
 from cmcrameri import cm
+from matplotlib import colormaps
 from matplotlib.colors import AsinhNorm, LogNorm
 
-from disc_model.figures.colours import colours_of, counted, within_a_decade
+from disc_model.figures.colours import (
+    ColourWishes,
+    colours_of,
+    counted,
+    growth_colours,
+    is_diverging,
+    within_a_decade,
+)
 
 RATE = xr.DataArray(0.0, name="growth_rate")
 PERIOD = xr.DataArray(0.0, name="period")
+LOG = ColourWishes(log=True)
 
 
 @pytest.mark.parametrize(
@@ -27,32 +36,32 @@ PERIOD = xr.DataArray(0.0, name="period")
 def test_numbers_of_both_signs_are_centred_on_zero_and_others_fill_the_scale(
     numbers: list[float], ends: tuple[float, float], cmap: object
 ) -> None:
-    scale = colours_of(np.array(numbers), PERIOD, log=False)
+    scale = colours_of(np.array(numbers), PERIOD)
     assert (scale.norm.vmin, scale.norm.vmax) == ends
     assert scale.cmap is cmap
 
 
 def test_each_of_few_counts_has_a_colour_of_its_own() -> None:
     counts = xr.DataArray([0, 2], name="releases")
-    scale = colours_of(np.array([0, 2]), counts, log=False)
+    scale = colours_of(np.array([0, 2]), counts)
     assert scale.ticks == ["0", "1", "2"]
     colours = {scale.cmap(scale.norm(i)) for i in range(3)}
     assert len(colours) == 3
-    assert colours_of(np.array([0, 11]), counts, log=False).ticks == [str(i) for i in range(12)]
-    assert not colours_of(np.array([0, 12]), counts, log=False).ticks, "too many"
+    assert colours_of(np.array([0, 11]), counts).ticks == [str(i) for i in range(12)]
+    assert not colours_of(np.array([0, 12]), counts).ticks, "too many"
     middle = counted(4)
     assert middle.norm(1.4) == middle.norm(1)
     assert middle.norm(1.6) == middle.norm(2)
 
 
 def test_a_logarithmic_scale_of_positive_numbers_ends_at_them() -> None:
-    scale = colours_of(np.array([0.02, 3.0, np.nan]), PERIOD, log=True)
+    scale = colours_of(np.array([0.02, 3.0, np.nan]), PERIOD, LOG)
     assert isinstance(scale.norm, LogNorm)
     assert (scale.norm.vmin, scale.norm.vmax) == (0.02, 3.0)
     assert scale.cmap is cm.batlow
     # growth has the red half of the scale of its maps
-    assert colours_of(np.array([3.0]), RATE, log=True).cmap(1.0) == pytest.approx(cm.vik(1.0))
-    one = colours_of(np.array([5.0]), PERIOD, log=True).norm
+    assert colours_of(np.array([3.0]), RATE, LOG).cmap(1.0) == pytest.approx(cm.vik(1.0))
+    one = colours_of(np.array([5.0]), PERIOD, LOG).norm
     assert (one.vmin, one.vmax) == (5.0, 50.0)
 
 
@@ -66,13 +75,14 @@ def test_a_logarithmic_scale_of_positive_numbers_ends_at_them() -> None:
         ([0.0, 0.0], (0, 1), 1.0, [0, 1]),
         ([-0.7, -0.5], (-0.7, -0.5), 0.5, [-0.7, -0.5]),
         ([0.0, 0.7, 0.5], (0, 0.7), 0.5, [0, 0.7]),
+        ([-1.13, -0.29], (-1.13, -0.29), 0.29, [-1.13, -0.29]),
     ],
 )
 def test_a_logarithmic_scale_passes_through_zero(
     numbers: list[float], ends: tuple[float, float], linear: float, places: list[float]
 ) -> None:
     """Cells of negative numbers stayed blank, and the legend did not say so."""
-    scale = colours_of(np.array([*numbers, np.nan]), PERIOD, log=True)
+    scale = colours_of(np.array([*numbers, np.nan]), PERIOD, LOG)
     assert isinstance(scale.norm, AsinhNorm)
     assert (scale.norm.vmin, scale.norm.vmax) == ends
     assert scale.norm.linear_width == pytest.approx(linear)
@@ -83,3 +93,75 @@ def test_a_logarithmic_scale_passes_through_zero(
 @pytest.mark.parametrize(("ends", "within"), [((2, 19), True), ((2, 20), False), ((2, 300), False)])
 def test_further_ticks_are_needed_within_a_decade(ends: tuple[float, float], within: bool) -> None:
     assert within_a_decade(LogNorm(*ends)) is within
+
+
+DECAY = np.array([-1.13, -0.5, -0.29])
+GROWTH = np.array([-0.2, 0.05, 0.1])
+
+
+@pytest.mark.parametrize(
+    ("rates", "wishes", "ends"),
+    [
+        (DECAY, ColourWishes(), (-1.13, 1.13)),
+        (DECAY, ColourWishes(cmap="viridis"), (-1.13, -0.29)),
+        (DECAY, ColourWishes(cmap="RdBu_r"), (-1.13, -0.29)),
+        (DECAY, ColourWishes(log=True), (-1.13, -0.29)),
+        (DECAY, ColourWishes(limits=(-1.0, -0.5)), (-1.0, -0.5)),
+        (GROWTH, ColourWishes(), (-0.3, 0.3)),
+        (GROWTH, ColourWishes(cmap="viridis"), (-0.2, 0.1)),
+        (GROWTH, ColourWishes(cmap="RdBu_r"), (-0.3, 0.3)),
+        (GROWTH, ColourWishes(log=True), (-0.3, 0.3)),
+        (GROWTH, ColourWishes(limits=(-0.1, 0.6)), (-0.6, 0.6)),
+        (GROWTH, ColourWishes(limits=(0.0, 0.6)), (0.0, 0.6)),
+    ],
+)
+def test_growth_rates_fill_a_scale_that_is_not_around_zero(
+    rates: np.ndarray, wishes: ColourWishes, ends: tuple[float, float]
+) -> None:
+    """Rates of one sign in other colours were one dark colour, and `log` changed nothing."""
+    scale = growth_colours(rates, wishes)
+    assert (scale.norm.vmin, scale.norm.vmax) == pytest.approx(ends)
+
+
+def test_a_logarithmic_scale_of_decays_differs_from_a_linear_one() -> None:
+    linear, log = (
+        growth_colours(DECAY, ColourWishes(log=log, cmap="viridis")) for log in (False, True)
+    )
+    assert linear.norm(-0.5) == pytest.approx((1.13 - 0.5) / (1.13 - 0.29))
+    # nearly that of the logarithms, which is 0.60
+    assert log.norm(-0.5) < linear.norm(-0.5) - 0.05
+
+
+def test_limits_are_the_ends_of_any_scale_and_what_lies_beyond_is_said() -> None:
+    numbers = np.array([1.0, 3.0, 20.0])
+    scale = colours_of(numbers, PERIOD, ColourWishes(limits=(2.0, 30.0)))
+    assert (scale.norm.vmin, scale.norm.vmax) == (2.0, 30.0)
+    assert scale.open_ends == (True, False)
+    assert colours_of(numbers, PERIOD).open_ends == (False, False)
+    log = colours_of(numbers, PERIOD, ColourWishes(log=True, limits=(0.1, 100.0)))
+    assert isinstance(log.norm, LogNorm)
+    assert (log.norm.vmin, log.norm.vmax) == (0.1, 100.0)
+
+
+@pytest.mark.parametrize(
+    ("name", "diverges"),
+    [
+        ("RdBu_r", True),
+        ("coolwarm", True),
+        ("cmc.vik", True),
+        ("cmc.berlin", True),
+        ("viridis", False),
+        ("gray", False),
+        ("cmc.batlow", False),
+        ("Reds", False),
+    ],
+)
+def test_diverging_colours_have_a_middle(name: str, diverges: bool) -> None:
+    assert is_diverging(colormaps.get_cmap(name)) is diverges
+
+
+def test_counts_have_colours_of_the_whole_of_another_map() -> None:
+    """The first colours of 256 stood for them, which were all dark."""
+    scale = counted(3, "viridis")
+    viridis = colormaps.get_cmap("viridis")
+    assert scale.cmap(scale.norm(2)) == pytest.approx(viridis(2 / 3))

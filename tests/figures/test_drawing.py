@@ -2,6 +2,7 @@
 
 import json
 
+import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
@@ -41,6 +42,22 @@ def test_many_decades_are_powers_of_ten() -> None:
     figure.draw_without_rendering()
     said = [text.get_text() for text in ax.get_yticklabels()]
     assert any("10^{-2}" in text for text in said)
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("width", [1.2, 2.0, 3.3])
+@pytest.mark.parametrize("ends", [(1.0, 10.0), (0.9, 8.0), (2.0, 40.0), (0.1, 1e4), (1.0, 1e9)])
+def test_numbers_along_a_narrow_logarithmic_axis_are_apart(
+    width: float, ends: tuple[float, float]
+) -> None:
+    figure, ax = pyplot.subplots(figsize=(width, 1.5), layout="constrained")
+    ax.set(xscale="log", xlim=ends)
+    plain_decades(ax.xaxis)
+    figure.draw_without_rendering()
+    assert_numbers_are_apart(ax)
+    low, high = ends
+    ticks = ax.get_xticks()
+    assert np.count_nonzero((ticks >= low) & (ticks <= high)) >= 2
     pyplot.close(figure)
 
 

@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from disc_model.errors import ParameterError
 from disc_model.figures import curve, heat_map, selection
 from disc_model.figures.drawing import save
+from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -111,6 +112,32 @@ def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
     counts = mapped(study, "releases")
     assert isinstance(mesh(counts).norm, BoundaryNorm)
     assert [text.get_text() for text in counts.axes[-1].get_yticklabels()] == ["0", "1", "2"]
+
+
+def test_limits_end_the_scale_of_a_map(study: xr.Dataset) -> None:
+    """In the unit of the bar: periods in ms."""
+    figure = mapped(study, "period", limits=[1000.0, 1050.0])
+    norm = mesh(figure).norm
+    assert (norm.vmin, norm.vmax) == (1000.0, 1050.0)
+    [bar] = [each.colorbar for ax in figure.axes for each in ax.collections if each.colorbar]
+    assert bar.extend == "max"
+    rates = mesh(mapped(study, "growth_rate", limits=[-0.2, -0.1])).norm
+    assert (rates.vmin, rates.vmax) == (-0.2, -0.1)
+    with pytest.raises(ParameterError, match=r"limits=.*: is for maps of numbers"):
+        mapped(study, "status", limits=[0.0, 1.0])
+
+
+@pytest.mark.parametrize("kind", ["heat_map", "curve"])
+def test_limits_that_do_not_ascend_are_a_fault(kind: str) -> None:
+    asked = {"kind": kind, "variable": "v", "x": "N", "limits": [1.0, 0.5]}
+    dims = {"N": [1.0, 2.0]}
+    if kind == "heat_map":
+        asked["y"] = "Omega"
+        dims["Omega"] = [1.0, 2.0]
+    plot = kind_of(kind).model_validate(asked)
+    [fault] = plot.faults_among(dims, {"v": tuple(dims)})
+    assert "limits" in str(fault)
+    assert "two ascending values" in str(fault)
 
 
 def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) -> None:
@@ -224,7 +251,8 @@ def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, 
     [
         ("m", [0.01, 0.1, 1.0], "log"),
         ("D_star", [0.0, 1e-6, 1e-4], "linear"),
-        ("Omega", [1.0, 10.0, 100.0], "linear"),
+        ("Omega", [1.0, 10.0, 99.0], "linear"),
+        ("Omega", [1.0, 10.0, 100.0], "log"),
     ],
 )
 def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:

@@ -10,7 +10,8 @@ from matplotlib.patches import PathPatch
 
 from disc_model.figures.cells import edges_of, lay_over
 from disc_model.figures.classes import STABLE
-from disc_model.figures.growth import growth_norm, growth_panels
+from disc_model.figures.colours import growth_norm
+from disc_model.figures.growth import growth_panels
 from disc_model.figures.heat_map import draw_maps
 
 SPEEDS = [10.0, 11.0, 12.0]

@@ -66,6 +66,26 @@ def test_values_over_more_than_a_decade_are_on_a_logarithmic_scale(
     assert scale_of("Omega", places) == "linear"
 
 
+@pytest.mark.parametrize(
+    ("values", "scale"),
+    [
+        (np.geomspace(2, 40, 12), "log"),
+        (np.geomspace(40, 2, 12), "log"),
+        (np.geomspace(1, 10, 3), "log"),
+        (np.geomspace(2, 19, 12), "linear"),
+        (np.linspace(2, 40, 12), "linear"),
+        (np.geomspace(2, 40, 12).round(1), "linear"),
+        (np.array([1.0, 10.0]), "linear"),
+        (-np.geomspace(2, 40, 12), "linear"),
+    ],
+)
+def test_equal_ratios_over_a_decade_are_on_a_logarithmic_scale(
+    values: np.ndarray, scale: str
+) -> None:
+    """Speeds of `numpy.geomspace` stood on a linear axis, most of them at its end."""
+    assert scale_of("Omega", values) == scale
+
+
 def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
     ax = pyplot.figure().subplots()
     light = to_rgba(LOOKS["quiet"].face)
@@ -238,6 +258,8 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     figure = draw("late_range", study, by="disc", thickness=0.01)
     lines = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
+    column = draw("late_range", study, by="disc", thickness=0.01, width="column")
+    assert [bool(ax.get_xlabel()) for ax in column.axes] == [False, True]
     named = {"8 kN", "with separation", "separates", "beyond linear plate theory"}
     assert named <= set(labels(figure))
     assert not [ax for ax in figure.axes if ax.texts], "lines would lie on it"

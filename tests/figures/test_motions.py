@@ -21,7 +21,7 @@ from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
-from disc_model.figures.late_range import LOAD_COLOURS, LOST
+from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
@@ -531,6 +531,8 @@ def test_lines_of_phases_differ_in_grey_print() -> None:
     }
     assert len(looks) == 3
     assert len({*looks.values()}) == 3
+    dashed = [line.get_label() for line in ax.lines if line.is_dashed()]
+    assert dashed == ["separation"]
     # where slip runs along stick, the colour of stick is seen on either side
     assert looks["stick"][0] > 3 * looks["slip"][0]
 
@@ -540,6 +542,10 @@ def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
     assert len({*map(str, LOST)}) == len(LOAD_COLOURS), "also lines at which contact is lost"
     shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
     assert min(np.diff(shades)) > 0.2
+    widths = np.array(LOAD_WIDTHS)
+    assert widths.size == len(LOAD_COLOURS)
+    # in a column lines of black and blue were alike
+    assert min(abs(np.diff(np.log(widths)))) > np.log(1.3)
 
 
 @pytest.mark.parametrize(

@@ -300,6 +300,21 @@ def test_branches_on_the_same_axes_share_a_legend() -> None:
     assert {*colours} <= drawn
 
 
+def test_a_doubled_branch_is_named_by_its_releases() -> None:
+    """The first was "branch 1", and both needed names by hand."""
+    case = dm.Parameters(N=400, Omega=14, mu_k=0.0675)
+    bounds = (0.0671, 0.0685)
+    single = dm.continue_cycle(case, "mu_k", bounds)
+    [start] = [special for special in single.special if special.kind == "period_doubling"]
+    doubled = dm.continue_cycle(start.case, "mu_k", bounds, guess=start.state, releases=2)
+    ax = single.plot("period")
+    doubled.plot("period", ax=ax)
+    words = [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    assert words[:2] == ["1 release per period", "2 releases per period"]
+    again = dm.Branch.from_dataset(doubled.to_dataset())
+    assert {*again.releases.tolist()} == {2}
+
+
 def test_a_title_says_what_all_branches_have_in_common() -> None:
     """It was that of the first one."""
     cases = [QUIET.replace(N=N, m=0.11) for N in (380, 385)]

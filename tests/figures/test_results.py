@@ -156,6 +156,31 @@ def test_ramps_are_shaded_with_their_values(count: int, entries: list[str]) -> N
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("count", [1, 3])
+def test_ramps_of_two_parameters_differ_in_grey_print(count: int) -> None:
+    """Both were of one grey in the legend."""
+    ramps = []
+    for i in range(count):
+        start = 0.3 * i
+        ramps.append(dm.Ramp(parameter="Omega", to=14 + i, start=start, end=start + 0.1))
+        ramps.append(dm.Ramp(parameter="N", to=380 + i, start=start + 0.15, end=start + 0.2))
+    window = dm.Window(start=0, rate=500)
+    ramped = dm.simulate(P.replace(Omega=15.1), 1.2, {"all": window}, ramps=tuple(ramps))
+    ax = ramped.plot("all", variables=["P"])
+    [legend] = ax.figure.legends
+    said = [text.get_text() for text in legend.get_texts()]
+    handles = dict(zip(said, legend.legend_handles, strict=True))
+    of_speed, of_load = (
+        [handle.get_hatch() for text, handle in handles.items() if symbol in text]
+        for symbol in ("Ω", "N ")
+    )
+    if count > 1:  # one entry for many
+        assert said[:2] == ["ramps of Ω", "ramps of N"]
+        of_load = [handles["ramps of N"].get_hatch()]
+    assert of_speed[0] != of_load[0]
+    pyplot.close("all")
+
+
 def test_a_film_has_its_frames(tmp_path: Path) -> None:
     path = tmp_path / "film.gif"
     run().animate(path, frames=3)

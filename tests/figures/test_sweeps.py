@@ -288,6 +288,112 @@ def test_legends_of_maps_beside_each_other_do_not_meet(size: int) -> None:
     pyplot.close("all")
 
 
+def boxes_of(ax: Any) -> list[Any]:
+    """Where axes and bars of theirs are and what they say, labels, titles and numbers; and their
+    legend."""
+    bars = [mesh.colorbar.ax for mesh in ax.collections if mesh.colorbar is not None]
+    boxes = [each.get_tightbbox() for each in (ax, *bars)]
+    if ax.get_legend() is not None:
+        boxes.append(ax.get_legend().get_window_extent())
+    return boxes
+
+
+def assert_apart(figure: Any) -> None:
+    """No panel of a figure, its bar and legend included, meets another or leaves the page."""
+    figure.draw_without_rendering()
+    groups = [boxes_of(ax) for ax in figure.axes if ax.get_label() != "<colorbar>"]
+    for i, group in enumerate(groups):
+        for box in group:
+            # a pixel, to which places are rounded
+            assert min(box.x0, box.y0) >= -1
+            assert box.x1 <= figure.bbox.x1 + 1
+            assert box.y1 <= figure.bbox.y1 + 1
+            for other in groups[i + 1 :]:
+                assert not box.padded(-1).count_overlaps(other)
+    for ax in figure.axes:
+        legend = ax.get_legend()
+        if legend is not None:
+            texts = [*legend.get_texts(), legend.get_title()]
+            inside = legend.get_window_extent().padded(1)
+            corners = [text.get_window_extent().corners() for text in texts if text.get_text()]
+            assert all(inside.count_contains(each) == len(each) for each in corners)
+
+
+@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
+def test_three_maps_beside_each_other_keep_their_legends_apart(order: tuple[int, ...]) -> None:
+    """Axes move when another picture is drawn: "growing, in contact" was cut by the next legend."""
+    draws: list[Callable[..., Any]] = [
+        lambda ax: dm.plot_sweep(outcomes(), "outcome", ax=ax),
+        lambda ax: dm.plot_sweep(rates(), ax=ax),
+        lambda ax: dm.plot_sweep(outcomes(), "first_separation", ax=ax),
+    ]
+    with pyplot.rc_context({"font.size": 8, "font.family": "serif"}):
+        figure, axes = pyplot.subplots(1, 3, figsize=(174 / 25.4, 2.8), layout="constrained")
+        for i in order:
+            draws[i](ax=axes[i])
+        assert_apart(figure)
+    for ax in axes:
+        assert ax.bbox.height > 0.4 * figure.bbox.height
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_four_maps_in_two_rows_keep_what_they_say_apart(layout: str | None) -> None:
+    """On plain axes a title stood in the legend above it, and a bar's label in the next panel."""
+    with pyplot.rc_context({"font.size": 8}):
+        figure, axes = pyplot.subplots(2, 2, figsize=(174 / 25.4, 5), layout=layout)
+        dm.plot_sweep(outcomes(), "outcome", ax=axes[0, 0], title="(a) outcome")
+        dm.plot_sweep(rates(), ax=axes[0, 1], title="(b) growth")
+        dm.plot_sweep(rates(), ax=axes[1, 0], title="(c) growth")
+        dm.plot_sweep(outcomes(), "outcome", ax=axes[1, 1], title="(d) outcome")
+        assert_apart(figure)
+    for ax in axes.flat:
+        assert ax.bbox.height > 0.15 * figure.bbox.height
+        assert ax.bbox.width > 0.2 * figure.bbox.width
+    pyplot.close("all")
+
+
+def test_a_legend_covers_no_point_after_further_panels_are_drawn() -> None:
+    """The highest value, alone among others, was below "at or below the lower bound"."""
+    rng = np.random.default_rng(4)  # matplotlib's best place of a legend covers a point of these
+    columns = {name: rng.uniform(0, 1, 24) for name in ("mu_s", "mu_k", "m")}
+    values = np.where(np.arange(24) < 18, 8.0, 8.0 + 0.2 * rng.uniform(0, 1, 24))
+    values[0] = 8.39
+    places = {name: ("sample", column) for name, column in columns.items()}
+    words = {"long_name": "critical value of speed of the drive point", "units": "rad s-1"}
+    data = {"value": ("sample", values, words), "at_lower_bound": ("sample", values == 8.0)}
+    study = xr.Dataset(data, places)
+    figure, axes = pyplot.subplots(1, 3, figsize=(12, 3.5), layout="constrained")
+    for name, ax in zip(columns, axes, strict=True):
+        dm.plot_sweep(study, "value", x=name, ax=ax)
+    figure.draw_without_rendering()
+    for ax in axes:
+        box = ax.get_legend().get_window_extent()
+        for line in ax.lines:
+            radius = 0.5 * line.get_markersize() * figure.dpi / 72
+            points = line.get_transform().transform(line.get_xydata())
+            assert not box.padded(radius).count_contains(points)
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("columns", [1, 3])
+def test_values_with_equal_ratios_stand_on_a_logarithmic_axis(columns: int) -> None:
+    speeds = np.geomspace(2, 40, 12)
+    axes_of = {"N": [100.0, 200.0], "Omega": speeds}
+    data = {"value": ([*axes_of], np.ones((2, 12)) * speeds)}
+    study = xr.Dataset(data, axes_of)
+    size = (84 * min(columns, 2) / 25.4, 2.5)
+    figure, axes = pyplot.subplots(1, columns, figsize=size, layout="constrained", squeeze=False)
+    for ax in axes.flat[:-1]:
+        dm.plot_sweep(study, x="Omega", ax=ax)
+    dm.plot_sweep(study.isel(N=0), ax=axes[0, -1])
+    figure.draw_without_rendering()
+    for ax in axes.flat:
+        assert ax.get_xscale() == "log"
+        assert_numbers_are_apart(ax)
+    pyplot.close("all")
+
+
 def long_names() -> xr.Dataset:
     """Outcomes of which one has a long name."""
     study = outcomes()

@@ -1,6 +1,7 @@
 """What a reader asks of pictures: own axes, legend, labels, title and settings of matplotlib."""
 
 import functools
+import warnings
 from collections.abc import Callable
 from typing import Any
 
@@ -11,7 +12,8 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
-from disc_model.figures.placing import check_room
+from disc_model.figures.labels import titles_of
+from disc_model.figures.placing import Row, check_room
 from disc_model.figures.sizes import COLUMN, PAGE
 from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
 
@@ -281,8 +283,10 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     study = growth()
     partly = study.assign(growth_rate=study["growth_rate"].where(study["Omega"] < 13))
     _, ax = pyplot.subplots(figsize=(40 / 25.4, 40 / 25.4), layout="constrained")
-    with pytest.raises(dm.ParameterError, match=r"ax=.*: must have room beside a colour bar"):
-        dm.plot_sweep(partly, ax=ax)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")  # the error says it
+        with pytest.raises(dm.ParameterError, match=r"ax=.*: must have room beside a colour bar"):
+            dm.plot_sweep(partly, ax=ax)
     figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
     dm.plot_sweep(partly, ax=ax)
     assert min(ax.bbox.width, ax.bbox.height) / figure.dpi * 25.4 > 20
@@ -342,3 +346,62 @@ def test_a_legend_of_a_map_stands_above_the_next_row_of_plain_axes() -> None:
     assert above.y0 > axes[1].bbox.y1
     assert below.y0 >= 0
     pyplot.close(figure)
+
+
+@pytest.mark.parametrize("row", [0, 1])
+def test_a_run_in_a_grid_of_other_pictures_has_its_labels(row: int) -> None:
+    """In an upper row it had neither time nor numbers, in a further column no force."""
+    _, axes = pyplot.subplots(2, 2, figsize=(PAGE, 4), layout="constrained")
+    ax = axes[row, 1]
+    DRAWN["run"](ax=ax)
+    assert ax.get_xlabel() == "Time (s)"
+    assert "(N)" in ax.get_ylabel()
+    shown = ax.xaxis.get_tick_params()["labelbottom"], ax.yaxis.get_tick_params()["labelleft"]
+    assert shown == (True, True)
+
+
+def test_variables_beside_each_other_have_labels_and_those_below_each_other_share_them() -> None:
+    beside = pyplot.subplots(1, 2)[1]
+    run().plot("late", variables=["P", "u"], ax=beside)
+    assert [ax.get_xlabel() for ax in beside] == ["Time (s)", "Time (s)"]
+    stacked = pyplot.subplots(2, 1)[1]
+    run().plot("late", variables=["P", "u"], ax=stacked)
+    assert [ax.get_xlabel() for ax in stacked] == ["", "Time (s)"]
+    units = [ax.get_ylabel().rpartition(" ")[2] for ax in stacked]
+    assert units == ["(N)", "(mm)"]
+
+
+def test_words_of_a_panel_fit_it_after_others_have_made_it_narrower() -> None:
+    """The title of the first panel ran into the second one."""
+    with mpl.rc_context({"font.size": 8}):
+        figure, axes = pyplot.subplots(2, 2, figsize=(PAGE, 5), layout="constrained")
+        DRAWN["eigenvalues"](ax=axes[0, 0])
+        assert "\n" not in axes[0, 0].get_title(loc="left")
+        for ax in axes.flat[1:]:
+            DRAWN["map"](ax=ax)
+        figure.draw_without_rendering()
+    [title] = titles_of(axes[0, 0])
+    assert title.get_window_extent().x1 < axes[0, 1].bbox.x0
+
+
+def test_a_reader_keeps_words_that_replace_broken_ones() -> None:
+    _, axes = pyplot.subplots(1, 2, figsize=(COLUMN, 2), layout="constrained")
+    DRAWN["line"](ax=axes[0])
+    assert "\n" in axes[0].get_ylabel()
+    axes[0].set_ylabel("my\nrate")
+    DRAWN["line"](ax=axes[1])
+    assert axes[0].get_ylabel() == "my\nrate"
+
+
+@pytest.mark.parametrize(
+    ("gap", "wider", "least", "size"),
+    [(0.2, 0.0, 0.1, 0.25), (0.2, 0.1, 0.1, 0.1833), (0.2, 0.3, 0.1, 0.1), (0.2, 0.3, 0.3, 0.25)],
+)
+def test_gaps_are_widened_while_panels_keep_their_least_size(
+    gap: float, wider: float, least: float, size: float
+) -> None:
+    """Three panels and two gaps of a fifth of them: 0.25 and 0.05 of 0.85."""
+    row = Row(0.85, 3, gap)
+    found = row.gap_in(0.85, wider, least)
+    assert 0.85 / (3 + 2 * found) == pytest.approx(size, abs=1e-4)  # as they are written above
+    assert Row(0.85, 1, gap).gap_in(0.85, wider, least) == gap

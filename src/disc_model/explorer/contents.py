@@ -13,13 +13,8 @@ import xarray as xr
 from disc_model.data.variables import SHOWN, attributes
 from disc_model.explorer.marks import marked_cells
 from disc_model.figures.classes import LOOKS, Look, looks_of
-from disc_model.figures.growth import (
-    MAP_LOOKS,
-    NEGATIVE,
-    classes_without_rate,
-    growth_norm,
-    is_growth,
-)
+from disc_model.figures.colours import growth_norm, is_growth
+from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, classes_without_rate
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.words import (
     NO_VALUE,

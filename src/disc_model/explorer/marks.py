@@ -11,7 +11,8 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import MARKED, unresolved_motions
 from disc_model.figures.classes import UNRESOLVED, Look
-from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, is_growth, marks_of
+from disc_model.figures.colours import is_growth
+from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, marks_of
 from disc_model.figures.selection import shown_words, statuses
 from disc_model.figures.types import Mask
 

@@ -75,7 +75,7 @@ def plot_branch(
         page.explain([*handles, *special])
         page.joins = True
         values_of_case = stated_values(branch.case, *branch.parameters)
-        join_family(page, Shown(name, values_of_case, handles, special))
+        join_family(page, Shown(name, values_of_case, int(branch.releases[0]), handles, special))
     return page.ax
 
 

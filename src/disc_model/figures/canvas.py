@@ -1,20 +1,31 @@
 """The page of a picture that a result draws of itself: a figure of its own, or a reader's axes, and
 what the reader asks of its legend, labels and title."""
 
+import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from inspect import signature
+from itertools import chain
 from typing import Any, Literal
+from weakref import WeakSet
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
+from disc_model.figures.colours import bars_of
 from disc_model.figures.drawing import large, readers_style
 from disc_model.figures.labels import break_labels, part_numbers
-from disc_model.figures.legends import figure_legend, keep_height, legend_below, legend_inside
+from disc_model.figures.legends import (
+    figure_legend,
+    finds_room_below,
+    finds_room_inside,
+    keep_height,
+    legend_below,
+    legend_inside,
+)
 from disc_model.figures.placing import check_room, fit_to_page
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
@@ -22,6 +33,10 @@ from disc_model.figures.words import head_text
 Place = Literal["inside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+ROUNDS = 4  # in which legends find their places after axes have got other sizes
+SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
+PLACED = "_disc_model_placed"
+"""Attribute of a legend that has been placed here: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
@@ -77,6 +92,8 @@ class Page:
     joins : whether the entries of a legend that the axes have are kept
     replaced : words of such entries that are not
     bars : axes of bars of colours
+    legend : the one that was written beside a reader's axes, unless the reader has placed it
+    spare : inches beside a legend below a reader's axes that it leaves free
     is_map : whether a new figure grows so that its panels keep their height beside the legend
     """
 
@@ -89,6 +106,8 @@ class Page:
     joins: bool = False
     replaced: Collection[str] = ()
     bars: Sequence[Axes] = field(default_factory=list)
+    legend: Any = None
+    spare: float = 0.0
     is_map: bool = False
 
     @property
@@ -133,7 +152,9 @@ def page_for(
         with style:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in before]
-            _finish(page, wishes)
+            with warnings.catch_warnings():  # of sizes before everything has its place
+                warnings.filterwarnings("ignore", message="constrained_layout not applied")
+                _finish(page, wishes)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -162,21 +183,72 @@ def _finish(page: Page, wishes: Wishes) -> None:
     figure: Any = page.ax.get_figure(root=True)
     _restate(page, wishes)
     shown = [*page.axes, *page.bars]
-    unbroken = break_labels(figure, shown)  # long ones would leave the legend no room
+    break_labels(figure, shown)  # long ones would leave the legend no room
     _write_legend(page, wishes)
-    for ax in shown:  # which may be lower or narrower now
-        for label in (ax.xaxis.label, ax.yaxis.label):
-            label.set_text(unbroken.get(label, ""))
-    break_labels(figure, shown)
+    break_labels(figure, shown)  # of axes that may be lower or narrower now
     if page.beside == "below":  # also below labels that have more lines now
         _write_legend(page, wishes)
-    for ax in page.axes:
-        part_numbers(ax)
-    if figure.get_layout_engine() is None:
-        for ax in page.axes:
-            fit_to_page(ax, page.bars)
+    _make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
+
+
+_DRAWN_ON: WeakSet[Axes] = WeakSet()
+"""Axes of readers that have a picture of this package."""
+
+
+def _make_room(page: Page, wishes: Wishes) -> None:
+    """Let axes, labels and legends of a reader's figure not meet, also those of former pictures,
+    whose axes have other sizes since this one has been drawn."""
+    figure: Any = page.ax.get_figure(root=True)
+    _remember(page, wishes)
+    _DRAWN_ON.update(page.axes)
+    panels = {ax: bars_of(ax) for ax in figure.axes if ax in _DRAWN_ON}
+    for ax in page.axes:
+        part_numbers(ax)
+
+    plain = figure.get_layout_engine() is None
+    for _ in range(ROUNDS):
+        if plain:
+            fit_to_page(figure, panels)
+        if len(panels) > len(page.axes):
+            break_labels(figure, [*panels, *chain(*panels.values())])
+        figure.draw_without_rendering()  # sets the places
+        cramped = _cramped_in(figure)
+        if not cramped:
+            break
+        for former, asked in cramped:
+            former.spare += SPARE
+            _write_legend(former, asked)
+            _remember(former, asked)
+    if plain:
+        fit_to_page(figure, panels)
+    for ax in panels:
+        part_numbers(ax)
+
+
+def _remember(page: Page, wishes: Wishes) -> None:
+    """Note at the legend of a picture, if it was placed here, what it belongs to."""
+    if page.legend is not None:
+        vars(page.legend)[PLACED] = (page, wishes)
+
+
+def _cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
+    """The pictures on a figure whose legends have no room, but those that a reader has placed and
+    those that have found none in all rounds."""
+    found = []
+    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
+        page, wishes = vars(legend).get(PLACED, (None, None))
+        if page is not None and page.spare < ROUNDS * SPARE and not _finds_room(page):
+            found.append((page, wishes))
+    return found
+
+
+def _finds_room(page: Page) -> bool:
+    """Whether the legend of a picture covers nothing, and meets nothing beside it."""
+    if page.beside == "below":
+        return finds_room_below(page.axes[-1], page.bars)
+    return finds_room_inside(page.ax)
 
 
 def _given(ax: Any, count: int) -> list[Axes]:
@@ -256,8 +328,12 @@ def _write_legend(page: Page, wishes: Wishes) -> None:
             raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
     elif page.figure.get_gid() == OWN:
         figure_legend(page.figure, page.handles, title=page.heading)
-    elif page.beside == "below":
-        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)
-    elif not legend_inside(page.ax, page.handles, title=page.heading):
-        page.beside = "below"
-        legend_below(page.axes[-1], page.handles, page.bars, title=page.heading)
+    else:
+        if page.beside == "inside":
+            page.legend = legend_inside(page.ax, page.handles, title=page.heading)
+        if page.beside == "below" or page.legend is None:
+            page.beside = "below"
+            last = page.axes[-1]
+            page.legend = legend_below(
+                last, page.handles, page.bars, page.spare, title=page.heading
+            )

@@ -20,6 +20,10 @@ Colours = Array  # red, green, blue and opacity along the last dimension
 
 DECADES_FROM = 15
 """Ratio of the largest to the least positive value from which a scale may be logarithmic."""
+DECADE = 10.0
+"""Ratio of the largest to the least of values with equal ratios from which their scale is logarithmic."""
+SAME_RATIO = 1e-6
+"""Relative difference of ratios of neighbours that count as equal."""
 MARKED = {**LOOKS, UNRESOLVED.label: UNRESOLVED}
 """Looks of classes, and of the mark of unresolved ones."""
 
@@ -36,8 +40,10 @@ class Edges(NamedTuple):
 
 
 def scale_of(name: str, values: Array) -> str:
-    """Scale of the axis of a parameter: "log" for values over decades, most at the lower end,
-    "symlog" if they begin at 0, or "linear"."""
+    """Scale of the axis of a parameter: "log" for values over a decade or more with equal ratios,
+    and for others over decades, most at the lower end; "symlog" if these begin at 0; or "linear"."""
+    if is_geometric(values):
+        return "log"
     positive = values[values > 0]
     if name in ("N", "Omega") or positive.size < 2:
         return "linear"
@@ -46,6 +52,17 @@ def scale_of(name: str, values: Array) -> str:
     if not (over_decades and mostly_low):
         return "linear"
     return "log" if values[0] > 0 else "symlog"
+
+
+def is_geometric(values: Array) -> bool:
+    """Whether three or more positive values, over a decade or more, have equal ratios, as those of
+    `numpy.geomspace`."""
+    if values.size < 3 or not (values > 0).all():
+        return False
+    ratios = values[1:] / values[:-1]
+    equal = ratios.max() <= (1 + SAME_RATIO) * ratios.min()
+    span = values.max() / values.min()
+    return bool(equal and span >= DECADE * (1 - SAME_RATIO))
 
 
 def edges_of(plane: xr.DataArray) -> Edges:

@@ -1,7 +1,8 @@
-"""Colours of numbers on a map: of counts, of values of one sign or two, and on a logarithmic scale."""
+"""Colours of numbers on a map: of counts, of values of one sign or two, of growth rates, and on a
+logarithmic scale."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,61 +17,178 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
-from matplotlib.ticker import FixedLocator, Formatter
+from matplotlib.ticker import Formatter
 
 from disc_model.errors import require
-from disc_model.figures.growth import is_growth
-from disc_model.figures.types import Axes
+from disc_model.figures.classes import WEIGHTS
+from disc_model.figures.drawing import parents_of_bar
+from disc_model.figures.types import Array, Axes, FigureBase
 
 FEW = 12  # counts below which each has a colour of its own
 SPAN = 1e3  # of a logarithmic scale on each side of zero, from where it is linear to its end
 MOST_TICKS = 3  # on each side of zero
+NEAR = 0.2  # of the larger end of a scale, where another number would meet that of an end
+GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
+COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
+LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
+EXTENDS = {
+    (False, False): "neither",
+    (True, False): "min",
+    (False, True): "max",
+    (True, True): "both",
+}
+"""What matplotlib calls the ends of a bar beyond which there are numbers, below and above."""
+LIGHTER = 0.2  # lightness of the middle of diverging colours over that of both ends, at least
+
+
+@dataclass(frozen=True)
+class ColourWishes:
+    """What a reader asks of the colours of a map of numbers.
+
+    log : whether the scale is logarithmic
+    cmap : another colour map of matplotlib, or its name
+    limits : numbers at the ends of the scale, in the unit of its bar
+    """
+
+    log: bool = False
+    cmap: str | Colormap | None = None
+    limits: tuple[float, float] | None = None
+
+    @property
+    def has_no_middle(self) -> bool:
+        """Whether the colours asked for say nothing of a sign: their middle is not set apart."""
+        return self.cmap is not None and not is_diverging(colormaps.get_cmap(self.cmap))
+
+    def refuse(self) -> None:
+        """Raise `ParameterError` where there are no colours of numbers to choose."""
+        rule = "is for maps of numbers: classes and lines have colours of their own"
+        require(
+            (self.cmap is None, "cmap", self.cmap, rule),
+            (self.limits is None, "limits", self.limits, rule),
+        )
+
+
+USUAL = ColourWishes()
 
 
 @dataclass(frozen=True)
 class Scale:
     """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar: words if each
-    number has a colour of its own, or places on a logarithmic scale through zero."""
+    number has a colour of its own, or places on a logarithmic scale through zero.
+
+    open_ends : whether numbers lie beyond the scale, below and above
+    """
 
     cmap: Colormap
     norm: Normalize
     ticks: Sequence[str] = ()
     places: Sequence[float] = ()
+    open_ends: tuple[bool, bool] = (False, False)
 
 
-def colours_of(numbers: np.ndarray, array: xr.DataArray, log: bool) -> Scale:
+def colours_of(numbers: Array, array: xr.DataArray, wishes: ColourWishes = USUAL) -> Scale:
     """Colours of all numbers of a figure: each of few counts, logarithmic, around zero, or between
-    the least and the greatest."""
-    if array.dtype.kind == "i" and numbers.max() < FEW:
-        return counted(int(numbers.max()) + 1)
+    the least and the greatest, or what a reader sets as limits."""
+    if array.dtype.kind == "i" and numbers.max() < FEW and wishes.limits is None:
+        return counted(int(numbers.max()) + 1, wishes.cmap)
     values = numbers[np.isfinite(numbers)]
-    if log:
-        return _logarithmic(values, is_growth(array.name))
-    if not values.size:
-        return Scale(cm.batlow, Normalize(0.0, 1.0))
-    low = float(values.min())
-    high = float(values.max())
-    if low < 0 < high:
-        most = max(-low, high)
-        return Scale(cm.vik, Normalize(-most, most))
-    return Scale(cm.batlow, Normalize(low, high))
+    ends = (0.0, 1.0)
+    if wishes.log:
+        ends = (1.0, 10.0)
+    if values.size:
+        ends = (float(values.min()), float(values.max()))
+    low, high = wishes.limits or ends
+
+    # colours that have a middle have it at zero
+    around_zero = low < 0 < high and not wishes.has_no_middle
+    if around_zero:
+        high = max(-low, high)
+        low = -high
+    usual: Any = cm.batlow
+    if around_zero:
+        usual = cm.vik
+
+    scale = Scale(usual, Normalize(low, high))
+    if wishes.log and (low <= 0 or needs_zero(values)):
+        scale = _through_zero(usual, values, low, high)
+    elif wishes.log:
+        scale = _positive(usual, low, high, is_growth(array.name))
+    beyond = (bool((values < low).any()), bool((values > high).any()))
+    return replace(scale, cmap=_chosen(wishes, scale.cmap), open_ends=beyond)
 
 
-def counted(count: int) -> Scale:
+def _chosen(wishes: ColourWishes, usual: Colormap) -> Colormap:
+    """The colour map that a reader asks for, or else the usual one."""
+    return usual if wishes.cmap is None else colormaps.get_cmap(wishes.cmap)
+
+
+def counted(count: int, cmap: str | Colormap | None = None) -> Scale:
     """A colour for each of the numbers 0, 1, ... below a count."""
-    colours = [cm.batlow(i / count) for i in range(count)]
-    cmap, norm = from_levels_and_colors((np.arange(count + 1) - 0.5).tolist(), colours)
-    return Scale(cmap, norm, [str(i) for i in range(count)])
+    of_all = colormaps.get_cmap(cmap) if cmap is not None else cm.batlow
+    colours = [of_all(i / count) for i in range(count)]
+    own, norm = from_levels_and_colors((np.arange(count + 1) - 0.5).tolist(), colours)
+    return Scale(own, norm, [str(i) for i in range(count)])
 
 
-def _logarithmic(values: np.ndarray, growth: bool) -> Scale:
-    """Colours of numbers on a logarithmic scale, on both sides of zero if not all are positive;
-    positive growth rates have the red half of the scale of their maps."""
-    if needs_zero(values):
-        return _through_zero(values)
-    low, high = (values.min(), values.max()) if values.size else (1.0, 10.0)
-    cmap: Any = ListedColormap(cm.vik(np.linspace(0.55, 1, 256))) if growth else cm.batlow
-    return Scale(cmap, LogNorm(low, high if high > low else 10 * low))
+def _positive(usual: Colormap, low: float, high: float, growth: bool) -> Scale:
+    """Colours of positive numbers on a logarithmic scale; growth rates have the red half of the
+    scale of their maps."""
+    if growth:
+        usual = ListedColormap(cm.vik(np.linspace(0.55, 1, 256)))
+    return Scale(usual, LogNorm(low, high if high > low else 10 * low))
+
+
+# ---- Growth rates
+
+
+def is_growth(name: object) -> bool:
+    """Whether a variable is a growth rate, by its name."""
+    return str(name).endswith("growth_rate")
+
+
+def growth_norm(rates: Array) -> AsinhNorm:
+    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
+    end."""
+    sizes = np.abs(rates[np.isfinite(rates)])
+    greatest = GREATEST
+    if sizes.size and np.median(sizes) > GREATEST:
+        greatest = float(np.quantile(sizes, COMMON, method="higher"))
+    return _growth_norm_to(greatest)
+
+
+def _growth_norm_to(greatest: float) -> AsinhNorm:
+    """The scale of growth rates that ends at one of them, in 1/s."""
+    return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
+
+
+def growth_colours(rates: Array, wishes: ColourWishes = USUAL) -> Scale:
+    """Colours of growth rates (1/s): those of all figures, around zero, whose scale is nearly
+    logarithmic on both sides.
+
+    Other colours than these, limits on one side of zero, and a logarithmic scale of rates of one
+    sign have the scale of any other number.
+    """
+    if not _is_around_zero(rates, wishes):
+        return colours_of(rates, xr.DataArray(0.0, name="growth_rate"), wishes)
+    norm = growth_norm(rates)
+    if wishes.limits is not None:
+        norm = _growth_norm_to(max(map(abs, wishes.limits)))
+    largest = float(10.0 ** np.floor(np.log10(norm.vmax or GREATEST)))
+    places = [-largest, -largest / 10, 0.0, largest / 10, largest]
+    return Scale(_chosen(wishes, cm.vik), norm, places=places, open_ends=(True, True))
+
+
+def _is_around_zero(rates: Array, wishes: ColourWishes) -> bool:
+    """Whether the scale of growth rates is that of all figures, with zero in its middle."""
+    if wishes.limits is not None and not wishes.limits[0] < 0 < wishes.limits[1]:
+        return False
+    if wishes.has_no_middle:
+        return False
+    both = (rates < 0).any() and (rates > 0).any()
+    return bool(both) or not (wishes.log or wishes.cmap is not None)
+
+
+# ---- Scales through zero
 
 
 def needs_zero(values: np.ndarray) -> bool:
@@ -87,18 +205,10 @@ def linear_to(values: np.ndarray) -> float:
     return float(max(sizes.min(), sizes.max() / SPAN))
 
 
-def _through_zero(values: np.ndarray) -> Scale:
-    """Colours on a scale that is logarithmic on both sides of zero, around zero if there are
-    numbers on both."""
+def _through_zero(cmap: Colormap, values: Array, low: float, high: float) -> Scale:
+    """Colours of numbers between two ends, on a scale that is logarithmic on both sides of zero."""
     linear = linear_to(values)
-    low = float(values.min())
-    high = float(values.max())
-    cmap: Any = cm.batlow
-    if low < 0 < high:
-        high = max(-low, high)
-        low = -high
-        cmap = cm.vik
-    elif low == high == 0:
+    if low == high == 0:
         high = linear
     norm = AsinhNorm(linear_width=linear, vmin=low, vmax=high)
     return Scale(cmap, norm, places=decades_through_zero(linear, low, high))
@@ -107,19 +217,22 @@ def _through_zero(values: np.ndarray) -> Scale:
 def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
     """Ticks between two numbers: zero and powers of ten beyond where the scale is linear, or the
     numbers if there are less than two of these."""
+    size = max(-low, high)
     first = np.ceil(np.log10(linear))
-    last = np.floor(np.log10(max(-low, high)))
+    last = np.floor(np.log10(size))
     every = max(1.0, np.ceil((last - first + 1) / MOST_TICKS))
     sizes = 10.0 ** np.arange(last, first - 0.5, -every)
     ticks = [tick for tick in sorted([*(-sizes), 0.0, *sizes]) if low <= tick <= high]
     if len(ticks) < 2:
-        return sorted({low, *ticks, high})
+        apart = [tick for tick in ticks if min(abs(tick - low), abs(tick - high)) > NEAR * size]
+        return sorted({low, *apart, high})
     return ticks
 
 
 def texts_of(places: Sequence[float]) -> list[str]:
     """The texts of ticks, with the sign that other axes have below zero."""
-    return [Formatter.fix_minus(f"{place:g}") for place in places]
+    rounded = [float(f"{place:.3g}") for place in places]
+    return [Formatter.fix_minus(f"{place:g}") for place in rounded]
 
 
 def within_a_decade(norm: Normalize) -> bool:
@@ -134,24 +247,32 @@ def is_colormap(cmap: object) -> bool:
     return cmap is None or isinstance(cmap, Colormap)
 
 
-def recolour(ax: Axes, cmap: str | Colormap) -> None:
-    """Give the numbers of a map other colours; raises `ParameterError` where there are none."""
-    of_numbers = []
-    for mesh in ax.collections:
-        array = mesh.get_array()
-        if array is not None and array.ndim == 2:
-            of_numbers.append(mesh)
-    rule = "is for maps of numbers: classes and lines have colours of their own"
-    require((bool(of_numbers), "cmap", cmap, rule))
-    for mesh in of_numbers:
-        bar = mesh.colorbar
-        if bar is None:
-            mesh.set_cmap(cmap)
-            continue
-        ticks = bar.get_ticks().tolist()
-        names = [text.get_text() for text in bar.ax.get_yticklabels()]
-        fixed = isinstance(bar.locator, FixedLocator)
-        mesh.set_cmap(cmap)
-        if fixed:  # which a bar of other colours forgets
-            bar.set_ticks(ticks, labels=names)
-            bar.minorticks_off()
+def is_diverging(cmap: Colormap) -> bool:
+    """Whether the middle of a colour map is lighter than both of its ends, or darker."""
+    low, middle, high = (float(np.dot(cmap(place)[:3], WEIGHTS)) for place in (0.0, 0.5, 1.0))
+    return middle - max(low, high) > LIGHTER or min(low, high) - middle > LIGHTER
+
+
+# ---- Bars
+
+
+def draw_bar(figure: FigureBase, axes: Sequence[Axes], mesh: Any, scale: Scale, label: str) -> None:
+    """Draw the bar of the colours of a map, beside its panels."""
+    extend = EXTENDS[scale.open_ends]
+    shared = parents_of_bar(axes)
+    bar = figure.colorbar(mesh, ax=shared, extend=extend, pad=0.01, aspect=30, label=label)
+    if scale.places:
+        bar.set_ticks(scale.places, labels=texts_of(scale.places))
+        bar.minorticks_off()
+    elif scale.ticks:
+        bar.set_ticks(range(len(scale.ticks)), labels=list(scale.ticks))
+        bar.minorticks_off()
+    elif isinstance(scale.norm, LogNorm) and within_a_decade(scale.norm):
+        bar.ax.yaxis.set_minor_formatter("{x:g}")
+        bar.ax.yaxis.set_major_formatter("{x:g}")
+
+
+def bars_of(ax: Axes) -> list[Axes]:
+    """The axes of the bars of colours that belong to a panel alone."""
+    bars = [mesh.colorbar for mesh in ax.collections]
+    return [bar.ax for bar in bars if bar is not None]

@@ -176,6 +176,8 @@ def draw_lines(
         _turn_words(ax, along)
     else:
         ax.set_xscale(scale(array[x]))
+        if ax.get_xscale() == "log":
+            plain_decades(ax.xaxis)
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, array)

@@ -30,7 +30,7 @@ from matplotlib.ticker import (
 
 from disc_model.figures.sizes import COLUMN as COLUMN  # sizes are a part of the style
 from disc_model.figures.sizes import PAGE as PAGE
-from disc_model.figures.types import Artist, Axes, Figure
+from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import measured
 
 # the reports of fontTools on fonts would fill the logs of figures
@@ -161,11 +161,12 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
 
 FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too
 NARROW = 0.4  # decades, up to which all of 1 to 9 are
+ROUNDING = 1e-9  # relative, of limits that are edges of cells
 
 
 class PlainDecades(Locator):
     """Ticks of a logarithmic axis: powers of ten; 1, 2 and 5 over few decades; more over less than
-    half of one. All are labelled."""
+    half of one. All are labelled, and a horizontal axis has no more of them than find room."""
 
     def __init__(self, least: float = 0.0) -> None:
         """Have no ticks below `least`."""
@@ -176,7 +177,11 @@ class PlainDecades(Locator):
         axis: Any = self.axis
         low, high = sorted(axis.get_view_interval())
         ticks = self.tick_values(low, high)
-        return ticks[ticks >= self.least]
+        ticks = ticks[ticks >= self.least]
+        if axis.axis_name == "x":
+            inside = (ticks >= low * (1 - ROUNDING)) & (ticks <= high * (1 + ROUNDING))
+            ticks = _fewer(ticks[inside], axis.get_tick_space())
+        return ticks
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
         """The ticks between two positive values."""
@@ -188,6 +193,18 @@ class PlainDecades(Locator):
         else:
             ticks = np.asarray(DECADES)
         return ticks[(ticks >= vmin) & (ticks <= vmax)]
+
+
+def _fewer(ticks: Array, room: int) -> Array:
+    """Ticks that find room: all, or every so many powers of ten among them, or the ends without two
+    of these."""
+    if ticks.size <= max(room, 2):
+        return ticks
+    exponents = np.log10(ticks)
+    powers = ticks[np.isclose(exponents, np.round(exponents))]
+    if powers.size < 2:
+        return ticks[[0, -1]]
+    return powers[:: math.ceil(powers.size / max(room, 2))]
 
 
 def plain_decades(axis: Axis, least: float = 0.0) -> None:

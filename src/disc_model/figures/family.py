@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 from weakref import WeakKeyDictionary
 
+from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.canvas import MOST_LINES, OWN, Page
 from disc_model.figures.drawing import (
@@ -39,11 +40,12 @@ WIDTH = 1.4  # points, of their lines in the legend
 
 @dataclass
 class Shown:
-    """A branch on axes: its name, if the reader gives one, what titles say of its case, and its own
-    entries of the legend."""
+    """A branch on axes: its name, if the reader gives one, what titles say of its case, the releases
+    of stick in a period of its cycles, and its own entries of the legend."""
 
     name: str
     values: Mapping[str, Any]
+    releases: int
     looks: list[Any]
     special: list[Any]
 
@@ -68,8 +70,8 @@ def next_colour(ax: Axes) -> str:
 
 def join_family(page: Page, new: Shown) -> None:
     """Add a branch to those on its axes. Of several, the legend names each by what differs between
-    their cases, and each kind of special points once; the title of a figure of this package says
-    what all have in common."""
+    their cases and between their periods, and each kind of special points once; the title of a
+    figure of this package says what all have in common."""
     family = _SHOWN.setdefault(page.ax, [])
     family.append(new)
     if len(family) > 1 or new.name:
@@ -83,11 +85,9 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     alone = [handle for each in family for handle in (*each.looks, *each.special)]
     replaced = {str(handle.get_label()) for handle in alone}
 
-    common = _common_values(family)
     handles: list[Any] = []
     for number, each in enumerate(family):
-        differing = {name: value for name, value in each.values.items() if name not in common}
-        text = each.name or what_case(differing) or f"branch {number + 1}"
+        text = each.name or _what_differs(each, family) or f"branch {number + 1}"
         colour = COLOURS[number % len(COLOURS)]
         handles.append(sample(color=colour, linewidth=wide(WIDTH), label=text))
     looks: dict[str, Any] = {}
@@ -102,6 +102,17 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     handles += [*looks.values(), *marks.values()]
     page.replaced = replaced | {str(handle.get_label()) for handle in handles}
     page.explain(handles)
+
+
+def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
+    """What sets a branch apart from others on its axes: values of its case, and how many releases
+    a period of its cycles has; "" if nothing does."""
+    common = _common_values(family)
+    differing = {name: value for name, value in branch.values.items() if name not in common}
+    said = [what_case(differing)]
+    if len({each.releases for each in family}) > 1:
+        said.append(f"{counted(branch.releases, 'release')} per period")
+    return ", ".join(filter(None, said))
 
 
 def _retitle(figure: Any, family: Sequence[Shown]) -> None:

@@ -6,19 +6,16 @@ from collections.abc import Sequence
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.colors import AsinhNorm, to_hex
+from matplotlib.colors import to_hex
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
-from disc_model.figures.drawing import parents_of_bar
+from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
 from disc_model.figures.selection import class_of_gap, has_values, statuses_like
-from disc_model.figures.types import Array, Artist, Axes, FigureBase, Mask, Words
+from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import label_of
 
-GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
-COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
-LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
 NEUTRAL = "neutral"
@@ -31,26 +28,12 @@ MAP_LOOKS = {
 """Looks of all that a map of growth rates shows beside its colours."""
 
 
-def is_growth(name: object) -> bool:
-    """Whether a variable is a growth rate, by its name."""
-    return str(name).endswith("growth_rate")
-
-
-def growth_norm(rates: Array) -> AsinhNorm:
-    """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
-    end."""
-    sizes = np.abs(rates[np.isfinite(rates)])
-    greatest = GREATEST
-    if sizes.size and np.median(sizes) > GREATEST:
-        greatest = float(np.quantile(sizes, COMMON, method="higher"))
-    return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
-
-
 def growth_panels(
     figure: FigureBase,
     axes: Sequence[Axes],
     planes: Sequence[xr.Dataset],
     name: str = "growth_rate",
+    wishes: ColourWishes = USUAL,
 ) -> list[Artist]:
     """Draw a growth rate (1/s) on one scale of colours, a panel for each plane.
 
@@ -58,15 +41,15 @@ def growth_panels(
     have the middle of the scale where it is zero but for rounding.
     A point without a rate has the look of its class. Returns entries of a legend.
     """
-    norm = growth_norm(np.concatenate([plane[name].values.ravel() for plane in planes]))
+    rates_of_all = np.concatenate([plane[name].values.ravel() for plane in planes])
+    scale = growth_colours(rates_of_all, wishes)
     used: set[str] = set()
     for ax, plane in zip(axes, planes, strict=True):
         edges = edges_of(plane[name])
         rates = plane[name].values
         words = classes_without_rate(plane, name)
-        mesh = ax.pcolormesh(
-            *edges, np.ma.masked_invalid(rates), cmap=cm.vik, norm=norm, rasterized=True
-        )
+        shown = np.ma.masked_invalid(rates)
+        mesh = ax.pcolormesh(*edges, shown, cmap=scale.cmap, norm=scale.norm, rasterized=True)
         painted = paint(ax, edges, words, MAP_LOOKS)
         colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
         used |= set(words.flat)
@@ -78,12 +61,7 @@ def growth_panels(
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
     if not has_values(planes, name):
         return entries(used, MAP_LOOKS)
-    shared = parents_of_bar(axes)
-    bar = figure.colorbar(mesh, ax=shared, extend="both", format="{x:g}", pad=0.01, aspect=30)
-    bar.set_label(label_of(planes[0][name])[0])
-    largest = 10.0 ** np.floor(np.log10(norm.vmax or GREATEST))
-    bar.set_ticks([-largest, -largest / 10, 0, largest / 10, largest])
-    bar.minorticks_off()
+    draw_bar(figure, axes, mesh, scale, label_of(planes[0][name])[0])
     return entries(used, MAP_LOOKS)
 
 

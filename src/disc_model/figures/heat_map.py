@@ -18,9 +18,9 @@ from disc_model.figures.cells import (
     scale_of,
 )
 from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
-from disc_model.figures.colours import colours_of, needs_zero, texts_of, within_a_decade
-from disc_model.figures.drawing import COLUMN, letter, panels, parents_of_bar, set_label
-from disc_model.figures.growth import growth_panels, is_growth
+from disc_model.figures.colours import USUAL, ColourWishes, colours_of, draw_bar, is_growth
+from disc_model.figures.drawing import COLUMN, letter, panels, plain_decades, set_label
+from disc_model.figures.growth import growth_panels
 from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import Key, figure_legend
 from disc_model.figures.selection import (
@@ -58,7 +58,8 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
         ax.remove()
     axes = axes[: len(parts)]
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
-    key = draw_maps(figure, axes, planes, plot.variable, plot.log)
+    wishes = ColourWishes(log=plot.log, limits=plot.limits)
+    key = draw_maps(figure, axes, planes, plot.variable, wishes)
 
     titles = titles_of(parts)
     if len(axes) > 1:
@@ -89,26 +90,28 @@ def draw_maps(
     axes: Sequence[Axes],
     planes: Sequence[xr.Dataset],
     variable: str,
-    log: bool = False,
+    wishes: ColourWishes = USUAL,
 ) -> Key:
     """Draw a variable of each plane, of dimensions (up, across), in colour on a panel; returns what
-    a legend says, which names the variable if no bar does."""
+    a legend says, which names the variable if no bar does. Classes have colours of their own, so
+    that `ParameterError` is raised where others are asked for."""
     arrays = [as_classes(plane, variable) for plane in planes]
     first = arrays[0]
     if first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
+        wishes.refuse()
         handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
         has_bar = False
     else:
-        through_zero = any(needs_zero(plane[variable].values) for plane in planes)
-        if is_growth(variable) and (through_zero or not log):
-            handles = growth_panels(figure, axes, planes, variable)
-        else:
-            handles = number_panels(figure, axes, planes, variable, log)
+        draw_numbers = growth_panels if is_growth(variable) else number_panels
+        handles = draw_numbers(figure, axes, planes, variable, wishes)
         has_bar = has_values(planes, variable)
     title = "" if has_bar else label_in(planes[0], variable)
     up, across = (first[str(name)] for name in first.dims)
     axes[0].set_xscale(scale(across))
     axes[0].set_yscale(scale(up))
+    for axis in (axes[0].xaxis, axes[0].yaxis):
+        if axis.get_scale() == "log":
+            plain_decades(axis)
     for ax in axes:
         set_label(ax, "x", across)
         set_label(ax, "y", up)
@@ -156,14 +159,18 @@ def class_panels(
 
 
 def number_panels(
-    figure: FigureBase, axes: Sequence[Axes], planes: Sequence[xr.Dataset], variable: str, log: bool
+    figure: FigureBase,
+    axes: Sequence[Axes],
+    planes: Sequence[xr.Dataset],
+    variable: str,
+    wishes: ColourWishes = USUAL,
 ) -> list[Artist]:
     """Draw numbers on one scale of colours, a panel for each plane, and classes where there is
     none; returns entries of a legend."""
     label, factor = label_of(planes[0][variable])
     arrays = [plane[variable] for plane in planes]
     numbers = factor * np.concatenate([array.values.ravel() for array in arrays])
-    colours = colours_of(numbers, arrays[0], log)
+    colours = colours_of(numbers, arrays[0], wishes)
     used: set[str] = set()
     for ax, plane, array in zip(axes, planes, arrays, strict=True):
         edges = edges_of(array)
@@ -182,14 +189,5 @@ def number_panels(
     looks = {**MARKED, NO_VALUE: unvalued, AT_BOUND.label: AT_BOUND}
     if not has_values(planes, variable):
         return entries(used, looks)
-    bar = figure.colorbar(mesh, ax=parents_of_bar(axes), pad=0.01, aspect=30, label=label)
-    if colours.places:
-        bar.set_ticks(colours.places, labels=texts_of(colours.places))
-        bar.minorticks_off()
-    elif colours.ticks:
-        bar.set_ticks(range(len(colours.ticks)), labels=list(colours.ticks))
-        bar.minorticks_off()
-    elif log and within_a_decade(colours.norm):
-        bar.ax.yaxis.set_minor_formatter("{x:g}")
-        bar.ax.yaxis.set_major_formatter("{x:g}")
+    draw_bar(figure, axes, mesh, colours, label)
     return entries(used, looks)

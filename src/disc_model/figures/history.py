@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from itertools import cycle
 from typing import Any
 
 import numpy as np
@@ -25,8 +26,12 @@ SHADES: dict[str, dict[str, Any]] = {
     "separation": {"color": PHASE_COLOURS["separation"], "alpha": 0.5},
 }
 """Behind a history, told apart by darkness in grey print; slip is left white."""
-RAMP: dict[str, Any] = {"facecolor": GREY, "alpha": 0.18, "linewidth": 0, "zorder": -1}
-"""Behind a history, while a ramp goes on."""
+RAMPS: tuple[dict[str, Any], ...] = (
+    {"facecolor": GREY, "alpha": 0.18, "linewidth": 0, "zorder": -1},
+    {"facecolor": "none", "edgecolor": GREY, "hatch": 5 * "/", "linewidth": 0, "zorder": -1},
+    {"facecolor": "none", "edgecolor": GREY, "hatch": 3 * ".", "linewidth": 0, "zorder": -1},
+)
+"""Behind a history, while a ramp goes on: of each parameter in the order of their ramps."""
 MOST_RAMPS = 4
 """Largest number of ramps with an entry for each in the legend."""
 
@@ -85,6 +90,7 @@ def plot_run(
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
+            _leave_to_first(column, grid[:, 0])
             handles += _draw_ramps(column, case)
             entries |= {str(handle.get_label()): handle for handle in handles}
         page.explain([*entries.values()])
@@ -95,22 +101,42 @@ def plot_run(
     return grid.squeeze()[()]
 
 
+def _leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
+    """Leave names and numbers of the vertical axes to the first column, if it stands beside this
+    one."""
+    for ax, left in zip(column, first, strict=True):
+        places = [each.get_position(original=True) for each in (left, ax)]
+        if math.isclose(places[0].y0, places[1].y0) and places[0].x1 < places[1].x0:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+
+
+def _stands_above(ax: Axes, other: Axes) -> bool:
+    """Whether axes stand above others, whose numbers then are those of both."""
+    place = ax.get_position(original=True)
+    below = other.get_position(original=True)
+    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
+
+
 def _draw_ramps(axes: Sequence[Axes], case: xr.DataTree) -> list[Artist]:
     """Shade the time of each ramp that is seen, between lines where it begins and ends; returns
-    entries of a legend, which state its values, or one for many ramps."""
+    entries of a legend, which state its values, or one for many ramps of a parameter."""
     low, high = axes[0].get_xlim()
-    seen = [ramp for ramp in ramps_of(case) if ramp.start < high and ramp.end > low]
+    ramps = ramps_of(case)
+    ramped = dict.fromkeys(ramp.parameter for ramp in ramps)
+    looks = dict(zip(ramped, cycle(RAMPS), strict=False))
+    seen = [ramp for ramp in ramps if ramp.start < high and ramp.end > low]
     for ramp in seen:
         for ax in axes:
-            ax.axvspan(ramp.start, ramp.end, **RAMP)
+            ax.axvspan(ramp.start, ramp.end, **looks[ramp.parameter])
             for time in (ramp.start, ramp.end):
                 ax.axvline(time, color=GREY, linewidth=wide(0.6), linestyle=":")
     for ax in axes:
         ax.set_xlim(low, high)
     if len(seen) > MOST_RAMPS:
-        symbols = dict.fromkeys(SHOWN[ramp.parameter].symbol for ramp in seen)
-        return [Patch(label=f"ramps of {' and '.join(symbols)}", **RAMP)]
-    return [Patch(label=_ramp_text(ramp), **RAMP) for ramp in seen]
+        names = dict.fromkeys(ramp.parameter for ramp in seen)
+        return [Patch(label=f"ramps of {SHOWN[name].symbol}", **looks[name]) for name in names]
+    return [Patch(label=_ramp_text(ramp), **looks[ramp.parameter]) for ramp in seen]
 
 
 def _ramp_text(ramp: Course) -> str:
@@ -137,7 +163,9 @@ def draw_history(
     of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         show(ax, case, window, name, named=ax is axes[0])
-        ax.label_outer()
+        if _stands_above(ax, axes[-1]):
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
 

@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from matplotlib.text import Annotation, Text
@@ -34,11 +35,22 @@ class Breakable(NamedTuple):
     beyond: float
 
 
-def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> dict[Text, str]:
+class Broken(NamedTuple):
+    """What a text says, and in which lines."""
+
+    words: str
+    lines: str
+
+
+_BROKEN: WeakKeyDictionary[Text, Broken] = WeakKeyDictionary()
+"""Texts that have been broken, which may need other lines when their axes have another size."""
+
+
+def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     """Break labels and titles of axes, all those of a figure unless some are given, into lines where
-    they are longer than the axes; returns them with their words before."""
+    they are longer than the axes; those that have been broken before, anew."""
     found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
-    words = [each.text.get_text() for each in found]
+    words = [_words_of(each.text) for each in found]
     # the layout makes axes narrow under a long title, so that it is set with short ones
     for each in found:
         each.text.set_text("x")
@@ -46,7 +58,14 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> dict[Tex
     for each, said in zip(found, words, strict=True):
         each.text.set_text(said)
         _break(each.text, each.direction, _room(figure, each))
-    return {each.text: said for each, said in zip(found, words, strict=True)}
+        _BROKEN[each.text] = Broken(said, each.text.get_text())
+
+
+def _words_of(text: Text) -> str:
+    """The words of a text, as they were before it was broken, unless it has been replaced since."""
+    shown = text.get_text()
+    broken = _BROKEN.get(text)
+    return broken.words if broken is not None and broken.lines == shown else shown
 
 
 def _room(figure: Figure, label: Breakable) -> float:

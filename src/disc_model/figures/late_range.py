@@ -31,6 +31,8 @@ from disc_model.parameters import Parameters
 
 LOAD_COLOURS = (BLACK, BLUE, SKY, GREEN)
 """Of preloads in their order; the first three differ in grey print."""
+LOAD_WIDTHS = (0.7, 1.7, 1.2, 0.7)
+"""Widths of their lines, points, which tell neighbours apart in grey print."""
 LARGEST = 10.0  # thicknesses
 DECADES = 1e5
 """Largest range drawn over the least one."""
@@ -80,7 +82,8 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         titles.append("speed in the plane")
     for ax in axes:
         ax.margins(x=0.05)
-        ax.set_xlabel(SPEED)
+        if ax.xaxis.get_tick_params()["labelbottom"]:  # its numbers are not those of a panel below
+            ax.set_xlabel(SPEED)
     letters(axes, titles)
     _legend(figure, study["N"].values, has_drive=bool(moving))
     return figure
@@ -159,12 +162,13 @@ def _marks() -> dict[str, dict[str, Any]]:
 def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
     """Draw lines over the speed for each preload and contact, with marks of their outcomes."""
     speeds = ranges["Omega"].values
-    for load, colour in zip(ranges["N"].values, LOAD_COLOURS, strict=False):
+    loads = ranges["N"].values
+    for load, colour, width in zip(loads, LOAD_COLOURS, LOAD_WIDTHS, strict=False):
         for contact, line in LINES.items():
             chosen = {"N": load, "contact": contact}
             heights = ranges.sel(chosen).values
             words = outcomes.sel(chosen).values
-            ax.plot(speeds, heights, line, color=colour, linewidth=wide(1.0))
+            ax.plot(speeds, heights, line, color=colour, linewidth=wide(width))
             separates = words == "separation"
             open_end = np.isin(words, OPEN_END)
             masks = (separates, open_end, ~(separates | open_end))
@@ -175,8 +179,8 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
 def _legend(figure: Figure, loads: np.ndarray, has_drive: bool) -> None:
     """Name preloads, contacts, marks, the grey band and the speed of the drive below the panels."""
     handles = [
-        sample(color=colour, label=f"{1e-3 * load:g} kN")
-        for load, colour in zip(loads, LOAD_COLOURS, strict=False)
+        sample(color=colour, linewidth=wide(width), label=f"{1e-3 * load:g} kN")
+        for load, colour, width in zip(loads, LOAD_COLOURS, LOAD_WIDTHS, strict=False)
     ]
     handles.append(sample(color=GREY, linestyle="-", label="with separation"))
     handles.append(sample(color=GREY, linestyle="--", label="separation ignored"))

@@ -20,12 +20,26 @@ NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
 LEFT = 0.02  # inch, least distance of such a legend from the left edge of the figure
+HALF_GAP = 0.03  # inch, and from the middle between its axes and those beside them
 INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
+PLACES = (
+    "upper right",
+    "upper left",
+    "lower left",
+    "lower right",
+    "center left",
+    "center right",
+    "lower center",
+    "upper center",
+    "center",
+)
+"""Of a legend in axes, in the order of matplotlib."""
 SMALLER = 0.8  # size of the text of a legend that finds too little room, over the usual one,
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
+ROUNDING = 1.0  # pixel, to which places are rounded
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -93,7 +107,7 @@ def legend_above(
 
 def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Legend:
     """Draw a legend inside the axes, a smaller one if the usual one would cover data or words;
-    nothing, and None, if that would as well while the layout of the figure makes room elsewhere."""
+    nothing, and None, if that would as well."""
     entries = list(handles) or ax.get_legend_handles_labels()[0]
     if not entries:
         return None
@@ -104,12 +118,21 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
         page.draw_without_rendering()  # sets the places
-        if not _covers(legend, ax):
-            return legend
-    if page.get_layout_engine() is None:
-        return legend
+        for place in _places_inside(ax):
+            legend.set_loc(place)
+            if not _covers(legend, ax):
+                return legend
     legend.remove()
     return None
+
+
+def _places_inside(ax: Axes) -> tuple[str, ...]:
+    """Places of a legend in axes, in the order in which they are tried. The best one by matplotlib is
+    the first of them, unless there are points, which it takes for the corners of a line."""
+    for line in ax.lines:
+        if line.get_linestyle() == "None" and np.size(line.get_xdata()) > 1:
+            return PLACES
+    return ("best", *PLACES)
 
 
 def keep_height(figure: FigureBase, axes: Sequence[Axes], least: float = LEAST_MAP) -> None:
@@ -160,7 +183,11 @@ def _meets_line(box: Bbox, line: Line2D) -> bool:
     of zero."""
     path = line.get_transform().transform_path(line.get_path())
     points = np.asarray(path.vertices)
-    if box.count_contains(points):
+    page: Any = line.get_figure(root=True)
+    size = 0.0
+    if line.get_marker() not in ("", "None", None):
+        size = 0.5 * line.get_markersize() * page.dpi / 72
+    if box.padded(size).count_contains(points):
         return True
     joined = line.get_linestyle() != "None" and len(points) > 2
     return joined and bool(path.intersects_bbox(box, filled=False))
@@ -177,32 +204,31 @@ def _meets_shape(box: Bbox, shape: Collection) -> bool:
 
 
 def legend_below(
-    ax: Axes, handles: Sequence[Artist], bars: Sequence[Axes] = (), **look: Any
+    ax: Axes, handles: Sequence[Artist], bars: Sequence[Axes] = (), spare: float = 0.0, **look: Any
 ) -> Legend:
     """Draw a legend below the label of the horizontal axis, in as many columns as there is room for
     between the left end of the labels and the right end of the axes, or of bars of colours beside
-    them; a smaller one where the usual one is wider than that, or where many entries would stand in
-    one column."""
+    them, but a spare length in inches; a smaller one where the usual one is wider than that, or where
+    many entries would stand in one column."""
     if not handles:
         return None
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the places
     frame = ax.bbox
     lowest = ax.xaxis.get_tightbbox()
-    leftmost = ax.yaxis.get_tightbbox()
     depth = 0.0 if lowest is None else frame.y0 - lowest.y0
-    share = _share_of_page(ax)
-    reach = 0.0
-    if leftmost is not None:  # another panel's legend may reach up to the share of this one
-        reach = max(frame.x0 - max(leftmost.x0, share.left), 0.0)
+    free = _free_below(ax, bars)
+    free = Sides(free.left, free.right - spare * page.dpi)
+    own = _sides_of(ax, *bars)
+    reach = max(frame.x0 - max(own.left, free.left), 0.0)
 
-    # below the axes and bars where it fits, and else below their labels too
-    ends = [bar.get_tightbbox() for bar in bars]
-    right = max([frame.x1, *(end.x1 for end in ends if end is not None)])
-    room = min(right, page.bbox.width) - frame.x0 - BESIDE * page.dpi
+    # below the axes and bars where it fits, else below their labels too, else beyond their right end
+    room = min(own.right, free.right) - frame.x0 - BESIDE * page.dpi
+    widest = free.right - frame.x0
     looks: list[dict[str, Any]] = [{}, small(1.0), small(), small(STILL_SMALLER), small(0.0)]
     places = []
-    for shift, size in [(0.0, looks[0]), *((reach, each) for each in looks)]:
+    beside = [(0.0, looks[0], room), *((reach, looks[0], width) for width in (room, widest))]
+    for shift, size, width in [*beside, *((reach, each, widest) for each in looks[1:])]:
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
         draw = partial(
@@ -214,10 +240,10 @@ def legend_below(
             **size,
             **look,
         )
-        places.append(Place(draw, min(room + shift, share.width)))
+        places.append(Place(draw, width + shift))
     place = _first_that_fits(places, 2)
     if len(handles) <= IN_A_ROW:
-        place = _first_that_fits(places[:3], len(handles))
+        place = _first_that_fits(places[:4], len(handles))
     legend = _widest_that_fits(place.draw, len(handles), place.width)
 
     # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
@@ -251,21 +277,55 @@ def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
     return places[-1]
 
 
-class Share(NamedTuple):
-    """A part of the width of a page, in pixels."""
+class Sides(NamedTuple):
+    """Where something ends on the left and on the right, in pixels."""
 
     left: float
-    width: float
+    right: float
 
 
-def _share_of_page(ax: Axes) -> Share:
-    """The part of the page's width that axes of a grid have with their labels."""
-    page: Any = ax.get_figure()
-    place = ax.get_subplotspec()
-    if place is None:
-        return Share(0.0, float(page.bbox.width))
-    column = float(page.bbox.width) / place.get_gridspec().ncols
-    return Share(column * place.colspan.start, column * len(place.colspan))
+def _sides_of(*axes: Axes) -> Sides:
+    """The sides of axes with what stands beside them."""
+    boxes: list[Bbox] = []
+    for ax in axes:
+        beside = ax.yaxis.get_tightbbox()
+        boxes += [ax.bbox] if beside is None else [ax.bbox, beside]
+    return Sides(min(box.x0 for box in boxes), max(box.x1 for box in boxes))
+
+
+def _free_below(ax: Axes, bars: Sequence[Axes]) -> Sides:
+    """Where a legend below axes may begin and end: halfway to what stands beside them in their row,
+    or at the edges of the page."""
+    page: Any = ax.get_figure(root=True)
+    own = _sides_of(ax, *bars)
+    gap = HALF_GAP * page.dpi
+    left = LEFT * page.dpi
+    right = page.bbox.width - LEFT * page.dpi
+    for other in page.axes:
+        if other is ax or other in bars:
+            continue
+        in_row = other.bbox.y0 < ax.bbox.y1 and other.bbox.y1 > ax.bbox.y0
+        sides = _sides_of(other)
+        if in_row and other.bbox.x1 <= ax.bbox.x0:
+            left = max(left, 0.5 * (sides.right + own.left) + gap)
+        elif in_row and other.bbox.x0 >= ax.bbox.x1:
+            right = min(right, 0.5 * (own.right + sides.left) - gap)
+    return Sides(left, right)
+
+
+def finds_room_below(ax: Axes, bars: Sequence[Axes] = ()) -> bool:
+    """Whether the legend below axes stays clear of what stands beside them, and of their labels."""
+    legend: Legend = ax.get_legend()
+    box = legend.get_window_extent()
+    free = _free_below(ax, bars)
+    labels = ax.xaxis.get_tightbbox()
+    clear = labels is None or box.y1 <= labels.y0 + ROUNDING
+    return clear and box.x0 >= free.left - ROUNDING and box.x1 <= free.right + ROUNDING
+
+
+def finds_room_inside(ax: Axes) -> bool:
+    """Whether the legend in axes covers nothing."""
+    return not _covers(ax.get_legend(), ax)
 
 
 def _as_wide_as(ax: Axes, legend: Legend, renderer: Any = None) -> Bbox:

@@ -37,7 +37,9 @@ def plot_sweep(  # noqa: PLR0913
     dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
     starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
     cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
-    scale or more, so that the grid misses what lies between.
+    scale or more, so that the grid misses what lies between. An axis is logarithmic if three or more
+    positive values span a decade or more and have equal ratios within 1e-6, as those of
+    `numpy.geomspace`.
 
     Parameters
     ----------
@@ -47,8 +49,10 @@ def plot_sweep(  # noqa: PLR0913
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
         given
     log : whether the scale of the variable is logarithmic: on both sides of zero, and linear up to its least size, if
-        some values are negative or zero. Growth rates have such a scale in any case
-    cmap : another colour map of matplotlib for a map of numbers; classes have the same colours in all pictures
+        some values are negative or zero. Growth rates of both signs have such a scale in any case
+    cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
+        middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
+        there in any case. Classes have the same colours in all pictures
     ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar".
         Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set. In a figure
         without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as by

@@ -2,22 +2,26 @@
 the page."""
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
+import numpy as np
 from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Array, Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
-ROUNDS = 2  # numbers along an axis may change with its length
+ROUNDS = 3  # numbers along an axis may change with its length
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
+LEAST_STEP = 0.1  # pixel, less than which is rounding
+LEAST_SIDE = 0.9  # inch, of a panel, up to which gaps between panels are widened
 LEAST_SHARE = 0.1  # of their size, or of the page, that axes keep in any case
 
 
 class Beyond(NamedTuple):
-    """How far axes and what belongs to them reach beyond their place, in pixels; 0 if they do not."""
+    """How far axes and what belongs to them reach beyond the page, or into what stands beside them in
+    a grid, in pixels; 0 if they do not."""
 
     left: float
     right: float
@@ -25,24 +29,36 @@ class Beyond(NamedTuple):
     above: float
 
 
-def fit_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
-    """Make room on the page for labels, titles and legend of axes and of bars of colours beside them;
-    and for the legend above the panels of the next row, if there is one.
+def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
+    """Make room on the page for labels, titles and legends of panels and of bars of colours beside
+    them, and between those of neighbours in a grid.
 
-    Axes of a grid get larger margins, as by `subplots_adjust`, so that rows and columns stay in line
-    and a later `tight_layout` works; others shrink.
+    Axes of a grid get larger margins and gaps, as by `subplots_adjust`, so that rows and columns stay
+    in line and a later `tight_layout` works; others shrink.
     """
-    page: Any = ax.get_figure(root=True)
-    place = ax.get_subplotspec()
     for _ in range(ROUNDS):
-        page.draw_without_rendering()  # sets the places
-        beyond = _beyond(ax, bars)
-        if not any(beyond):
+        figure.draw_without_rendering()  # sets the places
+        changed = False
+        for ax, bars in panels.items():
+            beyond = _beyond(ax, bars)
+            if max(beyond) < LEAST_STEP:
+                continue
+            before = _places_of(panels)
+            place = ax.get_subplotspec()
+            if place is None:
+                _shrink(ax, bars, beyond)
+            else:
+                _widen_margins(figure, place.get_topmost_subplotspec(), beyond)
+            if np.abs(_places_of(panels) - before).max() > LEAST_STEP:
+                changed = True
+                figure.draw_without_rendering()  # so that a gap is not widened from both sides
+        if not changed:
             return
-        if place is None:
-            _shrink(ax, bars, beyond)
-        else:
-            _widen_margins(page, place.get_topmost_subplotspec(), beyond)
+
+
+def _places_of(panels: Iterable[Axes]) -> Array:
+    """Corners of panels, in pixels."""
+    return np.array([ax.get_window_extent().extents for ax in panels])
 
 
 def _shrink(ax: Axes, bars: Sequence[Axes], beyond: Beyond) -> None:
@@ -63,48 +79,127 @@ def _shrink(ax: Axes, bars: Sequence[Axes], beyond: Beyond) -> None:
 
 
 def _widen_margins(page: Any, place: Any, beyond: Beyond) -> None:
-    """Widen the margins of a grid of axes, or the gap between its rows, by as much as axes at a place
-    in it reach beyond the page or into the next row."""
+    """Widen the margins of a grid of axes, or the gaps between its columns and rows, by as much as
+    axes at a place in it reach beyond the page or into others."""
     margins = page.subplotpars
     width, height = page.bbox.size
-    left = margins.left + beyond.left / width
-    right = margins.right - beyond.right / width
+    left = margins.left
+    right = margins.right
+    across = 0.0
+    if place.is_first_col():
+        left += beyond.left / width
+    else:
+        across = max(across, beyond.left / width)
+    if place.is_last_col():
+        right -= beyond.right / width
+    else:
+        across = max(across, beyond.right / width)
+
     lower = margins.bottom
-    upper = margins.top - beyond.above / height
-    rows = place.get_gridspec().nrows
-    gaps = margins.hspace
+    upper = margins.top
+    up = 0.0
     if place.is_last_row():
         lower += beyond.below / height
     else:
-        whole = upper - lower
-        row = whole / (rows + gaps * (rows - 1))
-        gap = gaps * row + beyond.below / height
-        row = (whole - gap * (rows - 1)) / rows
-        gaps = gap / max(row, LEAST_SHARE * whole / rows)
-    if right - left > LEAST_SHARE and upper - lower > LEAST_SHARE:
-        page.subplots_adjust(left=left, right=right, bottom=lower, top=upper, hspace=gaps)
+        up = max(up, beyond.below / height)
+    if place.is_first_row():
+        upper -= beyond.above / height
+    else:
+        up = max(up, beyond.above / height)
+
+    if right - left <= LEAST_SHARE or upper - lower <= LEAST_SHARE:
+        return
+    grid = place.get_gridspec()
+    columns = Row(margins.right - margins.left, grid.ncols, margins.wspace)
+    rows = Row(margins.top - margins.bottom, grid.nrows, margins.hspace)
+    page.subplots_adjust(
+        left=left,
+        right=right,
+        bottom=lower,
+        top=upper,
+        wspace=columns.gap_in(right - left, across, LEAST_SIDE * page.dpi / width),
+        hspace=rows.gap_in(upper - lower, up, LEAST_SIDE * page.dpi / height),
+    )
+
+
+class Row(NamedTuple):
+    """Axes in a row or a column: its length as a share of the page, how many there are, and the gap
+    between two over their length."""
+
+    whole: float
+    number: int
+    gap: float
+
+    def gap_in(self, whole: float, wider: float, least: float) -> float:
+        """The gap over the axes in another length, where it has the width that it had, and is wider
+        by a share of the page; but axes that are longer than the least length have that at least."""
+        gaps = self.number - 1
+        if not gaps:
+            return self.gap
+        width = self.gap * self.whole / (self.number + self.gap * gaps)
+        before = (whole - width * gaps) / self.number
+        after = (whole - (width + wider) * gaps) / self.number
+        size = max(after, min(before, least))
+        return (whole - size * self.number) / gaps / size
 
 
 def _beyond(ax: Axes, bars: Sequence[Axes]) -> Beyond:
-    """How far axes, bars, labels and legend reach beyond the page, or into the row below."""
+    """How far axes, bars, labels and legend reach beyond the page, or into those beside them."""
     page: Any = ax.get_figure(root=True)
     margin = MARGIN * page.dpi
-    boxes = [box for each in (ax, *bars) if (box := each.get_tightbbox()) is not None]
-    legend = ax.get_legend()
-    if legend is not None:
-        boxes.append(legend.get_window_extent())
-    taken = Bbox.union(boxes)
+    taken = _extent([ax, *bars])
+    left = margin
+    right = page.bbox.width - margin
     floor = margin
+    ceiling = page.bbox.height - margin
     place = ax.get_subplotspec()
-    if place is not None and not place.get_topmost_subplotspec().is_last_row():
-        labels = ax.xaxis.get_tightbbox()
-        floor = ax.bbox.y0 if labels is None else labels.y0
+    if place is not None:
+        own = place.get_topmost_subplotspec()
+        left = max([left, *(box.x1 + margin for box in _beside(page, own, -1, 0))])
+        right = min([right, *(box.x0 - margin for box in _beside(page, own, 1, 0))])
+        floor = max([floor, *(box.y1 + margin for box in _beside(page, own, 0, 1))])
+        ceiling = min([ceiling, *(box.y0 - margin for box in _beside(page, own, 0, -1))])
     return Beyond(
-        max(margin - taken.x0, 0.0),
-        max(taken.x1 + margin - page.bbox.width, 0.0),
+        max(left - taken.x0, 0.0),
+        max(taken.x1 - right, 0.0),
         max(floor - taken.y0, 0.0),
-        max(taken.y1 + margin - page.bbox.height, 0.0),
+        max(taken.y1 - ceiling, 0.0),
     )
+
+
+def _beside(page: Any, own: Any, across: int, down: int) -> list[Bbox]:
+    """The extents of axes at the places of a grid next to one, on the side to which a step of
+    columns and rows leads."""
+    found = []
+    for ax in page.axes:
+        place = ax.get_subplotspec()
+        if place is None:
+            continue
+        other = place.get_topmost_subplotspec()
+        if other.get_gridspec() is not own.get_gridspec():
+            continue
+        columns = _steps(own.colspan, other.colspan)
+        rows = _steps(own.rowspan, other.rowspan)
+        if (columns, rows) == (across, down):
+            found.append(_extent([ax]))
+    return found
+
+
+def _steps(own: range, other: range) -> int:
+    """On which side of some columns or rows others lie, -1 or 1; 0 if they share one."""
+    if other.start >= own.stop:
+        return 1
+    if other.stop <= own.start:
+        return -1
+    return 0
+
+
+def _extent(axes: Sequence[Axes]) -> Bbox:
+    """The extent of axes with their labels, titles and legends."""
+    boxes = [box for each in axes if (box := each.get_tightbbox()) is not None]
+    legends = [each.get_legend() for each in axes]
+    boxes += [legend.get_window_extent() for legend in legends if legend is not None]
+    return Bbox.union(boxes)
 
 
 def check_room(axes: Sequence[Axes]) -> None:

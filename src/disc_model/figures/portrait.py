@@ -14,12 +14,14 @@ from disc_model.figures.legends import figure_legend
 from disc_model.figures.runs import sampled, stated, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
-LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.2}
+LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}
 """Widths of the lines of phases, points: where slip lies on stick, both show."""
+DASHES = {"separation": (0, (2.0, 0.8))}
+"""Dashes of lines that are not full: in grey print the three phases are edged, thin and dashed."""
 EDGED = "stick"
-"""The phase whose line has a black edge: in grey print the three are thin, thick and dark."""
+"""The phase whose line has a black edge,"""
 EDGE = 0.4
-"""Width of this edge, points."""
+"""and the width of this edge, points."""
 
 
 def draw(plot: Portrait, case: xr.DataTree) -> Figure:
@@ -61,6 +63,7 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
         # broken where the phase changes, so that no chord is drawn across others
         height = np.where(inside, samples[y].values * in_y, np.nan)
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
+        look["linestyle"] = DASHES.get(name, "-")
         width = wide(LINES[name])
         if name == EDGED:
             look["path_effects"] = halo(width + 2 * wide(EDGE), BLACK)

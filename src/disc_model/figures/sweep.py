@@ -10,7 +10,7 @@ import xarray as xr
 from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.colours import is_colormap, recolour
+from disc_model.figures.colours import ColourWishes, is_colormap
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
@@ -62,9 +62,7 @@ def plot_sweep(  # noqa: PLR0913
     if column:
         drawn = replace(drawn, mapped=False, joined=False)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
-        _draw(page, varying, drawn, log)
-        if cmap is not None:
-            recolour(page.ax, cmap)
+        _draw(page, varying, drawn, ColourWishes(log, cmap))
     return page.ax
 
 
@@ -189,16 +187,19 @@ def _case_of(study: xr.Dataset) -> str:
 # ---- Drawing
 
 
-def _draw(page: Page, study: xr.Dataset, drawn: Drawn, log: bool) -> None:
+def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes) -> None:
     """Draw bars of shares, lines, or a map."""
+    log = wishes.log
     if drawn.variable in SHARES and not log:
+        wishes.refuse()
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
+        wishes.refuse()
         draw_lines(page.ax, study, drawn.variable, drawn.across, log, joined=drawn.joined)
         page.explain(page.ax.get_legend_handles_labels()[0])
     else:
         plane = study.transpose(drawn.second, drawn.across, ...)
-        key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, log)
+        key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, wishes)
         page.explain(key.handles, beside="below", title=key.title)
         page.is_map = True
         whole = study[drawn.second].dtype.kind == "i"

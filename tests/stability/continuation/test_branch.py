@@ -36,6 +36,7 @@ def branch(name: str) -> Branch:
         multipliers=np.ones((3, 1), dtype=complex),
         diameters=np.zeros(3, dtype=int),
         separations=np.zeros(3, dtype=int),
+        releases=np.ones(3, dtype=int),
         points=np.zeros((3, 1)),
         folds=fold.values[None],
         ended="made up",

@@ -90,12 +90,31 @@ def _same(value: Any, other: Any) -> bool:
     return bool(value == other)
 
 
+Limits = tuple[Finite, Finite]
+"""Ends of the scale of a variable, in the unit of its label."""
+
+
+def _wrong_limits(limits: Limits | None) -> Iterator[Fault]:
+    """The fault of limits that do not ascend."""
+    if limits is not None and not limits[0] < limits[1]:
+        yield Fault.of(("limits",), limits, "must be two ascending values")
+
+
 class HeatMap(General):
-    """A variable in colour over two dimensions; a panel for each value of a third, if wanted."""
+    """A variable in colour over two dimensions; a panel for each value of a third, if wanted.
+
+    limits : ends of the scale of colours, so that figures can be compared, or small differences be
+        seen; on both sides of zero the larger one counts for both
+    """
 
     is_map = True
     kind: Literal["heat_map"] = "heat_map"
     y: str
+    limits: Limits | None = None
+
+    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
+        yield from super().faults_among(dims, variables)
+        yield from _wrong_limits(self.limits)
 
 
 class CurvePlot(General):
@@ -108,11 +127,12 @@ class CurvePlot(General):
 
     room = 12
     kind: Literal["curve"] = "curve"
-    limits: tuple[Finite, Finite] | None = None
+    limits: Limits | None = None
     panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
     legend: bool = False
 
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         yield from super().faults_among(dims, variables)
+        yield from _wrong_limits(self.limits)
         if self.panels != "each":
             yield from unknown("panels", chain(*self.panels), "by", dims.get(self.by or "", ()))

@@ -112,6 +112,7 @@ class Branch:
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations : int, (n_points,), number of separations in a period
+    releases : int, (n_points,), number of releases of stick in a period: twice as many beyond a period doubling
     points : (n_points, n), on the section, in the coordinates of the return map for the case followed
     folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
         in one parameter
@@ -136,6 +137,7 @@ class Branch:
     multipliers: ComplexArray = field(repr=False)
     diameters: Indices = field(repr=False)
     separations: Indices = field(repr=False)
+    releases: Indices = field(repr=False)
     points: Array = field(repr=False)
     folds: Array
     ended: str
@@ -216,9 +218,9 @@ class Branch:
 
         Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
         `stick_fraction`, `range` (m, for which each cycle is simulated for a period),
-        `largest_multiplier` (modulus), `stable`, `separations`, `diameters`, `multipliers`, and the
-        cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`, `direction` and, along
-        `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
+        `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
+        `multipliers`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
+        `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
         `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
         `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
         the case's `parameters` in JSON, and `not_reached` if there are such values.
@@ -266,6 +268,7 @@ class Branch:
             multipliers=data["multipliers"].values.astype(complex),
             diameters=data["diameters"].values,
             separations=data["separations"].values,
+            releases=data["releases"].values,
             points=stored.points(),
             folds=np.array(folds).reshape(-1, len(stored.parameters)),
             ended=stored.ended,

@@ -211,8 +211,6 @@ def branch_of(
     growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
     rows = _special_points(problem, course)
     folds = [row.values for row in rows if row.kind == special.FOLD]
-    nearest = [np.abs(values - value).min() for value in wanted]
-    missed = np.array(nearest) > ROUNDING * problem.scales[0]
     reasons = [end.text for end in (course.first, course.last) if end is not None]
     return Branch(
         parameters=problem.names,
@@ -223,14 +221,21 @@ def branch_of(
         multipliers=np.array(every),
         diameters=np.array([problem.leading_diameters(point) for point in points]),
         separations=np.array([point.orbit.counts.separations for point in points]),
+        releases=np.array([point.orbit.counts.releases for point in points]),
         points=np.array([problem.reference_point(point.z) for point in points]),
         folds=np.array(folds).reshape(-1, len(problem.names)),
         ended="; ".join(dict.fromkeys(reasons)),
         case=problem.base,
         special=rows,
-        not_reached=np.array(wanted, dtype=float)[missed],
+        not_reached=_missed(values, wanted, ROUNDING * problem.scales[0]),
         _make_map=problem.make_map,
     )
+
+
+def _missed(values: np.ndarray, wanted: Sequence[float], slack: float) -> np.ndarray:
+    """Those of some wanted values from which all along a branch differ by more than a slack."""
+    nearest = [np.abs(values - value).min() for value in wanted]
+    return np.array(wanted, dtype=float)[np.array(nearest) > slack]
 
 
 def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint, ...]:

@@ -29,6 +29,7 @@ POINTS = {
     "largest_multiplier": Variable("1", "modulus of the largest multiplier"),
     "stable": Variable("1", "whether the cycle is stable"),
     "separations": Variable("1", "number of separations in a period"),
+    "releases": Variable("1", "number of releases of stick in a period"),
     "diameters": Variable("1", "nodal diameters of the leading multiplier's eigenvector"),
     "multipliers": Variable("1", "multipliers of the cycle, largest modulus first"),
 }
@@ -58,6 +59,7 @@ def dataset_of(branch: Branch) -> xr.Dataset:
         "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
         "stable": branch.growth_rate < 0,
         "separations": branch.separations,
+        "releases": branch.releases,
         "diameters": branch.diameters,
         "multipliers": branch.multipliers,
     }
@@ -93,7 +95,7 @@ class StoredBranch:
     """What a dataset of a branch holds; raises `ParameterError` if it is of something else."""
 
     def __init__(self, data: xr.Dataset) -> None:
-        names = ["multipliers", "special_kind", "a", "special_a"]
+        names = ["multipliers", "releases", "special_kind", "a", "special_a"]
         known = isinstance(data, xr.Dataset) and all(name in data for name in names)
         known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
         rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
