@@ -25,17 +25,22 @@ from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
 
 CYCLE = StepControl()
+UNSET = ("damping_ratio",)  # numbers that are None in a case without them
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
     """Faults of the names of free parameters."""
     known = p.numbers
-    wrong = [name for name in names if not isinstance(name, str) or name not in known]
-    return [
-        Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}")
-        for name in wrong
-    ]
+    faults = list[str]()
+    for name in names:
+        if isinstance(name, str) and name in known:
+            continue
+        rule = f"must be a number of the case{suggestion(name, known)}"
+        if isinstance(name, str) and (name in UNSET or isinstance(getattr(p, name, None), float)):
+            rule = "does not act in this case; give the case a value with which it does first"
+        faults.append(Fault.of(("name",), name, rule))
+    return faults
 
 
 def interval_in_si(name: Any, bounds: Any, faults: list[Fault] | None = None) -> Any:
@@ -191,7 +196,12 @@ def _scaled(
     if steps.scale is not None:
         return steps.scale, steps
     stretch = stretch_of(case, name)
-    shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch**0.5}
+    first = steps.step / stretch
+    shorter = {
+        "step": first,
+        "longest": steps.longest / stretch**0.5,
+        "shortest": min(steps.shortest, first),
+    }
     scale = stretch * parameter_scale(case, name, max(map(abs, span)))
     return scale, steps.replace(**shorter)
 
