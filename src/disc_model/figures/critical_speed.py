@@ -1,15 +1,18 @@
 """Charts over speed and preload: where separation begins from the static start, and in sweeps."""
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.colors import ListedColormap
+from matplotlib.transforms import ScaledTranslation
 
+from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
-from disc_model.figures.classes import LOOKS
+from disc_model.figures.classes import AT_BOUND, LOOKS
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -17,6 +20,7 @@ from disc_model.figures.drawing import (
     PAPER,
     SEPARATED,
     halo,
+    large,
     letters,
     mark,
     mark_failed,
@@ -35,6 +39,7 @@ END = BLUE  # and at which it ends
 CONTACT = LOOKS["growing"]._replace(
     label="oscillations grow, or another\ncycle is reached, in contact"
 )
+ARROW = 5.0  # pt, length of an arrow to lower speeds, and its distance from the mark
 BAR = 20.0  # N, height of the mark of coexistence, well within a step of the sweeps
 
 
@@ -185,8 +190,9 @@ def _beside(
     returns a title."""
     loads = sweep["N"].values
     lost = failed(sweep).values
-    onset = np.where(lost, np.nan, sweep["onset_speed"].values)
-    end = np.where(lost, np.nan, sweep["offset_speed"].values)
+    swept = swept_speeds(sweep)
+    onset = np.where(lost, np.nan, swept.onset.values)
+    end = np.where(lost, np.nan, swept.end.values)
     for speeds, shape, colour, label in (
         (onset, "^", ONSET, "sweep up: separation begins"),
         (end, "v", END, "sweep down: separation ends"),
@@ -201,6 +207,8 @@ def _beside(
             clip_on=False,
             label=label,
         )
+    _point_to_less(ax, loads, onset, swept.onset_at_bound.values & ~lost, ONSET)
+    _point_to_less(ax, loads, end, swept.end_at_bound.values & ~lost, END)
     mark_failed(ax, loads[lost], on="y")
     if basins is not None:
         _coexistence(ax, basins)
@@ -208,6 +216,31 @@ def _beside(
         _stable_cycles(ax, sweep, cycle)
     step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
     return f"sweeps in steps of {step:g} rad/s"
+
+
+def _point_to_less(
+    ax: Axes, loads: np.ndarray, speeds: np.ndarray, at_bound: np.ndarray, colour: str
+) -> None:
+    """Set an arrow beside each speed that is the lowest of its sweep, and may be less."""
+    if not at_bound.any():
+        return
+    label = AT_BOUND.label
+    if label in ax.get_legend_handles_labels()[1]:
+        label = "_nolegend_"
+    page: Any = ax.get_figure(root=True)
+    left = ScaledTranslation(-large(ARROW) / 72, 0, page.dpi_scale_trans)
+    ax.plot(
+        speeds[at_bound],
+        loads[at_bound],
+        linestyle="",
+        marker=r"$\leftarrow$",
+        color=colour,
+        label=label,
+        markersize=mark(ARROW),
+        markeredgewidth=0,
+        transform=ax.transData + left,
+        clip_on=False,
+    )
 
 
 def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
@@ -240,7 +273,7 @@ def _stable_cycles(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset) -> None:
     the sweep down still separates; not between loads of which one never does."""
     speeds = cycle["Omega"].values
     loads = cycle["N"].values
-    ends = sweep["offset_speed"].values
+    ends = swept_speeds(sweep).end.values
     lowest = np.interp(loads, sweep["N"].values, ends, left=np.nan, right=np.nan)
     highest = float(sweep["sweep_Omega"].max())
     within = (speeds >= lowest[:, None]) & (speeds <= highest)
