@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, EqualByValue
 from disc_model.disc.plausibility import ImplausibleValue
 from disc_model.display import Drawn, Summarised, html_table, number_text
 from disc_model.errors import (
@@ -138,7 +138,7 @@ class Fitted(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Summarised, Drawn):
+class Fit(Summarised, Drawn, EqualByValue):
     """Parameters fitted to measurements; `plot` draws the deviations of computed values.
 
     Attributes

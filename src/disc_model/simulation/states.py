@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import Field
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
@@ -51,7 +51,7 @@ SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its directi
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class State:
+class State(EqualByValue):
     """State of the system in the slider's frame.
 
     Attributes

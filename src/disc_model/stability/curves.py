@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
-from disc_model.arrays import Array, ComplexArray, Mask
+from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
 from disc_model.display import Drawn, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
@@ -44,7 +44,7 @@ SAME_PERIOD = 0.004
 
 
 @dataclass(frozen=True, eq=False)
-class StabilityCurve:
+class StabilityCurve(EqualByValue):
     """A curve in the plane of two parameters.
 
     Attributes

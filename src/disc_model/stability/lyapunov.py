@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.arrays import EqualByValue
 from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
@@ -41,7 +42,7 @@ CONVERGED = (0.05, 0.002)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Lyapunov(Drawn):
+class Lyapunov(Drawn, EqualByValue):
     """The largest Lyapunov exponents; `plot` draws them with their errors.
 
     Attributes
