@@ -244,7 +244,12 @@ def test_a_critical_speed_that_is_nan_is_said_in_words() -> None:
     ("rates", "onset", "end", "message"),
     [
         ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept at all 3 speeds from 12 to 16 rad/s"),
-        ([[0, 0, 9], [9, 9, 9]], 16.0, math.nan, "still lost on the way down at the lower bound, 12"),
+        (
+            [[0, 0, 9], [9, 9, 9]],
+            16.0,
+            math.nan,
+            "still lost on the way down at the lower bound, 12",
+        ),
         ([[9, 9, 9], [0, 9, 9]], math.nan, 14.0, "on the way up from the lower bound on, 12 rad/s"),
         ([[0, 9, 0], [0, 0, 0]], 14.0, math.nan, "kept at 16 rad/s, where the way down begins"),
         ([[0, 0, 9], [0, 9, 9]], 16.0, 14.0, ""),

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.errors import suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate

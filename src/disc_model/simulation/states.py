@@ -350,6 +350,7 @@ def deflection(
     import xarray as xr
 
     raise_faults(foreign_case(case))
+    warn_of_doubts(case)
     modes = mode_arrays(case)
     low, high = radial_range(case)
     radii = finite_numbers(in_si(r, "m", [], ()))
