@@ -52,7 +52,7 @@ SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its directi
 
 @dataclass(frozen=True, eq=False, repr=False)
 class State(EqualByValue):
-    """State of the system in the slider's frame.
+    """State of the system in the slider's frame. States are equal if all of their values are.
 
     Attributes
     ----------
