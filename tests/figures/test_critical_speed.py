@@ -10,7 +10,7 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures import critical_speed
+from disc_model.figures import critical_speed, swept_speeds
 from disc_model.figures.borders import Curve, _resonance_of, curves_of, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
@@ -144,12 +144,12 @@ def swept(ends: list[float], *, lost: bool) -> xr.Dataset:
 def test_separation_that_persists_at_the_lowest_speed_points_to_lower_ones() -> None:
     """Its end is not known, and neither is it left out."""
     ax = pyplot.figure().subplots()
-    critical_speed._beside(ax, swept([np.nan, np.nan], lost=True), None, None)
+    swept_speeds.draw_sweeps(ax, swept([np.nan, np.nan], lost=True), None, None)
     found = lines(ax)
     assert found["sweep down: separation ends"].get_xdata().tolist() == [10.0, 10.0]
     assert found["at or below the lower bound"].get_xdata().tolist() == [10.0, 10.0]
     ax = pyplot.figure().subplots()
-    critical_speed._beside(ax, swept([12.0, 14.0], lost=False), None, None)
+    swept_speeds.draw_sweeps(ax, swept([12.0, 14.0], lost=False), None, None)
     assert "at or below the lower bound" not in lines(ax)
 
 
@@ -161,7 +161,7 @@ def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:
     speeds = [11.0, 13, 15, 21]
     stable = np.full((5, 4), -1.0)
     cycle = xr.Dataset({"growth_rate": (("N", "Omega"), stable)}, {"N": loads, "Omega": speeds})
-    critical_speed._stable_cycles(ax, sweep, cycle)
+    swept_speeds._stable_cycles(ax, sweep, cycle)
     [mesh] = [each for each in ax.collections if isinstance(each, QuadMesh)]
     shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 4)
     # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N; up to 20
