@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from disc_model.arrays import Array, ComplexArray
+from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.errors import DiscModelError, violations
@@ -41,7 +41,7 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult(Summarised, Drawn):
+class FloquetResult(Summarised, Drawn, EqualByValue):
     """A cycle of a case; `plot` draws the multipliers in the complex plane, and the
     unit circle.
 
