@@ -394,6 +394,33 @@ def test_a_hopf_point_has_no_folds_beside_it() -> None:
     assert [each.kind for each in branch.special] == ["hopf", "grazing"]
 
 
+def test_growth_rates_lie_between_those_of_neighbouring_points(separating: State) -> None:
+    """A line from 14.0 rad/s to the period doubling at 14.29 showed half the decay at 14.15."""
+    p = Parameters(N=385, Omega=15.1)
+    doubled = continue_cycle(p, "Omega", (14, 18), guess=separating, releases=2)
+    doubling = doubled.special[0]
+    single = continue_cycle(doubling.case, "Omega", (13, 15), guess=doubling.state)
+    speeds = single.values[:, 0]
+    between = 14.15
+    i = int(np.argmin(np.abs(speeds - between)))
+    cycle = floquet(p.replace(Omega=between), guess=single.state(i))
+    drawn = np.interp(between, speeds, single.growth_rate)
+    assert drawn == pytest.approx(cycle.growth_rate, rel=0.2)  # which is `LITTLE_CHANGE`
+
+
+def test_cycles_are_found_by_their_value() -> None:
+    p = Parameters(N=385, Omega=14.9)
+    branch = continue_cycle(p, "Omega", (14.8, 15.2), values=["143 rpm"])
+    numbers = branch.at("143 rpm")
+    assert len(numbers) == 2  # on both sides of the fold
+    assert branch.values[numbers, 0] == pytest.approx(143 * np.pi / 30, rel=1e-12)
+    assert branch.at(14.97) == []
+    with pytest.raises(ParameterError, match="value='15 Hz'"):
+        branch.at("15 Hz")
+    with pytest.raises(ParameterError, match="value='fast'"):
+        branch.at("fast")
+
+
 @pytest.mark.parametrize("name", ["damping_ratio", "friction_decay", "contact_compliance"])
 def test_a_number_that_does_not_act_cannot_be_continued(name: str) -> None:
     with pytest.raises(ParameterError, match=f"name='{name}': does not act in this case"):

@@ -10,9 +10,10 @@ import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices
 from disc_model.display import counted, draw, html_table, number_text
-from disc_model.errors import require
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, raise_faults, require
+from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
+from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
@@ -279,6 +280,28 @@ class Branch:
         )
         vars(branch)["range"] = data["range"].values  # which takes a simulation of each cycle
         return branch
+
+    def at(self, value: Quantity) -> list[int]:
+        """Numbers of the cycles at a value of the first parameter, in SI units or as a text with a unit,
+        along the branch; none if the branch passes it between two cycles or not at all.
+
+        Raises `ParameterError` if it is no number.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> case = dm.Parameters(N=385, Omega=14.9)
+        >>> branch = dm.continue_cycle(case, "Omega", (14.8, 15.2), values=["143 rpm"])
+        >>> branch.growth_rate[branch.at("143 rpm")].round(3).tolist()
+        [-0.105, 0.576]
+        """
+        name = self.parameters[0]
+        faults = list[Fault]()
+        [wanted] = values_in_si(name, [value], faults, "value")
+        raise_faults(faults)
+        require((is_finite(wanted), "value", value, "must be a finite number"))
+        apart = np.abs(self.values[:, 0] - wanted)
+        return np.flatnonzero(apart <= ROUNDING * abs(wanted)).tolist()
 
     def case_at(self, i: int) -> Parameters:
         """The case of the i-th cycle: the case followed with this cycle's values of the free

@@ -121,6 +121,8 @@ class Search:
         else:
             end = ends.at_most_points(self.steps.max_points)
         points = special.reveal_folds(self.tracer, points)
+        if end.kind != ends.MOST_POINTS:
+            points = special.reveal_growth(self.tracer, points)
         return self._located(special.reveal_stability(self.tracer, points), end)
 
     def _located(self, points: list[CurvePoint], end: End) -> Course:

@@ -88,7 +88,7 @@ def continue_cycle(  # noqa: PLR0913
     Branch(... cycles, Omega from 14.8 to 15.09..., 1 fold; ended: the bound Omega = 14.8 rad/s was reached)
     >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
     15.094912 rad/s
-    >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
+    >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()
     [-0.1055, 0.5751]
     """
     ways = is_number(direction) and direction in (-1, 0, 1)

@@ -17,6 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from disc_model.stability.continuation.curve import CurvePoint, Rejected
+from disc_model.stability.continuation.problem import growth_rate
 from disc_model.stability.continuation.spectrum import follow_multipliers
 from disc_model.stability.continuation.tracing import BranchTracer
 
@@ -30,6 +31,10 @@ NEARLY_FOLDED = (
     0.5  # least value between three points, over that of the middle one, that is looked at
 )
 MOST_REFINEMENTS = 4  # of the points round a slope that nearly vanishes
+# change of the growth rate within a step, over the larger one, that a straight line shows well
+# enough, and a step that is short enough whatever the change
+LITTLE_CHANGE = 0.2
+SHORT_STEP = 0.01
 # least distance of the leading multiplier's modulus from one at both ends of a step, over its largest
 # change in that step and its neighbours, at which stability may change twice within the step
 NEARLY_NEUTRAL = 0.5
@@ -189,6 +194,42 @@ def reveal_folds(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[Cur
         if i in revealed:
             complete.append(revealed[i])
     return complete
+
+
+def reveal_growth(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[CurvePoint]:
+    """The points of a branch and, within long steps in which the growth rate changes much, further
+    ones: a straight line from point to point would show it wrong."""
+    complete = list(points[:1])
+    for before, after in pairwise(points):
+        complete += _of_other_growth(tracer, before, after)
+        complete.append(after)
+    return complete
+
+
+def _of_other_growth(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
+) -> list[CurvePoint]:
+    """The points that `reveal_growth` adds between two neighbours."""
+    first = _growth(before)
+    last = _growth(after)
+    little = abs(last - first) <= LITTLE_CHANGE * max(abs(first), abs(last))
+    length = float(np.linalg.norm(after.z - before.z))
+    if little or length <= SHORT_STEP or before.orbit.counts != after.orbit.counts:
+        return []
+    if not (math.isfinite(first) and math.isfinite(last)):
+        return []
+    try:
+        middle = tracer.between(before, after, 0.5)
+    except Rejected:
+        return []
+    earlier = _of_other_growth(tracer, before, middle)
+    later = _of_other_growth(tracer, middle, after)
+    return [*earlier, middle, *later]
+
+
+def _growth(point: CurvePoint) -> float:
+    """The growth rate of a point's cycle, 1/s."""
+    return growth_rate(leading(point), point.orbit.period)
 
 
 def reveal_stability(tracer: BranchTracer, points: Sequence[CurvePoint]) -> list[CurvePoint]:
