@@ -126,7 +126,8 @@ def neutral_curves(
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
     lines : values of the second parameter, within its bounds; along each of these lines the first parameter is
         scanned for curves
-    points : cycles computed along each line; a curve lies between two that differ in stability or existence
+    points : cycles computed along each line; a curve lies between two that differ in stability or existence. Of several
+        between the same two only one is followed: `critical` lists the crossings of a line
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`
     tol : as in `floquet`
