@@ -16,7 +16,7 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.colours import bars_of
-from disc_model.figures.drawing import large, readers_style
+from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels, part_numbers
 from disc_model.figures.legends import (
     figure_legend,
@@ -27,6 +27,7 @@ from disc_model.figures.legends import (
     legend_inside,
 )
 from disc_model.figures.placing import check_room, fit_to_page
+from disc_model.figures.style import readers_style
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import head_text
 
