@@ -193,3 +193,12 @@ def test_a_ratio_stays_a_ratio_in_a_copy(copied: Callable[[Parameters], Paramete
 def test_json_of_no_case_is_an_error_of_this_package(text: str, fault: str) -> None:
     with pytest.raises(ParameterError, match=f"^{re.escape(fault)}"):
         Parameters.model_validate_json(text)
+
+
+@pytest.mark.parametrize("name", ["N", "E", "nu", "mu_s", "damping_ratio"])
+def test_a_value_that_is_not_a_number_is_told_so(name: str) -> None:
+    """It was told the bound that a comparison with it breaks, such as >= 0."""
+    values = {"N": 385, "Omega": 15, name: math.nan}
+    with pytest.raises(ParameterError) as error:
+        Parameters(**values)
+    assert str(error.value) == f"{name}=nan: must be a finite number"

@@ -4,6 +4,7 @@ import inspect
 import math
 import pydoc
 import re
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -197,6 +198,29 @@ def test_a_wrong_argument_is_named(function, others, name, right, tmp_path, monk
             with pytest.raises(dm.ParameterError) as error:
                 function(**others | {name: value})
             assert any(name in re.findall(r"\w+", fault) for fault in error.value.faults), label
+
+
+RESULTS: tuple[Callable[[dm.Parameters], Any], ...] = (
+    dm.floquet,
+    dm.steady_sliding,
+    dm.residual_flexibility,
+    lambda case: dm.critical(case, "Omega", (20, 21), points=3),
+    lambda case: dm.lyapunov_exponents(case, 0.2, count=1),
+    lambda case: dm.fit(case, ["E"], {"frequency_0_0": (239.0, 1.0)}),
+    lambda case: dm.split_growth(case, 0.01),
+    lambda case: dm.simulate(case, 0.01),
+)
+
+
+@pytest.mark.parametrize("compute", RESULTS)
+def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters], Any]) -> None:
+    """They were equal only to themselves."""
+    case = P.replace(normalization="orthonormal")
+    first = compute(case)
+    assert first == compute(case)
+    assert hash(first) == hash(compute(case))
+    assert first != compute(case.replace(E=1.01 * case.E))
+    assert first != 3
 
 
 MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, StepControl)

@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.axes import Axes
 
-from disc_model.disc.plate import coupled_natural_frequencies
+from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.paper.measures import CaseView
 from disc_model.paper.model import read_texts
 from disc_model.paper.paper_tables import table_2

@@ -22,7 +22,7 @@ _NAMES = {
     "data.exchange": "load save",
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
-    "disc.plate": "plate_modes coupled_natural_frequencies",
+    "disc.modes": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
     "figures.pictures": "plot_modes plot_sweep",
     "errors": (
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
     from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
-    from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+    from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
     from disc_model.disc.plausibility import ImplausibleValue
     from disc_model.errors import (
         DiscModelError,

@@ -30,7 +30,8 @@ from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.files.universal_sets import is_universal_file
 from disc_model.disc.given import DiscReport
-from disc_model.disc.plate import coupled_natural_frequencies, damping_ratios, mode_arrays
+from disc_model.disc.modes import coupled_natural_frequencies
+from disc_model.disc.plate import damping_ratios, mode_arrays
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Disc, Parameters

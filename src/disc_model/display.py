@@ -141,15 +141,12 @@ def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
         TimeRemainingColumn,
     )
 
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        MofNCompleteColumn(),
-        TimeElapsedColumn(),
-        TextColumn("left"),
-        TimeRemainingColumn(),
-    )
-    with Progress(*columns, console=_console()) as bar:
+    if total is None:
+        counts = [TextColumn("{task.completed}"), TimeElapsedColumn()]
+    else:
+        left = [TextColumn("left"), TimeRemainingColumn()]
+        counts = [BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), *left]
+    with Progress(TextColumn("{task.description}"), *counts, console=_console()) as bar:
         yield Bar(total, bar, bar.add_task(title, total=total))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import enum
 import logging
+import math
 import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
@@ -168,11 +169,15 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
             yield Fault(
                 path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more
             )
+        elif kind in _BOUNDS and isinstance(value, float) and math.isnan(value):
+            yield Fault.of(path, value, "must be a finite number")
         else:
             told = re.sub("^[A-Z][a-z]+ should", "must", item["msg"].removeprefix("Value error, "))
             yield Fault.of(path, value, _RULES[kind].format(**context) if kind in _RULES else told)
 
 
+_BOUNDS = ("greater_than_equal", "greater_than", "less_than", "less_than_equal")
+"""Kinds of faults that pydantic finds in numbers, nan among them."""
 _RULES = {  # by pydantic's kind of fault, whose context fills the braces; other kinds have pydantic's words
     "greater_than_equal": "must be >= {ge:g}",
     "greater_than": "must be > {gt:g}",

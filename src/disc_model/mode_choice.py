@@ -15,6 +15,7 @@ import numpy as np
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
+from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised, counted, number_text
 from disc_model.errors import DiscModelError, require
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
@@ -241,6 +242,7 @@ def choose_modes(
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
+    warn_of_doubts(case)
     return chosen_modes(case, request)
 
 

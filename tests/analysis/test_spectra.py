@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from disc_model.analysis import spectra
-from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.parameters import Parameters
 
 RATE = 4000.0

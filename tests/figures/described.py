@@ -412,7 +412,11 @@ def sweeps() -> xr.Dataset:
         "offset_speed": ("N", [9.5, 10.5, 12.0, 9.0], column("hysteresis", "offset_speed")),
         "status": status(("N",), ["ok", "ok", "ok", "failed"]),
     }
-    coords = over(N=[100.0, 220.0, 340.0, 420.0]) | {"sweep_Omega": np.arange(8.0, 16.5, 0.5)}
+    speeds = np.arange(8.0, 16.5, 0.5)
+    kept = np.zeros((4, 2, speeds.size))
+    data["separation_rate"] = (("N", "direction", "sweep_Omega"), kept)
+    coords = over(N=[100.0, 220.0, 340.0, 420.0])
+    coords |= {"direction": ["up", "down"], "sweep_Omega": speeds}
     return xr.Dataset(data, coords, stated())
 
 

@@ -10,10 +10,11 @@ from matplotlib.collections import QuadMesh
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures import critical_speed
+from disc_model.figures import critical_speed, swept_speeds
 from disc_model.figures.borders import Curve, _resonance_of, curves_of, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
+from tests.figures.described import status
 from tests.figures.every_kind import flag
 from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
@@ -124,16 +125,43 @@ def test_only_the_longest_horizon_is_drawn(speeds: xr.Dataset) -> None:
     assert np.nanmin(onsets) == np.nanmin(speeds["critical_speed"].sel(horizon=1000))
 
 
+def swept(ends: list[float], *, lost: bool) -> xr.Dataset:
+    """Sweeps from 10 to 20 rad/s at two loads, onset 18 rad/s, with their ends; contact may be lost
+    on all of the way down."""
+    rates = np.zeros((2, 2, 2))
+    if lost:
+        rates[:, 1] = 9.0
+    data = {
+        "onset_speed": ("N", [18.0, 18.0]),
+        "offset_speed": ("N", ends),
+        "separation_rate": (("N", "direction", "sweep_Omega"), rates),
+        "status": status(("N",), ["ok", "ok"]),
+    }
+    coords = {"N": [200.0, 400.0], "direction": ["up", "down"], "sweep_Omega": [10.0, 20.0]}
+    return xr.Dataset(data, coords)
+
+
+def test_separation_that_persists_at_the_lowest_speed_points_to_lower_ones() -> None:
+    """Its end is not known, and neither is it left out."""
+    ax = pyplot.figure().subplots()
+    swept_speeds.draw_sweeps(ax, swept([np.nan, np.nan], lost=True), None, None)
+    found = lines(ax)
+    assert found["sweep down: separation ends"].get_xdata().tolist() == [10.0, 10.0]
+    assert found["at or below the lower bound"].get_xdata().tolist() == [10.0, 10.0]
+    ax = pyplot.figure().subplots()
+    swept_speeds.draw_sweeps(ax, swept([12.0, 14.0], lost=False), None, None)
+    assert "at or below the lower bound" not in lines(ax)
+
+
 def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:
     """The cycle is stable everywhere, but the sweep says nothing beyond its loads and speeds."""
     ax = pyplot.figure().subplots()
-    swept = {"N": [200.0, 400.0], "sweep_Omega": [10.0, 20.0]}
-    sweep = xr.Dataset({"offset_speed": ("N", [12.0, 14.0])}, swept)
+    sweep = swept([12.0, 14.0], lost=False)
     loads = [100.0, 200, 300, 400, 500]
     speeds = [11.0, 13, 15, 21]
     stable = np.full((5, 4), -1.0)
     cycle = xr.Dataset({"growth_rate": (("N", "Omega"), stable)}, {"N": loads, "Omega": speeds})
-    critical_speed._stable_cycles(ax, sweep, cycle)
+    swept_speeds._stable_cycles(ax, sweep, cycle)
     [mesh] = [each for each in ax.collections if isinstance(each, QuadMesh)]
     shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 4)
     # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N; up to 20

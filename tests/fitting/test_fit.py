@@ -195,8 +195,10 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert fit.freedom == 1
     assert not fit.consistent
     said = dict(fit.summary())
-    assert said["consistent"] == "no: model or uncertainties are wrong"
-    assert said["intervals"] == "none: model or uncertainties are wrong"
+    doubt = f"model or uncertainties are wrong, chi squared is {fit.chi_squared:.3g} times its"
+    assert fit.doubt == f"{doubt} degrees of freedom"
+    assert said["consistent"] == f"no: {fit.doubt}"
+    assert said["intervals"] == f"none: {fit.doubt}"
     assert " to " not in said["E"]
     assert "±" not in repr(fit)
 
@@ -225,6 +227,7 @@ def test_a_failed_search_without_degrees_of_freedom_is_inconsistent() -> None:
     held = dm.fit(DISC, ["E"], measured, bounds=near)
     assert held.chi_squared > 100
     assert not held.consistent
+    assert held.doubt.endswith(f"chi squared is {held.chi_squared:.3g} and should be 0")
 
 
 def test_bounds_hold_the_parameters() -> None:
@@ -383,8 +386,87 @@ def test_parameters_that_are_hardly_told_apart_are_doubted() -> None:
     fit = dm.fit(start, ["mu_s", "mu_k", "k_p"], measured)
     assert fit.indistinct == ("mu_s", "mu_k")
     assert "do not determine mu_s and mu_k apart" in fit.doubt
+    assert not fit.consistent
     assert dict(fit.summary())["intervals"].startswith("none")
     alone = dm.fit(start.replace(mu_k=0.25), ["mu_s", "k_p"], measured)
     assert alone.doubt == ""
     # the search ends where chi squared no longer falls by 1e-10
     assert alone.parameters["mu_s"].value == pytest.approx(0.43, rel=1e-4)
+
+
+def noisy_times(seed: int) -> list[dm.Measurement]:
+    """Periods and times of slip at five speeds with errors of 10 µs; coefficients of friction are
+    0.43 and 0.22, k_p is 21 kN/m."""
+    truth = dm.Parameters(N=250, Omega=9, mu_s=0.43, mu_k=0.22, k_p=2.1e4)
+    rng = np.random.default_rng(seed)
+    measured = []
+    for speed in (6, 7, 8, 9, 10):
+        cycle = dm.floquet(truth.replace(Omega=speed))
+        slip = (1 - cycle.stick_fraction) * cycle.period
+        for name, value in (("period", cycle.period), ("slip_time", slip)):
+            value += rng.normal(0, 1e-5)
+            measured.append(dm.Measurement(name, value, 1e-5, at={"Omega": speed}))
+    return measured
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("seed", "start"), [(11, 0.2), (11, 0.21), (11, 0.22), (3, 0.2), (3, 0.21), (3, 0.22)]
+)
+def test_indistinct_parameters_are_named_from_every_start(seed: int, start: float) -> None:
+    """By the start there was an error, a doubt of mu_k and k_p, or none of any parameter: the search
+    ends at mu_k = 0, where derivatives say nothing, or at coefficients above 3, which are known to
+    15 %, more than that of which k_p is known by a factor of a thousand."""
+    case = dm.Parameters(N=250, Omega=9, mu_k=start)
+    fit = dm.fit(case, ["mu_s", "mu_k", "k_p"], noisy_times(seed))
+    assert fit.indistinct == ("mu_s", "mu_k")
+    assert "do not determine mu_s and mu_k apart" in fit.doubt
+    assert not fit.consistent
+    # the stiffness is determined nevertheless: three standard deviations of some 12 N/m
+    assert fit.parameters["k_p"].value == pytest.approx(2.1e4, abs=40)
+
+
+@pytest.mark.compiled
+def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
+    """One doubt hid the other."""
+    measured = [replace(each, uncertainty=2e-7) for each in noisy_times(3)]
+    case = dm.Parameters(N=250, Omega=9, mu_k=0.22)
+    fit = dm.fit(case, ["mu_s", "mu_k", "k_p"], measured)
+    # errors are fifty times as large as stated
+    assert fit.chi_squared > 1000 * fit.freedom
+    reduced = f"{fit.chi_squared / fit.freedom:.3g} times its degrees of freedom"
+    for words in ("determine mu_s and mu_k apart", "model or uncertainties are wrong", reduced):
+        assert words in fit.doubt
+        assert words in repr(fit)
+
+
+def test_a_parameter_that_starts_far_below_its_value_is_not_doubted() -> None:
+    """Standard deviations count over the value that is found, too."""
+    truth = DISC.replace(c=3.0)
+    measured = {
+        "growth_rate": (Prediction(truth).of("growth_rate"), 1e-6),
+        "period": (Prediction(truth).of("period"), 1e-6),
+    }
+    for start in (0.02, 3.0):
+        fit = dm.fit(DISC.replace(c=start), ["c", "k_p"], measured)
+        assert fit.doubt == ""
+        # chi squared falls until deviations are some 1e-5 of the uncertainties
+        assert fit.parameters["c"].value == pytest.approx(3.0, rel=1e-4)
+
+
+def test_a_start_without_a_cycle_is_told_where_to_begin() -> None:
+    """The message showed an empty value, and no remedy."""
+    at = {"Omega": 10.0}
+    measured = [dm.Measurement("period", 0.0153, 1e-5, at=at)]
+    with pytest.raises(dm.ParameterError) as error:
+        dm.fit(dm.Parameters(N=250, Omega=9, mu_k=0.24), ["mu_s"], measured)
+    message = str(error.value)
+    assert message.startswith("measured.period (Omega=10): cannot be computed: no cycle of up to 3")
+    assert message.endswith("start the search from a case with other values than mu_s=0.4")
+
+
+def test_a_mode_that_is_missing_is_no_matter_of_the_start() -> None:
+    with pytest.raises(dm.ParameterError) as error:
+        dm.fit(DISC, ["E"], {"frequency_9_0": (1, 1)})
+    assert "start" not in str(error.value)
+    assert "=''" not in str(error.value)

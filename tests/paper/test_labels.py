@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import flag_names
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 from disc_model.figures.kinds import kinds_in
 from disc_model.figures.render import render
 from disc_model.paper.figures.instants import motion_of

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 from disc_model.paper import measures, section2
 from disc_model.paper.measures import Range
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE

@@ -48,10 +48,27 @@ def critical_speeds(*speeds: float) -> xr.Dataset:
     return grid(axes, status=[["ok"] * len(speeds)], critical_speed=[both])
 
 
-def sweeps(up: list[float], down: list[float]) -> xr.Dataset:
-    """Return speeds at which separation begins and ends on sweeps."""
-    axes = {"normalization": ["as_published"], "N": 100.0 * np.arange(1, len(up) + 1)}
-    return grid(axes, onset_speed=[up], offset_speed=[down])
+def sweeps(up: list[float], down: list[float], persisting: bool = False) -> xr.Dataset:
+    """Return speeds at which separation begins and ends on sweeps from 12 rad/s on; it may persist
+    on all ways down."""
+    axes = {
+        "normalization": ["as_published"],
+        "N": 100.0 * np.arange(1, len(up) + 1),
+        "direction": ["up", "down"],
+        "sweep_Omega": [12.0, 22.0],
+    }
+    rates = np.zeros((1, len(up), 2, 2))
+    if persisting:
+        rates[:, :, 1] = 9.0
+    return grid(axes, onset_speed=[up], offset_speed=[down], separation_rate=rates)
+
+
+def test_a_sweep_that_separates_down_to_its_lowest_speed_does_so_below_the_critical_speed() -> None:
+    """No speed is known at which it ends then."""
+    study = sweeps([15.5, 21.0], [NAN, NAN], persisting=True)
+    found = maintained_below(critical_speeds(15.0, 20.0), study, None, within=0.1)
+    assert found.verdict == PART
+    assert found.values["below"] == [(100.0, 15.5, 12.0, 15.0), (200.0, 21.0, 12.0, 20.0)]
 
 
 @pytest.mark.parametrize(

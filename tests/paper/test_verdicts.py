@@ -13,7 +13,7 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 from disc_model.paper import growth, ledger, section2, section44
 from disc_model.paper.measures import CaseView, views
 from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer

@@ -2,6 +2,7 @@
 refused."""
 
 import json
+import re
 
 import numpy as np
 import pytest
@@ -174,7 +175,7 @@ def test_a_window_counts_back_from_where_a_run_stops():
     windows = {
         "late": Window(last=1e-3, rate=1e5),
         "bins": Window(last=1e-3, rate=1e5, envelope=10),
-        "long": Window(last=5.0, rate=1e4),
+        "long": Window(last=0.9, rate=1e4),
         "after": Window(start=0.5, stop=0.6, rate=1e3),
     }
     run = simulate(p, 1.0, windows, stop_at="first_separation", initial_state=start)
@@ -219,3 +220,18 @@ def test_the_rule_that_the_name_of_a_window_breaks_is_told_alone(name: object, r
 def test_names_that_groups_of_files_can_have_are_taken() -> None:
     names = ["late", "_1", "2 s later", "\u00e4", "x" * 60]
     assert [*resolved_windows(dict.fromkeys(names, Window(rate=10)), 0.0, 1.0)] == names
+
+
+def test_a_window_longer_than_the_run_is_an_error_of_both_times():
+    """It was cut to the run, without a word."""
+    windows = {"late": Window(last=2, rate=1e3)}
+    rule = re.escape("windows.late.last=2: must be <= 1 s, the length of the run")
+    with pytest.raises(ParameterError, match=rule):
+        simulate(P, 1.0, windows)
+    begun = simulate(P, 0.02).final_state
+    with pytest.raises(ParameterError, match=r"late\.last=2: must be <= 1 s"):
+        simulate(P, duration=1, windows=windows, initial_state=begun)
+    # a window as long as the run, rounded
+    duration = 0.1 + 0.2
+    run = simulate(P, 0.3, {"all": Window(last=duration, rate=1e3)})
+    assert run.windows["all"].start == 0.0

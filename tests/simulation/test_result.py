@@ -2,6 +2,7 @@
 another time."""
 
 import copy
+import dataclasses
 import json
 import pickle
 from collections.abc import Iterator
@@ -49,6 +50,9 @@ def test_a_result_survives_its_file_to_the_last_bit(
     assert b"unilateral" in path.read_bytes(), "and not the older word of texts that identify cases"
     again = Result.load(path)
     same(again, result)
+    assert again == result
+    assert again.final_state == result.final_state
+    assert hash(again.final_state) == hash(result.final_state)
     assert repr(again) == repr(result)
     assert again.events.equals(result.events)
     for name in ("parameters", "tol", "t_end", "status", "message", "windows", "ramps", "u_0"):
@@ -269,3 +273,22 @@ def test_a_state_that_cannot_be_is_an_unreadable_file(
         )
         with pytest.raises(UnreadableFile, match=f"s\\.nc: cannot be read: .*{fault}"):
             State.load(path)
+
+
+def test_states_and_results_that_differ_in_one_number_are_not_equal() -> None:
+    """Equality was that of objects: a state was unlike its copy in a file."""
+    run = simulate(P, 0.03, {"late": Window(last=0.02, rate=1000)})
+    state = run.final_state
+    assert state == state.replace()
+    assert state != state.replace(psi=np.nextafter(state.psi, 1.0))
+    a = state.a.copy()
+    a[0] = np.nextafter(a[0], 1.0)
+    assert state != dataclasses.replace(state, a=a)
+    assert state != dataclasses.replace(state, mode_amplitudes=None)
+    assert state != "state"
+
+    assert run == simulate(P, 0.03, {"late": Window(last=0.02, rate=1000)})
+    assert run != dataclasses.replace(run, u_0=run.u_0 + 1e-18)
+    samples = {name: values.copy() for name, values in run.samples["late"].items()}
+    samples["P"][3] += 1e-9
+    assert run != dataclasses.replace(run, samples={"late": samples})

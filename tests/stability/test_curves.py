@@ -10,6 +10,7 @@ from disc_model.analysis.spectra import Resonance
 from disc_model.errors import ParameterError
 from disc_model.stability import curves
 from disc_model.stability.return_map import ReturnMap
+from tests.stability.continuation.test_cycles import STEEL_ALONE
 
 
 @pytest.mark.compiled
@@ -80,6 +81,33 @@ def test_the_nearest_place_on_a_curve_lies_between_its_points(
     found, period_there = curves._nearest_on(curve, np.array(point), np.array(span))
     assert found == pytest.approx(distance, rel=1e-12)
     assert period_there == pytest.approx(period, rel=1e-12)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("points", [5, 31])
+def test_a_fold_is_found_whatever_the_points_of_a_line(points: int) -> None:
+    """With 17 points and more there was no curve, and nothing told of it."""
+    plane = {"Omega": (14, 15.5), "N": (380, 390)}
+    found = curves.neutral_curves(Parameters(N=385, Omega=15), plane, [385], points=points)
+    [fold] = found
+    assert fold.kind == "fold"
+    at_line = np.interp(385, fold.values[:, 1], fold.values[:, 0])
+    assert at_line == pytest.approx(15.0949, abs=1e-3)  # by `critical`; the curve is straight here
+    assert not found.failures
+
+
+@pytest.mark.compiled
+def test_a_branch_that_ends_elsewhere_is_told() -> None:
+    failures: list[str] = []
+    assert curves._border(STEEL_ALONE, "Omega", 60.0, 1e-12, failures) is None
+    ended = "Omega from 34.65 to 60: stick vanishes: the cycle touches zero slip speed"
+    assert failures == [ended]
+
+
+def test_lines_lie_within_the_bounds() -> None:
+    plane = {"Omega": (14, 15), "mu_s": (0.38, 0.42)}
+    with pytest.raises(ParameterError, match=r"lines=\[0.5\]: must lie within the bounds of mu_s"):
+        curves.neutral_curves(Parameters(N=385, Omega=15), plane, [0.4, 0.5])
 
 
 def refuse(*_args: object, **_named: object) -> None:

@@ -3,6 +3,7 @@ batches."""
 
 import inspect
 import json
+import math
 import re
 from collections.abc import Callable
 from typing import Any
@@ -170,7 +171,8 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     function: Any, arguments: Any, options: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     handed: list[Any] = []
-    found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": ""})
+    # a message that says what went wrong is left as it is
+    found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": "failed"})
     found["critical_speed"] = ("horizon", [5.0])
     found["horizon"] = [7.0]
 
@@ -236,6 +238,37 @@ def test_a_critical_speed_that_is_nan_is_said_in_words() -> None:
     assert np.isnan(speeds["critical_speed"]).all()
     said = "no separation within 1, 2 s at 3 speeds from 1 to 3 rad/s"
     assert speeds.attrs["message"] == said
+
+
+@pytest.mark.parametrize(
+    ("rates", "onset", "end", "message"),
+    [
+        ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept at all 3 speeds from 12 to 16 rad/s"),
+        (
+            [[0, 0, 9], [9, 9, 9]],
+            16.0,
+            math.nan,
+            "still lost on the way down at the lower bound, 12",
+        ),
+        ([[9, 9, 9], [0, 9, 9]], math.nan, 14.0, "on the way up from the lower bound on, 12 rad/s"),
+        ([[0, 9, 0], [0, 0, 0]], 14.0, math.nan, "kept at 16 rad/s, where the way down begins"),
+        ([[0, 0, 9], [0, 9, 9]], 16.0, 14.0, ""),
+    ],
+)
+def test_a_sweep_says_why_it_has_no_onset_or_end(
+    rates: list[list[float]], onset: float, end: float, message: str
+) -> None:
+    """The lower bound was returned as the end, and nothing was said."""
+    data = {
+        "separation_rate": (("direction", "sweep_Omega"), np.array(rates)),
+        "onset_speed": ((), onset),
+        "offset_speed": ((), end),
+    }
+    coords = {"direction": ["up", "down"], "sweep_Omega": [12.0, 14.0, 16.0]}
+    sweep = functions._with_reasons(xr.Dataset(data, coords, {"message": ""}))
+    said = sweep.attrs["message"]
+    assert message in said
+    assert bool(said) == bool(message)
 
 
 SCANNING = pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])

@@ -24,7 +24,7 @@ KINDS = [(task, model) for model in MODELS for task in TASKS if task != "ramp" o
 SCRIPT = """
 import time
 import disc_model
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 p = disc_model.Parameters(N=385, Omega=15, **{model})
 disc_model.floquet
 before = time.process_time()

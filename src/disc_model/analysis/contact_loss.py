@@ -3,8 +3,9 @@ exceeds it (docs/model.md, The range at which contact is lost)."""
 
 import math
 
-from disc_model.errors import require
-from disc_model.parameters import Parameters
+from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.errors import raise_faults, violations
+from disc_model.parameters import Parameters, foreign_case
 
 
 def pinned_range(case: Parameters, frequency: float) -> float:
@@ -32,7 +33,7 @@ def pinned_range(case: Parameters, frequency: float) -> float:
     Raises
     ------
     ParameterError
-        If the frequency is not positive and finite.
+        If `case` is not a `Parameters`, or the frequency is not positive and finite.
 
     Examples
     --------
@@ -41,7 +42,9 @@ def pinned_range(case: Parameters, frequency: float) -> float:
     '17.86 mm'
     """
     positive = isinstance(frequency, int | float) and 0 < frequency < math.inf
-    require((positive, "frequency", frequency, "must be a number > 0, in Hz"))
+    rule = "must be a number > 0, in Hz"
+    raise_faults([*foreign_case(case), *violations((positive, "frequency", frequency, rule))])
+    warn_of_doubts(case)
     omega = 2 * math.pi * frequency
     stiffness = abs(complex(case.k - case.m * omega**2, case.c * omega))
     if stiffness == 0:

@@ -18,66 +18,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from disc_model.arrays import Array, Indices
-from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults
-from disc_model.parameters import SURFACE, Disc, Parameters, foreign_case
-
-if TYPE_CHECKING:
-    import pandas as pd
-
+from disc_model.errors import Fault, ModeError, ParameterError, as_text
+from disc_model.parameters import SURFACE, Disc, Parameters
 
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
-
-
-def plate_modes(case: Parameters) -> pd.DataFrame:
-    """Natural frequencies of the disc alone, and the modes' amplitudes under the slider.
-
-    Parameters
-    ----------
-    case : the case
-
-    Returns
-    -------
-    DataFrame
-        A fresh one at every call, with a row for each (circles, diameters), ordered by circles, then diameters:
-
-        - circles, diameters : int, number of nodal circles and nodal diameters
-        - omega : rad/s, natural frequency
-        - psi : kg^-1/2, Psi = R(r_0)/sqrt(rho h b^2), times sqrt(2) if diameters >= 1 (for a pair of modes);
-          under a pad, the mean over its arc
-
-    Notes
-    -----
-    R is scaled as `p.normalization` says: `as_published` gives the coefficient of J_l the value 1;
-    `orthonormal` is Eq. (17), (2 pi/b^2) * integral of R^2 r dr from a to b = 1, with R positive at the free edge.
-
-    Raises
-    ------
-    ParameterError
-        If `case` is not a `Parameters`.
-    ModeError
-        If the modes cannot be distinguished or an amplitude overflows.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> dm.plate_modes(dm.Parameters(N=385, Omega=15.1)).round(3)
-       circles  diameters     omega    psi
-    0        0          0  1491.927 -1.306
-    1        0          1  1516.757  8.173
-    2        0          2  1823.881  1.534
-    3        0          3  2774.194  1.150
-    4        0          4  4383.044  0.984
-    """
-    import pandas as pd
-
-    raise_faults(foreign_case(case))
-    return pd.DataFrame(vars(mode_arrays(case)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,39 +124,6 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
         np.round(radii, 9), return_index=True
     )  # nm, by which two radii are the same
     return radii[first], shapes[:, first]
-
-
-def coupled_natural_frequencies(case: Parameters) -> Array:
-    """Natural frequencies of disc and attached slider at rest (Section 4.4 of the paper), rad/s,
-    ascending.
-
-    Solves (diag(omega^2) + k psi psi^T) v = lambda^2 (I + m psi psi^T) v for the modes that have an
-    amplitude under the slider; the other mode of each diametral pair has a node there and keeps its
-    frequency. Contact is rigid as in the paper, whatever the contact of the case.
-
-    Parameters
-    ----------
-    case : the case
-
-    Returns
-    -------
-    array
-        Shape (number of real modes,).
-
-    Raises
-    ------
-    ParameterError, ModeError
-        As `plate_modes`.
-
-    Examples
-    --------
-    >>> import disc_model as dm
-    >>> dm.coupled_natural_frequencies(dm.Parameters(N=385, Omega=15.1))[:3].round(2)
-    array([ 850.86, 1492.55, 1516.76])
-    """
-    raise_faults(foreign_case(case))
-    modes = mode_arrays(case)
-    return np.sort(np.concatenate([coupled_frequencies(case), modes.omega[modes.diameters > 0]]))
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:

@@ -4,7 +4,9 @@ GPa."""
 import math
 import sys
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import partial
 from types import FrameType
 
@@ -39,11 +41,25 @@ def doubts(p: Parameters) -> dict[str, str]:
 
 
 _reported: set[str] = set()
+_on_trial = ContextVar("_on_trial", default=False)
+
+
+@contextmanager
+def trial_cases() -> Iterator[None]:
+    """Within it cases are tried, and their implausible values are neither reported nor counted as
+    reported."""
+    token = _on_trial.set(True)
+    try:
+        yield
+    finally:
+        _on_trial.reset(token)
 
 
 def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -> None:
     """Report implausible values of a case, once in a process by each rule; by default as a
     warning."""
+    if _on_trial.get():
+        return
     for kind, text in doubts(p).items():
         if kind not in _reported:
             _reported.add(kind)

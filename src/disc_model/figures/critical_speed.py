@@ -4,38 +4,23 @@ from collections.abc import Mapping
 
 import numpy as np
 import xarray as xr
-from matplotlib.colors import ListedColormap
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    ORANGE,
-    PAPER,
-    SEPARATED,
-    halo,
-    letters,
-    mark,
-    mark_failed,
-    row_of_panels,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, PAPER, halo, letters, mark, mark_failed, row_of_panels
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.onsets import branches, speeds_of
-from disc_model.figures.selection import failed, stretches
+from disc_model.figures.selection import failed
+from disc_model.figures.swept_speeds import draw_sweeps
 from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import LOAD, SPEED
 
-ONSET = SEPARATED  # colour of speeds at which separation begins,
-END = BLUE  # and at which it ends
 CONTACT = LOOKS["growing"]._replace(
     label="oscillations grow, or another\ncycle is reached, in contact"
 )
-BAR = 20.0  # N, height of the mark of coexistence, well within a step of the sweeps
 
 
 def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -72,7 +57,7 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     titles = ["from the static start"]
     if sweep is not None:
         _onsets(axes[1], study, horizon, "_nolegend_")
-        titles.append(_beside(axes[1], sweep, cycle, overlays.get("basins")))
+        titles.append(draw_sweeps(axes[1], sweep, cycle, overlays.get("basins")))
 
     letters(axes, titles, pad=12)
     for ax in axes:
@@ -173,87 +158,3 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
         mec=BLACK,
         mew=0.5,
     )
-
-
-# ---- Sweeps
-
-
-def _beside(
-    ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None
-) -> str:
-    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate;
-    returns a title."""
-    loads = sweep["N"].values
-    lost = failed(sweep).values
-    onset = np.where(lost, np.nan, sweep["onset_speed"].values)
-    end = np.where(lost, np.nan, sweep["offset_speed"].values)
-    for speeds, shape, colour, label in (
-        (onset, "^", ONSET, "sweep up: separation begins"),
-        (end, "v", END, "sweep down: separation ends"),
-    ):
-        ax.plot(
-            speeds,
-            loads,
-            shape,
-            color=colour,
-            markersize=mark(4),
-            markerfacecolor="none",
-            clip_on=False,
-            label=label,
-        )
-    mark_failed(ax, loads[lost], on="y")
-    if basins is not None:
-        _coexistence(ax, basins)
-    elif cycle is not None:
-        _stable_cycles(ax, sweep, cycle)
-    step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
-    return f"sweeps in steps of {step:g} rad/s"
-
-
-def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
-    """Mark speeds at which some starts stay quiet and others separate: both fractions exceed zero
-    with their intervals. A single speed is a line."""
-    load = stated_in(basins, "base")["N"]
-    speeds = basins["Omega"].values
-    quiet = basins["basin_fraction_low"].sel(attractor_class="quiet")
-    apart = basins["separating_fraction_low"]
-    both = ((quiet > 0) & (apart > 0)).values
-    label = f"quiet or separating,\ncomputed at {load:g} N"
-    for first, after in stretches(both):
-        width = speeds[after - 1] - speeds[first]
-        ax.barh(
-            load,
-            width,
-            BAR,
-            speeds[first],
-            label=label,
-            color=ORANGE,
-            ec=ORANGE,
-            alpha=0.6,
-            lw=wide(0.8),
-        )
-        label = "_nolegend_"
-
-
-def _stable_cycles(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset) -> None:
-    """Shade where the cycle is stable by its multipliers, as short stays only delay a sweep up, and
-    the sweep down still separates; not between loads of which one never does."""
-    speeds = cycle["Omega"].values
-    loads = cycle["N"].values
-    ends = sweep["offset_speed"].values
-    lowest = np.interp(loads, sweep["N"].values, ends, left=np.nan, right=np.nan)
-    highest = float(sweep["sweep_Omega"].max())
-    within = (speeds >= lowest[:, None]) & (speeds <= highest)
-    stable = (cycle["growth_rate"].values < 0) & within
-    shown = np.ma.masked_where(~stable, stable)
-    ax.pcolormesh(
-        speeds,
-        loads,
-        shown,
-        cmap=ListedColormap([ORANGE]),
-        alpha=0.25,
-        shading="nearest",
-        rasterized=True,
-    )
-    label = "the cycle is stable where the\nsweep down still separates"
-    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)

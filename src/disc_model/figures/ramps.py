@@ -8,7 +8,6 @@ import xarray as xr
 
 from disc_model.data.variables import stated_in
 from disc_model.figures.borders import crossings, curves_of
-from disc_model.figures.critical_speed import END, ONSET
 from disc_model.figures.drawing import (
     GREY,
     border,
@@ -21,6 +20,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.maps import RampedSpeeds
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.swept_speeds import END, ONSET
 from disc_model.figures.types import Figure
 from disc_model.figures.words import SPEED
 

@@ -12,15 +12,14 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.arrays import Array
-from disc_model.disc.plausibility import ImplausibleValue
+from disc_model.arrays import Array, EqualByValue, Mask
+from disc_model.disc.plausibility import trial_cases, warn_of_doubts
 from disc_model.display import Drawn, Summarised, html_table, number_text
 from disc_model.errors import (
     DiscModelError,
@@ -30,7 +29,13 @@ from disc_model.errors import (
     suggestion,
     violations,
 )
-from disc_model.fitting.prediction import Prediction, Unpredicted, unit_of, unknown_quantity
+from disc_model.fitting.prediction import (
+    Prediction,
+    Unpredicted,
+    is_of_modes,
+    unit_of,
+    unknown_quantity,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number
 
@@ -43,13 +48,21 @@ TOLERANCE = 1e-10
 MARGIN = 0.01
 """Distance of the first step from limits, relative to a parameter's scale."""
 SINGULAR = 1e-7
-"""Least ratio of singular values of the Jacobian; below it, differences no longer tell parameters
-apart."""
+"""Least ratio of singular values of a Jacobian with columns of length 1; below it, differences no
+longer tell parameters apart."""
+ROUNDING = 1e-12
+"""Effect of a parameter over that of the one with the largest, up to which it has none."""
 PARABOLA = (0.3, 3.0)
 """Increase of chi squared over a standard deviation of the least known combination of parameters,
 which is 1 where predictions are linear; beyond these, intervals would mislead."""
 WEAK = 0.3
 """Part of a parameter in that combination from which it belongs to it, of 1 in all."""
+TANGLED = 30.0
+"""Standard deviation of a parameter over that which it had if the others were known, from which its
+effects are those of others."""
+LOOSE = 0.1
+"""Standard deviation of a parameter over its size from which such a parameter counts as not
+determined."""
 
 
 @dataclass(frozen=True)
@@ -138,7 +151,7 @@ class Fitted(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Fit(Summarised, Drawn):
+class Fit(Summarised, Drawn, EqualByValue):
     """Parameters fitted to measurements; `plot` draws the deviations of computed values.
 
     Attributes
@@ -152,9 +165,12 @@ class Fit(Summarised, Drawn):
     deviations : computed minus measured values, in standard deviations, (m,)
     chi_squared : sum of the squared deviations
     converged, message : whether and why the search ended at a minimum
-    indistinct : names of parameters that the measurements do not determine, or not apart from each other: a standard
-        deviation away chi squared does not rise as linear predictions would have it, so that intervals mean nothing
-    doubt : why values and intervals mean nothing, such as a search that has not converged; "" where all is well
+    indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
+        alike and are known to 10 % at best, or a standard deviation away chi squared does not rise as linear
+        predictions would have it
+    doubt : all reasons why values and intervals mean nothing: a search that has not converged, parameters that are not
+        determined, too large a chi squared; "" where there is none
+    consistent : whether there is no `doubt`
 
     Examples
     --------
@@ -196,28 +212,38 @@ class Fit(Summarised, Drawn):
 
     @property
     def consistent(self) -> bool:
-        """Whether the search has converged, and chi squared is as small as it is in 95 % of fits if
-        the model and the uncertainties are right; without degrees of freedom, where it is 0 unless
-        the search failed, as with one."""
-        from scipy import stats
-
-        freedom = max(self.freedom, 1)
-        small = self.chi_squared <= stats.chi2.ppf(0.95, freedom)
-        return bool(self.converged and small)
+        """Whether values and intervals can be relied on, as far as the measurements tell: the search
+        has converged, the measurements determine every parameter, and chi squared is as small as it
+        is in 95 % of fits if the model and the uncertainties are right (without degrees of freedom,
+        where it is 0 unless a bound is in the way, as with one). Otherwise `doubt` says why not."""
+        return not self.doubt
 
     @property
     def doubt(self) -> str:
-        """Why values and intervals mean nothing; "" where the fit is consistent."""
+        """All reasons why values and intervals mean nothing; "" where the fit is consistent."""
+        reasons = []
         if not self.converged:
-            return "the search has not converged"
+            reasons.append("the search has not converged")
         if self.indistinct:
-            said = f"the measurements do not determine {' and '.join(self.indistinct)}"
-            if len(self.indistinct) == 1:
-                return f"{said}: measure more"
-            return f"{said} apart: fix one of them, or measure more"
-        if not self.consistent:
-            return "model or uncertainties are wrong"
-        return ""
+            reasons.append(_undetermined(self.indistinct))
+        if self.converged and self._misses:
+            reasons.append(f"model or uncertainties are wrong, {self._misfit}")
+        return "; ".join(reasons)
+
+    @property
+    def _misses(self) -> bool:
+        """Whether chi squared is larger than in 95 % of fits of the right model."""
+        from scipy import stats
+
+        return bool(self.chi_squared > stats.chi2.ppf(0.95, max(self.freedom, 1)))
+
+    @property
+    def _misfit(self) -> str:
+        """How large chi squared is, in words."""
+        if self.freedom == 0:
+            return f"chi squared is {self.chi_squared:.3g} and should be 0"
+        reduced = self.chi_squared / self.freedom
+        return f"chi squared is {reduced:.3g} times its degrees of freedom"
 
     @property
     def correlation(self) -> Array:
@@ -281,6 +307,14 @@ class Fit(Summarised, Drawn):
         return html_table(("fit", ""), self.summary()) + html_table(head, rows)
 
 
+def _undetermined(names: Sequence[str]) -> str:
+    """Return that the measurements do not determine some parameters, and what helps."""
+    if len(names) == 1:
+        return f"the measurements do not determine {names[0]}: measure more"
+    together = ", ".join(names[:-1]) + f" and {names[-1]}"
+    return f"the measurements do not determine {together} apart: fix one of them, or measure more"
+
+
 def _unit_of_parameter(name: str) -> str:
     """Return the unit of a parameter or of a number of a disc's table; "" without one."""
     table = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": ""}
@@ -335,11 +369,27 @@ class _Problem:
                     found[i] = prediction.of(each.quantity)
             except (Unpredicted, DiscModelError, ArithmeticError) as reason:
                 text = f"cannot be computed: {reason}"
-                raise ParameterError(Fault.of(("measured", each.name), "", text)) from None
+                raise ParameterError(Fault(("measured", each.name), "", text)) from None
         if not np.isfinite(found).all():
             wrong = self.measurements[int(np.argmin(np.isfinite(found)))]
-            raise ParameterError(Fault.of(("measured", wrong.name), "", "is not finite"))
+            raise ParameterError(Fault(("measured", wrong.name), "", "is not finite"))
         return found
+
+    def require_start(self, values: Array) -> None:
+        """Raise `ParameterError` unless all quantities can be predicted at the start of the search;
+        of a motion that the case does not have, it says that another start may."""
+        try:
+            self.predictions(values)
+        except ParameterError as error:
+            wrong = [each for each in self.measurements if each.name == error.faults[0].path[-1]]
+            if not wrong or is_of_modes(wrong[0].quantity):
+                raise
+            starts = []
+            for name, value in zip(self.names, values, strict=True):
+                starts.append(f"{name}={value:.6g}")
+            remedy = f"; start the search from a case with other values than {', '.join(starts)}"
+            fault = error.faults[0]
+            raise ParameterError(Fault(fault.path, "", fault.rule + remedy)) from None
 
     def trial(self, values: Array) -> Array:
         """Return the predictions, nan where there are none: the search then makes a shorter
@@ -360,6 +410,7 @@ class _Problem:
             below = self.trial(values - step)
             if np.isnan(above).any() and np.isnan(below).any():
                 rule = "cannot be varied here: the measured quantities are missing on both sides"
+                rule += "; start the search from a case with other values"
                 raise ParameterError(Fault.of(("vary", name), float(values[i]), rule))
             if np.isnan(above).any():
                 columns.append((self.predictions(values) - below) / step[i])
@@ -399,8 +450,8 @@ def fit(
     Raises
     ------
     ParameterError
-        If an argument breaks a rule, the case has no such quantity at the start of the search, or the measurements do
-        not determine the parameters.
+        If an argument breaks a rule, the case has no such quantity at the start of the search, or parameters have no
+        effect at all, or exactly that of others. Of those that are hardly determined `Fit.doubt` tells.
 
     Notes
     -----
@@ -425,28 +476,35 @@ def fit(
     values = np.array([each.value for each in measurements])
     weights = 1 / np.array([each.uncertainty for each in measurements])
     start = np.array([case.numbers[name] for name in vary])
-    problem.predictions(start)
+    begin = _inside(problem, start, limits)
+    warn_of_doubts(case)
+    jacobians: list[Array] = []
 
     def deviations(x: Array) -> Array:
         return (problem.trial(x * problem.scale) - values) * weights
 
     def slopes(x: Array) -> Array:
-        return problem.jacobian(x * problem.scale) * weights[:, None] * problem.scale
+        jacobian = problem.jacobian(x * problem.scale) * weights[:, None] * problem.scale
+        jacobians.append(jacobian)
+        return jacobian
 
     ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
-    with warnings.catch_warnings():
-        # the start and the result are doubted, not what is tried on the way
-        warnings.simplefilter("ignore", ImplausibleValue)
+    # the start and the result are doubted, not what is tried on the way
+    with trial_cases():
+        problem.require_start(begin)
         search = optimize.least_squares(
             deviations,
-            _inside(problem, start, limits) / problem.scale,
+            begin / problem.scale,
             jac=slopes,
             bounds=ends / problem.scale,
             xtol=TOLERANCE,
             ftol=TOLERANCE,
             gtol=TOLERANCE,
         )
-    return _result(problem, search, confidence, deviations)
+        indistinct = _indistinct(problem.names, search, jacobians[0], deviations)
+    found = _result(problem, search, confidence, indistinct)
+    warn_of_doubts(found.case)
+    return found
 
 
 def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> Array:
@@ -461,25 +519,114 @@ def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> 
     return moved
 
 
-def _result(
-    problem: _Problem, search: Any, confidence: float, deviations: Callable[[Array], Array]
-) -> Fit:
-    """Return the fit at the end of a search, whose `deviations` are over the scaled parameters.
-    Raises `ParameterError` if the Jacobian is singular."""
+class _Sensitivity(NamedTuple):
+    """What a Jacobian of weighted deviations over scaled parameters says of these.
+
+    directions, sizes : right singular vectors in rows, (n, n), and singular values, (n,), both by descending value
+    singular : whether differences no longer tell parameters apart, whatever their scales; small singular values are
+        then raised, so that covariances are finite
+    weakest : absolute parts of parameters in the combination that has the least effect for its parts' effects, (n,)
+    inverse : whose product with its transpose is the covariance of the scaled parameters, (n, n)
+    """
+
+    directions: Array
+    sizes: Array
+    singular: bool
+    weakest: Array
+    inverse: Array
+
+
+def _sensitivity(jacobian: Array) -> _Sensitivity:
+    """Return what a Jacobian says."""
+    effects = np.linalg.norm(jacobian, axis=0)
+    without = effects <= ROUNDING * effects.max()
+    comparable = np.where(without, 0.0, jacobian) / np.where(without, 1.0, effects)
+    _, shares, combinations = np.linalg.svd(comparable, full_matrices=False)
+    singular = bool(shares[-1] <= SINGULAR * shares[0])
+
+    _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
+    if singular:
+        sizes = np.maximum(sizes, SINGULAR * sizes[0] or 1.0)
+    weakest = np.abs(combinations[-1])
+    return _Sensitivity(directions, sizes, singular, weakest, directions.T / sizes)
+
+
+def _indistinct(
+    names: Sequence[str], search: Any, first: Array, deviations: Callable[[Array], Array]
+) -> tuple[str, ...]:
+    """Return the names of parameters that the measurements do not determine.
+
+    Parameters
+    ----------
+    names : of the parameters
+    search : at its end, over scaled parameters
+    first : Jacobian at the start. Where predictions have kinks or peaks, as at a limit of a parameter, it says more on
+        what acts alike than that of the end
+    deviations : over the scaled parameters
+
+    Raises
+    ------
+    ParameterError
+        If the Jacobian is singular at both ends of the search.
+    """
+    at_start = _sensitivity(first)
+    at_end = _sensitivity(search.jac)
+    if at_start.singular and at_end.singular:
+        weak = _chosen(names, at_end.weakest > WEAK)
+        rule = "cannot be determined by these measurements: fewer parameters, or others"
+        raise ParameterError(Fault.of(("vary",), list(weak), rule))
+
+    # what acts alike, where deviations may be larger than the uncertainties say
+    freedom = max(len(search.fun) - len(names), 1)
+    scatter = math.sqrt(max(2 * search.cost / freedom, 1.0))
+    extent = np.maximum(np.abs(search.x), 1.0) / scatter
+    alike = _alike(search.jac, at_end, extent)
+    if alike.any():
+        return _chosen(names, alike)
+    if at_end.singular:
+        return _chosen(names, at_end.weakest > WEAK)
+
+    # what is known least at the start, where derivatives at the end hold for very short steps only
+    direction = at_start.directions[-1]
+    step = LOOSE * direction / np.max(np.abs(direction) / extent)
+    if _is_flat(search, step, deviations):
+        return _chosen(names, np.abs(direction) > WEAK)
+
+    # what is known least at the end
+    direction = at_end.directions[-1]
+    if _is_parabola(search, direction / at_end.sizes[-1], deviations):
+        return ()
+    return _chosen(names, np.abs(direction) > WEAK)
+
+
+def _alike(jacobian: Array, sensitivity: _Sensitivity, extent: Array) -> Mask:
+    """Return which parameters act alike at the end, (n,), if one of them is known badly.
+
+    Parameters
+    ----------
+    jacobian, sensitivity : of weighted deviations over scaled parameters, and what it says
+    extent : sizes of the scaled parameters, (n,), smaller by the factor by which deviations exceed the uncertainties
+    """
+    deviation = np.linalg.norm(sensitivity.inverse, axis=1)
+    others_known = 1 / np.maximum(np.linalg.norm(jacobian, axis=0), np.finfo(float).tiny)
+    tangled = deviation > TANGLED * others_known
+    loose = deviation > LOOSE * extent
+    return np.asarray(tangled & bool((tangled & loose).any()))
+
+
+def _chosen(names: Sequence[str], mask: Mask) -> tuple[str, ...]:
+    """Return the names where a mask holds."""
+    return tuple(name for name, chosen in zip(names, mask, strict=True) if chosen)
+
+
+def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple[str, ...]) -> Fit:
+    """Return the fit at the end of a search over scaled parameters, of which some may be
+    indistinct."""
     from scipy import stats
 
     names = problem.names
     scale = problem.scale
-    _, sizes, directions = np.linalg.svd(search.jac, full_matrices=False)
-    if sizes[-1] <= SINGULAR * sizes[0]:
-        weak = [name for name, part in zip(names, directions[-1], strict=True) if abs(part) > 0.1]
-        rule = "cannot be determined by these measurements: fewer parameters, or others"
-        raise ParameterError(Fault.of(("vary",), weak, rule))
-    indistinct: tuple[str, ...] = ()
-    if not _is_parabola(search, directions[-1] / sizes[-1], deviations):
-        parts = np.abs(directions[-1])
-        indistinct = tuple(name for name, part in zip(names, parts, strict=True) if part > WEAK)
-    inverse = directions.T / sizes
+    inverse = _sensitivity(search.jac).inverse
     covariance = inverse @ inverse.T * np.outer(scale, scale)
 
     fitted = search.x * scale
@@ -510,19 +657,30 @@ def _result(
     )
 
 
+def _is_flat(search: Any, step: Array, deviations: Callable[[Array], Array]) -> bool:
+    """Whether chi squared rises by no more than over a standard deviation on one side of the end,
+    although derivatives there have it rise more."""
+    least = float(search.fun @ search.fun)
+    expected = float(np.sum((search.jac @ step) ** 2))
+    for side in (1, -1):
+        moved = deviations(search.x + side * step)
+        rise = float(moved @ moved) - least
+        if rise <= min(PARABOLA[1], PARABOLA[0] * expected):
+            return True
+    return False
+
+
 def _is_parabola(search: Any, step: Array, deviations: Callable[[Array], Array]) -> bool:
     """Whether chi squared rises by about 1 over a standard deviation of the least known combination
     of parameters on both sides of a minimum; at a limit of a parameter that is not asked."""
     if np.any(search.active_mask):
         return True
     least = float(search.fun @ search.fun)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore", ImplausibleValue)
-        for side in (1, -1):
-            moved = deviations(search.x + side * step)
-            rise = float(moved @ moved) - least
-            if not PARABOLA[0] <= rise <= PARABOLA[1]:
-                return False
+    for side in (1, -1):
+        moved = deviations(search.x + side * step)
+        rise = float(moved @ moved) - least
+        if not PARABOLA[0] <= rise <= PARABOLA[1]:
+            return False
     return True
 
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.errors import suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
@@ -78,7 +78,7 @@ class Prediction:
             return block_cycle(self.case)
         found = floquet(self.case)
         if math.isnan(found.period):
-            raise Unpredicted(found.message)
+            raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
 
     @cached_property
@@ -87,7 +87,7 @@ class Prediction:
         `Unpredicted` without steady sliding."""
         found = steady_sliding(self.case)
         if not found.eigenvalues.size:
-            raise Unpredicted(found.message)
+            raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
         leading = complex(found.eigenvalues[0])
         return complex(leading.real, abs(leading.imag))
 
@@ -200,6 +200,11 @@ QUANTITIES: Mapping[str, Quantity] = {
 
 NAMES = (*QUANTITIES, "frequency_2_0", "damping_ratio_2_0", "coupled_frequency_1")
 """Names as messages list them; the last three stand for those of all modes."""
+
+
+def is_of_modes(name: object) -> bool:
+    """Return whether a quantity is one of the disc's modes, which every motion of a case shares."""
+    return isinstance(name, str) and bool(MODE.fullmatch(name) or COUPLED.fullmatch(name))
 
 
 def unit_of(name: str) -> str:

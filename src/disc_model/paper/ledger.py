@@ -14,7 +14,8 @@ import pandas as pd
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import Section, fill
 from disc_model.data.variables import values_text
-from disc_model.disc.plate import coupled_frequencies, plate_modes
+from disc_model.disc.modes import plate_modes
+from disc_model.disc.plate import coupled_frequencies
 from disc_model.paper import JUDGING_TABLES, TABLE_CASES, section2, section41, section43, section44
 from disc_model.paper.measures import CaseView, or_none, rate_text
 from disc_model.paper.model import (

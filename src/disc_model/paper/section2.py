@@ -12,7 +12,8 @@ from scipy.integrate import fixed_quad
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.disc.plate import coupled_natural_frequencies, mode_shapes, plate_modes
+from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
+from disc_model.disc.plate import mode_shapes
 from disc_model.paper import measures
 from disc_model.paper.judging_tables import GROWTHS, PRECURSOR
 from disc_model.paper.measures import Array, CaseView

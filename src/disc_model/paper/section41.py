@@ -13,6 +13,7 @@ from scipy.signal import find_peaks
 from disc_model.analysis import classify, spectra
 from disc_model.data import texts
 from disc_model.data.dataset import Missing
+from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
@@ -391,7 +392,8 @@ def _separations_below(
     Parameters
     ----------
     critical : critical speeds by preload, rad/s
-    sweeps : speeds at which separation begins and ends on sweeps, by preload, rad/s
+    sweeps : speeds at which separation begins and ends on sweeps, by preload, rad/s; the lowest speed of a sweep
+        that separates there
     within : rad/s by which one of them must be lower
 
     Returns
@@ -400,10 +402,11 @@ def _separations_below(
         Preload, speed at which separation begins, speed at which it ends, critical speed.
     """
     begins, turns = xr.align(critical, sweeps, join="inner")
-    columns = (begins["N"], turns["onset_speed"], turns["offset_speed"], begins)
+    swept = swept_speeds(turns)
+    columns = (begins["N"], swept.onset, swept.end, begins)
     found: list[tuple[float, ...]] = []
     for N, up, down, begin in zip(*(column.values for column in columns), strict=True):
-        if begin - min(up, down) > within:
+        if begin - np.fmin(up, down) > within:
             found.append((N, up, down, begin))
     return found
 

@@ -10,7 +10,7 @@ import xarray as xr
 from disc_model.analysis import spectra
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.disc.plate import coupled_natural_frequencies, plate_modes
+from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.paper import growth as growth_rates
 from disc_model.paper import measures, paper_tables
 from disc_model.paper.measures import HIGH, LOW, Array, CaseView, Mask

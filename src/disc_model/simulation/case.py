@@ -89,6 +89,14 @@ class Span(Interval):
             else self.replace(start=first, stop=stop, last=None)
         )
 
+    def faults_of_length(self, start: float, t_end: float) -> list[Fault]:
+        """Faults of a `last` that is longer than a run from ``start`` to ``t_end``, but for
+        rounding."""
+        if self.last is None or t_end - self.last >= start - ROUNDING * t_end:
+            return []
+        rule = f"must be <= {as_text(t_end - start)} s, the length of the run"
+        return [Fault.of(("last",), self.last, rule)]
+
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
@@ -105,14 +113,14 @@ class Window(Span):
 
     What jumps at a switch (phase and P; velocities of slider and disc at an impact) is at that very
     instant what it was before.  So it is 6e-14 of the time later, because the time of an event is
-    rounded.  A sample at the start of a run shows the state from which the run starts.  Of a window
-    that reaches beyond the run there is what the run covers.
+    rounded.  A sample at the start of a run shows the state from which the run starts.  Where `start`
+    or `stop` lies outside the run, there is what the run covers.
 
     Parameters
     ----------
     start, stop : s, absolute times; from the start of the run to its end if not given
-    last : s, counted back from the end of the run, instead of start and stop. A run with ``stop_at`` ends where it
-        stops, and is computed twice for this
+    last : s, counted back from the end of the run, instead of start and stop; not longer than the run. A run with
+        ``stop_at`` ends where it stops, which may be sooner, and is computed twice for this
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
@@ -188,7 +196,18 @@ class Poincare(Interval):
 
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
+ROUNDING = 1e-9  # of a time at the end of a run, relative
 LONGEST_NAME = 60  # characters of the name of a window, which netCDF accepts, however long in bytes
+
+
+def faults_of_lengths(windows: Windows, start: float, t_end: float) -> list[Fault]:
+    """Faults of windows whose `last` is longer than a run from ``start`` to ``t_end``, s."""
+    faults = []
+    for name, window in windows.items():
+        if isinstance(window, Window):
+            found = window.faults_of_length(start, t_end)
+            faults += [fault.inside(("windows", name)) for fault in found]
+    return faults
 
 
 def resolved_windows(windows: object, start: float, t_end: float) -> Windows:

@@ -11,7 +11,14 @@ from pydantic import Field
 
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.simulation.case import Poincare, Ramp, Windows, ramp_faults, resolved_windows
+from disc_model.simulation.case import (
+    Poincare,
+    Ramp,
+    Windows,
+    faults_of_lengths,
+    ramp_faults,
+    resolved_windows,
+)
 from disc_model.simulation.states import State, is_finite
 from disc_model.units import TOLERANCES, Count, Strict, in_si, limits_faults, number
 
@@ -97,6 +104,7 @@ def checked_request(  # noqa: PLR0913
     sampled: Windows = {}
     if windows is not None:
         sampled = resolved_windows(windows, span.start, span.end)
+        raise_faults(faults_of_lengths(windows, span.start, span.end))
     if isinstance(ramps, Ramp):
         ramps = (ramps,)
     sections = any(isinstance(window, Poincare) for window in sampled.values())

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from disc_model import errors
+from disc_model.arrays import EqualByValue
 from disc_model.attachable import RunPictures
 from disc_model.data.files import unreadable
 from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
@@ -48,7 +49,7 @@ _PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Summarised, RunPictures):
+class Result(Summarised, RunPictures, EqualByValue):
     """A finished simulation, or the part of it that could be computed; see `status`.
 
     Attributes
@@ -92,6 +93,11 @@ class Result(Summarised, RunPictures):
     samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
     initial_state: State | None = field(default=None, repr=False)
+
+    def _compared(self) -> dict[str, Any]:
+        """All but the wall time, which files do not hold."""
+        motion = {name: x for name, x in self.statistics.items() if name != "wall_time"}
+        return super()._compared() | {"statistics": motion}
 
     @property
     def _event_columns(self) -> dict[str, Array]:
@@ -260,7 +266,7 @@ class Result(Summarised, RunPictures):
     @classmethod
     def load(cls, path: str | Path) -> Result:
         """Return what `save` has written to a file, to the last bit, but for the `wall_time`, which
-        is nan.
+        is nan. It equals the result that was saved.
 
         Raises
         ------

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 from pydantic import Field
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
@@ -51,8 +51,8 @@ SAME_SPEED = 1e-9  # relative to the drive's: a slip by less against its directi
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class State:
-    """State of the system in the slider's frame.
+class State(EqualByValue):
+    """State of the system in the slider's frame. States are equal if all of their values are.
 
     Attributes
     ----------
@@ -350,6 +350,7 @@ def deflection(
     import xarray as xr
 
     raise_faults(foreign_case(case))
+    warn_of_doubts(case)
     modes = mode_arrays(case)
     low, high = radial_range(case)
     radii = finite_numbers(in_si(r, "m", [], ()))

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from disc_model.arrays import Array, Mask
+from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.display import Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, violations
@@ -26,7 +26,7 @@ MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Critical(Drawn):
+class Critical(Drawn, EqualByValue):
     """Values of a parameter at which a motion gains or loses stability: the one near the static
     start, or steady sliding.
 

@@ -124,7 +124,8 @@ def neutral_curves(
     ----------
     case : the case; its values of the two parameters are ignored
     bounds : bounds of both, by their names: two of `Parameters.numbers`; SI units, or texts with units
-    lines : values of the second parameter, within its bounds; along each of these lines the first parameter is scanned for curves
+    lines : values of the second parameter, within its bounds; along each of these lines the first parameter is
+        scanned for curves
     points : cycles computed along each line; a curve lies between two that differ in stability or existence
     max_points : largest number of points of a curve in each direction from the line
     longest : arclength of the longest step along a curve, see `disc_model.stability.continuation`

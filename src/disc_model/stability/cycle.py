@@ -12,7 +12,7 @@ from functools import cached_property
 
 import numpy as np
 
-from disc_model.arrays import Array, ComplexArray
+from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import CycleStatus, values_text
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.errors import DiscModelError, violations
@@ -27,6 +27,12 @@ SLIPPING = "slipping"
 KINDS = (STICK_SLIP, SLIPPING)
 """Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
+MOST_RELEASES = (
+    60  # after which it is looked whether a motion repeats: paper's cases have periods of up to 45
+)
+REPEATS = (
+    1e-3  # distance after a period, over the static deflection, of a motion that nearly has settled
+)
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
 
@@ -35,7 +41,7 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult(Summarised, Drawn):
+class FloquetResult(Summarised, Drawn, EqualByValue):
     """A cycle of a case; `plot` draws the multipliers in the complex plane, and the
     unit circle.
 
@@ -183,8 +189,18 @@ def find_cycle(
     solution = newton(map_, x, releases=releases, may_separate=from_state)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
+        if from_state:
+            without += f"; {_repetition(map_, x)}"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
     return cycle_of(map_, solution)
+
+
+def _repetition(map_: ReturnMap, x: Array) -> str:
+    """After how many releases the motion from a point of the section repeats, in words."""
+    for releases, point in enumerate(map_.returns(x, MOST_RELEASES, may_separate=True), 1):
+        if np.linalg.norm(point - x) <= REPEATS * map_.deflection:
+            return f"the motion from there repeats after {counted(releases, 'release')}"
+    return f"the motion from there does not repeat within {MOST_RELEASES} releases"
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:

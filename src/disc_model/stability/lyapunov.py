@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import EqualByValue, Indices, Mask
 from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
@@ -41,7 +41,7 @@ CONVERGED = (0.05, 0.002)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Lyapunov(Drawn):
+class Lyapunov(Drawn, EqualByValue):
     """The largest Lyapunov exponents; `plot` draws them with their errors.
 
     Attributes
@@ -66,7 +66,7 @@ class Lyapunov(Drawn):
     errors: Array
     duration: float
     separations: int
-    converged: NDArray[np.bool_]
+    converged: Mask
     final_state: State
     trivial_exponent: float = math.nan
     parameters: Parameters | None = None
@@ -227,7 +227,7 @@ class _Frame:
         self.columns = columns.block_of_columns(self.tangent)
         self.rows = columns.coordinate_rows(engine_model)
         self.metric = columns.energy_scale(engine_model)[self.rows, None]
-        self.remaining: NDArray[np.intp] = np.arange(0)
+        self.remaining: Indices = np.arange(0)
 
     def fill(self, state: motion.EngineState, count: int) -> None:
         """Set `count` columns to orthonormal ones in random directions, always the same."""

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.arrays import Array, ComplexArray, Indices
+from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
@@ -54,7 +54,7 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteadySliding(Summarised, Drawn):
+class SteadySliding(Summarised, Drawn, EqualByValue):
     """The sliding equilibrium; `plot` draws its eigenvalues, frequency over growth rate.
 
     Attributes

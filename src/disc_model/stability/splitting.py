@@ -19,8 +19,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
+from disc_model.arrays import EqualByValue, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, mode_arrays
 from disc_model.display import Summarised, number_text
@@ -42,7 +42,7 @@ NOTICED = 0.1  # relative change of the growth rate that matters
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SplitGrowth(Summarised):
+class SplitGrowth(Summarised, EqualByValue):
     """Growth rates of steady sliding of a disc with split pairs, and of both limits.
 
     Attributes
@@ -236,8 +236,8 @@ class Coupling(NamedTuple):
     rate : (n,), 2 l Omega, rad/s
     """
 
-    rows: NDArray[np.intp]
-    columns: NDArray[np.intp]
+    rows: Indices
+    columns: Indices
     stiffness: Array
     rate: Array
 

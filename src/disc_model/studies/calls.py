@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
+from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import (
     Fault,
     ParameterError,
@@ -136,6 +137,7 @@ def checked_call(
     rule = "must be a function, such as disc_model.floquet"
     faults = [*foreign_case(case), *violations((callable(function), "function", function, rule))]
     raise_faults(faults)
+    warn_of_doubts(case)
 
     # what is named is a number of the case, or an argument of the function
     parameters = inspect.signature(function).parameters

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
 from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
@@ -339,8 +340,10 @@ def hysteresis(
     Returns
     -------
     xarray.Dataset
-        `onset_speed`, `offset_speed` (rad/s), the latter the lowest one to which separation persists on the way down:
-        at the lower bound it may persist below; and `separation_rate` (1/s) and others by direction and speed
+        `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
+        which it persists on the way down. They are nan where the bounds do not show them, such as where contact is
+        still lost at the lower bound; the attribute `message` says why. `separation_rate` (1/s) and others by
+        direction and speed
 
     Raises
     ------
@@ -361,4 +364,31 @@ def hysteresis(
         "evaluation_time": evaluation_time,
         "tol": tol,
     }
-    return _quantity("hysteresis", case, options)
+    return _with_reasons(_quantity("hysteresis", case, options))
+
+
+def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
+    """A sweep of the speed whose message says why it has no onset or no end of separation, unless it
+    says what went wrong."""
+    if sweep.attrs["message"]:
+        return sweep
+    values = sweep["sweep_Omega"].values
+    lowest = f"{values[0]:g} rad/s"
+    highest = f"{values[-1]:g} rad/s"
+    if not (sweep["separation_rate"] > 0).any():
+        message = f"contact is kept at all {values.size} speeds from {values[0]:g} to {highest}"
+        return sweep.assign_attrs(message=message)
+
+    speeds = swept_speeds(sweep)
+    reasons = []
+    if speeds.onset_at_bound:
+        reasons.append(f"contact is lost on the way up from the lower bound on, {lowest}")
+    elif speeds.onset.isnull():
+        reasons.append(f"contact is kept on the way up to {highest}")
+    if speeds.end_at_bound:
+        reasons.append(f"contact is still lost on the way down at the lower bound, {lowest}")
+    elif speeds.end.isnull():
+        reasons.append(f"contact is kept at {highest}, where the way down begins")
+    if speeds.onset_at_bound or speeds.end_at_bound:
+        reasons.append("bounds further down may show where it is kept")
+    return sweep.assign_attrs(message="; ".join(reasons))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from disc_model.errors import ParameterError
 from disc_model.stability.continuation.curve import (
     CurvePoint,
     Rejected,
@@ -122,3 +123,8 @@ def test_a_watch_ends_a_curve_and_the_most_points_do() -> None:
         EAST, lambda p, ds: [straight(p[-1], ds)] * 2, control, lambda p: len(p) == 3
     )
     assert len(points) == 3
+
+
+def test_steps_can_be_halved() -> None:
+    with pytest.raises(ParameterError, match=r"shortest=0\.5: must be at most step and longest"):
+        StepControl(shortest=0.5)

@@ -10,6 +10,7 @@ import pytest
 from disc_model import Parameters, Window, continue_cycle, floquet, simulate
 from disc_model.data.variables import CycleStatus
 from disc_model.errors import ParameterError
+from disc_model.simulation.states import State
 from disc_model.stability.continuation import Branch, StepControl
 from disc_model.stability.return_map import ReturnMap
 
@@ -108,11 +109,11 @@ def test_ranges_are_those_of_simulated_periods(branch: Branch) -> None:
         p = branch.case_at(i)
         state = branch.state(i)
         stop = float(branch.period[i])
-        period = Window(start=0.0, stop=stop, rate=4000.0)
+        period = Window(start=0.0, stop=stop, rate=1e6 / stop)
         run = simulate(p, stop, {"period": period}, initial_state=state)
         samples = run.samples["period"]
         size = float(np.ptp(samples["u"]))
-        # both sample at 4 kHz, at times that differ by rounding
+        # samples miss a peak by 1e-10 of the range at most, the parabola of the branch by 1e-7
         assert branch.range[i] == pytest.approx(size, rel=1e-6)
 
 
@@ -316,13 +317,87 @@ def test_a_continuation_tells_how_far_it_is(capsys: pytest.CaptureFixture[str]) 
     assert capsys.readouterr() == ("", "")
     continue_cycle(p, "Omega", (14.8, 15), progress=True)
     told = re.findall(
-        r"continue_cycle at Omega = ([0-9.]+) rad/s .* ([0-9]+)/", capsys.readouterr().err
+        r"continue_cycle at Omega = ([0-9.]+) rad/s +([0-9]+) 0:00", capsys.readouterr().err
     )
     value, count = told[-1]
     assert 14.8 <= float(value) <= 15
     assert int(count) == len(branch) - 1  # all but that from which it starts
     with pytest.raises(ParameterError, match="progress='yes': must be True or False"):
         continue_cycle(p, "Omega", (14.8, 15), progress="yes")  # type: ignore[arg-type]
+
+
+@pytest.fixture(scope="module")
+def separating() -> State:
+    """A settled motion that separates and sticks twice in a period, at 385 N and 15.1 rad/s."""
+    return simulate(Parameters(N=385, Omega=15.1), 100).final_state
+
+
+def test_a_doubled_branch_ends_at_the_doubling_of_the_single_one(separating: State) -> None:
+    """It listed four folds beside it, which were rounding, and the doubling 1e-8 away."""
+    doubled = continue_cycle(
+        Parameters(N=385, Omega=15.1), "N", (300, 450), guess=separating, releases=2
+    )
+    assert [each.kind for each in doubled.special] == ["grazing", "period_doubling"]
+    end = doubled.special[-1]
+    single = continue_cycle(end.case, "N", (400, 410), guess=end.state)
+    doubling = next(each for each in single.special if each.kind == "period_doubling")
+    # both are roots to some 1e-13 in the parameter
+    assert end.values[0] == pytest.approx(doubling.values[0], rel=1e-11)
+    # the same cycle has the same range, twice
+    assert end.range == pytest.approx(doubling.range, rel=1e-6)
+
+
+def test_a_guess_of_another_number_of_releases_is_told_when_it_repeats(separating: State) -> None:
+    p = Parameters(N=385, Omega=15.1)
+    rule = (
+        "no cycle with 3 releases near the given state; the motion from there repeats after 2 rel"
+    )
+    with pytest.raises(ParameterError, match=rule):
+        continue_cycle(p, "Omega", (15, 16), guess=separating, releases=3)
+
+
+def test_the_end_of_stick_on_a_rigid_disc_is_a_grazing() -> None:
+    """It was no reason: stick ends so shortly before the release that this was not compared."""
+    block = Parameters(
+        n_diameters=-1,
+        m=0.538,
+        k=0,
+        k_p=6957,
+        c_p=5.946,
+        N=10,
+        mu_s=0.6,
+        mu_k=0.2,
+        friction_decay=10,
+        r_0=0.1,
+        Omega=2.2,
+    )
+    branch = continue_cycle(block, "Omega", (2.2, 3), direction=1)
+    assert branch.ended == "stick vanishes: the cycle touches zero slip speed"
+    assert branch.special[-1].kind == "grazing"
+
+
+def test_a_hopf_point_has_no_folds_beside_it() -> None:
+    block = Parameters(
+        n_diameters=-1,
+        m=0.4,
+        k=0,
+        k_p=7000,
+        c_p=6,
+        N=10,
+        mu_s=0.6,
+        mu_k=0.2,
+        friction_decay=10,
+        r_0=0.1,
+        Omega=2,
+    )
+    branch = continue_cycle(block, "Omega", (1, 3), kind="slipping")
+    assert [each.kind for each in branch.special] == ["hopf", "grazing"]
+
+
+@pytest.mark.parametrize("name", ["damping_ratio", "friction_decay", "contact_compliance"])
+def test_a_number_that_does_not_act_cannot_be_continued(name: str) -> None:
+    with pytest.raises(ParameterError, match=f"name='{name}': does not act in this case"):
+        continue_cycle(Parameters(N=385, Omega=14.9), name, (0.1, 1))
 
 
 # ---- Random starts

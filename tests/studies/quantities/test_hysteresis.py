@@ -60,7 +60,7 @@ def test_onset_and_offset_are_speeds_at_which_it_separates(sweep: xr.Dataset) ->
     ("falling", "offset"),
     [
         ([0, 0, 0, 0], None),  # it has ended at the top already
-        ([9, 9, 9, 9], 10.0),  # it persists to the lowest speed
+        ([9, 9, 9, 9], None),  # it persists at the lowest speed, and may do so below
         ([9, 0, 9, 9], 12.0),  # a gap ends it, though it begins again below
         ([0, 0, 0, 9], 13.0),
     ],
@@ -85,6 +85,25 @@ def test_the_offset_is_above_the_first_gap_on_the_way_down(
     values, _ = options.compute_point(Point(Parameters(N=200, Omega=0)))
     assert values.get("offset_speed") == offset
     assert "onset_speed" not in values
+
+
+@pytest.mark.parametrize(
+    ("rising", "onset"),
+    [
+        ([0, 0, 0, 0], None),
+        ([0, 0, 9, 9], 12.0),
+        ([9, 9, 9, 9], None),  # it begins at the lowest speed, or would below
+        ([9, 0, 0, 9], None),
+    ],
+)
+def test_the_onset_is_above_a_speed_at_which_contact_is_kept(
+    rising: list[float], onset: float | None
+) -> None:
+    """It was the lower bound where contact was lost there already."""
+    options = Hysteresis(scan={"start": 10, "stop": 13, "step": 1}, dwell=9, evaluation_time=1)
+    rates = np.array([rising, np.zeros(4)])
+    edges = options._edges({"sweep_status": np.zeros((2, 4), int), "separation_rate": rates})
+    assert edges.get("onset_speed") == onset
 
 
 def test_there_is_no_offset_where_the_sweep_fails_before_separation_ends(

@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.analysis.spectra import TimeFrequency
 from disc_model.data import dataset
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 from disc_model.figures.drawing import BLACK, PAGE, SKY, letter, mark_printed, new_figure, say, wide
 from disc_model.figures.kinds.base import HIGHEST
 from disc_model.figures.runs import parameters_of, sampled, show, show_thickness

@@ -9,7 +9,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.disc.plate import plate_modes
+from disc_model.disc.modes import plate_modes
 from disc_model.figures.cells import edges_of, paint, patches
 from disc_model.figures.classes import Look
 from disc_model.figures.drawing import (

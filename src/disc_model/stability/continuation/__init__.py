@@ -9,15 +9,17 @@ static deflection, with q, over the parameters' scales.
 `curve` predicts and corrects points of any curve, and tests whether a step stays on it; `problem`
 is F, and `first_cycle` a zero of it; `spectrum` follows multipliers from point to point.  In one
 parameter `tracing` takes a step, `course` both ways from a cycle, `special` locates special points,
-`ends` finds the reason for which a branch ends, and `cycles` returns all of it as a `Branch`.
+`ends` finds the reason for which a branch ends, and `cycles` returns all of it as a `Branch`;
+`arguments` reads what it is asked.
 `borders` follows borders of stability.
 """
 
+from disc_model.stability.continuation.arguments import free_faults, interval_in_si
 from disc_model.stability.continuation.borders import BORDER, Kind, continue_border
 from disc_model.stability.continuation.branch import Branch, SpecialPoint
 from disc_model.stability.continuation.course import UNLOCATED
 from disc_model.stability.continuation.curve import StepControl
-from disc_model.stability.continuation.cycles import continue_cycle, free_faults, interval_in_si
+from disc_model.stability.continuation.cycles import continue_cycle
 from disc_model.stability.continuation.problem import CycleProblem
 
 __all__ = [

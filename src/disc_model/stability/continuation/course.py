@@ -19,10 +19,10 @@ from disc_model.stability.continuation.curve import (
     interpolate,
 )
 from disc_model.stability.continuation.doubling import (
+    comes_to_doubling,
     doubling_end,
-    half_a_period_on,
     leave_doubling,
-    passes_doubling,
+    locate_doubling,
 )
 from disc_model.stability.continuation.ends import End
 from disc_model.stability.continuation.problem import CycleProblem, value_text
@@ -37,6 +37,7 @@ KIND_WORDS = {
 }
 SAME_POINT = 1e-7  # distance of two computations of one point of a branch, over the deflection
 BESIDE = 0.1  # distance from a chord of points that may lie on the curve beside it, over the chord
+BESIDE_HOPF = 1e-3  # distance from a Hopf point within which no other special point is listed
 SAME_VALUE = 1e-12  # relative difference of two values of a parameter that count as one
 
 
@@ -136,6 +137,8 @@ class Search:
                 end = End(ends.LOST, f"{UNLOCATED} {lost}")
                 return Course(points[: i + 1], found, None, end)
             for place in between:
+                if end.kind == ends.HOPF and _is_beside(place, points[-1]):
+                    continue
                 found.append(place)
                 if place.kind == self.stop_at:
                     where = self.problem.words(place.point)
@@ -234,7 +237,7 @@ class _Watch:
         if len(points) > 3 and self.search.passes(before, new, points[0]):
             points[-1] = points[0]
             self.end = End(ends.CLOSED, "the branch closes on itself")
-        elif passes_doubling(self.search.problem, before, new):
+        elif comes_to_doubling(self.search.problem, before, new):
             self._end_at_doubling(points)
         elif not self._leaves(points):
             if self._repeats(before, new):
@@ -249,18 +252,14 @@ class _Watch:
         return self.end is not None
 
     def _end_at_doubling(self, points: list[CurvePoint]) -> None:
-        """End the branch at the period doubling between its last two points, or before it where it
-        cannot be located."""
-        search = self.search
-        before, new = points[-2:]
-        apart = half_a_period_on(search.problem, before.z)
-        doubling = search.tracer.locate(
-            before, new, lambda point: float(apart @ half_a_period_on(search.problem, point.z))
-        )
+        """End the branch at the period doubling to which its last point has come, or before it where
+        it cannot be located."""
+        problem = self.search.problem
         points.pop()
+        doubling = locate_doubling(problem, points[-1])
         if doubling is not None:
             points.append(doubling)
-        self.end = doubling_end(search.problem, points[-1])
+        self.end = doubling_end(problem, points[-1])
 
     def _leaves(self, points: list[CurvePoint]) -> bool:
         """Whether the branch leaves the span at the last point; or before it, and that point is
@@ -335,6 +334,12 @@ class _Trace:
         distances = np.linalg.norm(away[candidates] - np.outer(shares[candidates], chord), axis=1)
         near = candidates[distances < BESIDE * np.linalg.norm(chord)]
         return [self.points[i] for i in near if self.points[i] is not before]
+
+
+def _is_beside(place: Located, end: CurvePoint) -> bool:
+    """Whether a special point is so near to a Hopf point that the parameter, which changes with the
+    square of the distance, changes by its rounding."""
+    return bool(np.linalg.norm(place.point.z - end.z) < BESIDE_HOPF)
 
 
 def _margin(value: float) -> float:

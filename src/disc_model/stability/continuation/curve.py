@@ -12,12 +12,12 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Annotated, NamedTuple, Protocol
+from typing import Annotated, NamedTuple, Protocol, Self
 
 import numpy as np
-from pydantic import Field
+from pydantic import Field, model_validator
 
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, require
 from disc_model.stability.continuation.spectrum import Spectrum, spectrum_of
 from disc_model.stability.return_map import Array, Orbit, newton_step, rounding
 from disc_model.units import Count, Finite, Positive, Strict
@@ -71,6 +71,14 @@ class StepControl(Strict):
     easy: Finite = 0.99
     sharpest: Finite = 0.9
     beyond: bool = False
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Self:
+        """Check that a step can be halved."""
+        first = min(self.step, self.longest)
+        rule = f"must be at most step and longest, {first:g}"
+        require((self.shortest <= first, "shortest", self.shortest, rule))
+        return self
 
 
 class Evaluation(NamedTuple):

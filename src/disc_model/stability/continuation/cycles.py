@@ -1,16 +1,16 @@
 """`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
 from disc_model.display import progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, raise_faults, require, suggestion, violations
-from disc_model.parameters import Parameters, Quantity, foreign_case
-from disc_model.simulation.states import State, is_finite_array
+from disc_model.errors import violations
+from disc_model.parameters import Parameters, Quantity
+from disc_model.simulation.states import State
 from disc_model.stability.continuation import ends, special
+from disc_model.stability.continuation.arguments import ROUNDING, read_values
 from disc_model.stability.continuation.branch import CHANGES, Branch, SpecialPoint
 from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
@@ -22,40 +22,9 @@ from disc_model.stability.continuation.problem import (
     stretch_of,
 )
 from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
-from disc_model.units import CYCLE_TOLERANCES, in_si, is_number, limits_faults
+from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
 CYCLE = StepControl()
-ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
-
-
-def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
-    """Faults of the names of free parameters."""
-    known = p.numbers
-    wrong = [name for name in names if not isinstance(name, str) or name not in known]
-    return [
-        Fault.of(("name",), name, f"must be a number of the case{suggestion(name, known)}")
-        for name in wrong
-    ]
-
-
-def interval_in_si(name: Any, bounds: Any, faults: list[Fault] | None = None) -> Any:
-    """Bounds of a parameter in SI units, from texts with units too; None unless they are two
-    ascending numbers. Units of another kind are added to the faults."""
-    values = values_in_si(name, bounds, faults, "bounds")
-    return values if is_finite_array(values, 2) and values[0] < values[1] else None
-
-
-def values_in_si(
-    name: Any, values: Any, faults: list[Fault] | None = None, argument: str = "values"
-) -> Any:
-    """Values of a parameter in SI units, from texts with units too. Units of another kind are added
-    to the faults of the argument."""
-    unit = Parameters.unit(name) if isinstance(name, str) else ""
-    found = list[Fault]()
-    converted = in_si(values, unit, found, ())
-    if faults is not None:
-        faults += [Fault((argument,), each.value, each.rule) for each in found]
-    return converted
 
 
 @compiling()
@@ -122,33 +91,18 @@ def continue_cycle(  # noqa: PLR0913
     >>> branch.growth_rate[branch.values[:, 0] == 15.0].round(4).tolist()
     [-0.1055, 0.5751]
     """
-    of_bounds = list[Fault]()
-    of_values = list[Fault]()
-    span = interval_in_si(name, bounds, of_bounds)
-    listed = isinstance(values, Sequence | np.ndarray)
-    wanted: Any = values_in_si(name, list(values), of_values) if listed else None
     ways = is_number(direction) and direction in (-1, 0, 1)
     stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
-    numbers = wanted == [] or is_finite_array(wanted) or bool(of_values)
-    wrong: list[str] = [*of_bounds, *of_values]
-    wrong += violations(
-        (
-            span is not None or bool(of_bounds),
-            "bounds",
-            bounds,
-            "must be two ascending finite numbers",
-        ),
+    wrong = violations(
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
-        (numbers, "values", values, "must be a list of finite numbers"),
         (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
+    span, wanted = read_values(case, name, bounds, values, wrong)
     tol = float(tol)
     start = case.numbers[name]
-    _check_within(span, case, name, dict(zip(values, wanted, strict=True)))
 
     scale, steps = _scaled(case, name, span, steps)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
@@ -166,24 +120,6 @@ def continue_cycle(  # noqa: PLR0913
     return branch_of(problem, course, (*span, start), wanted)
 
 
-def _check_within(
-    span: tuple[float, float], case: Parameters, name: str, wanted: Mapping[Any, float]
-) -> None:
-    """Raise `ParameterError` unless the case, and values as given and in SI units, lie within
-    bounds."""
-    slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
-    least = span[0] - slack
-    greatest = span[1] + slack
-    start = case.numbers[name]
-    outside = [given for given, value in wanted.items() if not least <= value <= greatest]
-    unit = case.unit(name).removeprefix("1")
-    rule = f"must lie within the bounds, {span[0]:g} to {span[1]:g} {unit}".strip()
-    require(
-        (least <= start <= greatest, name, start, f"{rule}, to start from there"),
-        (not outside, "values", next(iter(outside), None), rule),
-    )
-
-
 def _scaled(
     case: Parameters, name: str, span: tuple[float, float], steps: StepControl
 ) -> tuple[float, StepControl]:
@@ -191,7 +127,12 @@ def _scaled(
     if steps.scale is not None:
         return steps.scale, steps
     stretch = stretch_of(case, name)
-    shorter = {"step": steps.step / stretch, "longest": steps.longest / stretch**0.5}
+    first = steps.step / stretch
+    shorter = {
+        "step": first,
+        "longest": steps.longest / stretch**0.5,
+        "shortest": min(steps.shortest, first),
+    }
     scale = stretch * parameter_scale(case, name, max(map(abs, span)))
     return scale, steps.replace(**shorter)
 

@@ -8,6 +8,7 @@ later. A branch therefore begins and ends there.
 from __future__ import annotations
 
 import numpy as np
+from scipy.optimize import newton
 
 from disc_model.display import counted
 from disc_model.errors import ParameterError
@@ -15,12 +16,19 @@ from disc_model.stability.continuation.curve import CurvePoint, Rejected, curve_
 from disc_model.stability.continuation.ends import DOUBLED, End
 from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
-from disc_model.stability.return_map import Array
+from disc_model.stability.return_map import Array, newton_step
 
 # largest distance, over the deflection, of a cycle from itself half a period later that is looked at
 # as one of half the period: at a doubling, Newton's method comes to a double zero
 SAME = 1e-3
 NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
+# of corrections of a shorter cycle, and the last of them; the first change of the parameter, and the
+# last one, over its value; how far a doubling may be from the cycle beside which it is sought
+MOST_CORRECTIONS = 8
+EXACT = 1e-9
+BESIDE = 1e-6
+ROUNDING = 1e-14
+FARTHEST = 0.2
 DEPARTURE = 5e-3  # distance of a branch's first cycle from the doubling, over the deflection
 
 
@@ -37,9 +45,10 @@ def half_a_period_on(problem: CycleProblem, z: Array) -> Array:
     return problem.residual(z, releases_in_half(problem))
 
 
-def passes_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
-    """Whether two neighbours on a branch of cycles of an even number of releases are the same ones,
-    half a period apart: the curve passes a period doubling between them."""
+def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
+    """Whether a branch of cycles of an even number of releases comes to a period doubling at the
+    second of two neighbours: both are the same cycles, half a period apart, or the second one hardly
+    differs from itself half a period later."""
     if not releases_in_half(problem):
         return False
     try:
@@ -47,7 +56,44 @@ def passes_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint
         second = half_a_period_on(problem, after.z)
     except Rejected:
         return False
-    return float(first @ second) < 0
+    if float(first @ second) < 0:
+        return True
+    return bool(np.linalg.norm(second) < min(SAME, float(np.linalg.norm(first))))
+
+
+def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | None:
+    """The period doubling beside a cycle of twice the period, where that of half the releases has the
+    multiplier -1; None if it is not found.
+
+    The shorter cycle is regular there, while F of the longer one has a double zero.
+    """
+    half = releases_in_half(problem)
+    n = problem.n
+    z = near.z.copy()
+    z[:n] += half_a_period_on(problem, near.z) / 2
+
+    def excess(value: float) -> float:
+        """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
+        then the shorter cycle there."""
+        z[-1] = value
+        for _ in range(MOST_CORRECTIONS):
+            found = problem.evaluate(z, half)
+            step = newton_step(found.by[:, :n], found.residual)
+            z[:n] -= step
+            if np.linalg.norm(step) < EXACT:
+                break
+        values = spectrum_of(found.jacobian).values
+        return float(np.real(values[np.argmin(np.abs(values + 1))] + 1))
+
+    try:
+        value = newton(excess, near.value, x1=near.value * (1 + BESIDE), tol=ROUNDING)
+        excess(value)
+        found = problem.evaluate(z)
+    except (Rejected, RuntimeError):  # which scipy raises where a search does not converge
+        return None
+    if np.linalg.norm(z - near.z) > FARTHEST:
+        return None
+    return curve_point(z, found, near.tangent)
 
 
 def doubling_end(problem: CycleProblem, point: CurvePoint) -> End:

@@ -100,6 +100,8 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
         text = _first_difference(cycle, motion, same_time)
         if text:
             return End(GRAZED, text)
+    if str(rejected) == WITHOUT_RETURN["time_over"] and _slips_on(problem, last):
+        return End(GRAZED, GRAZINGS["slip_to_stick", False])
     text = f"no step from {problem.words(last)} succeeds: {rejected}"
     if str(rejected) not in WITHOUT_RETURN.values():
         text += "; start again beyond it"
@@ -121,6 +123,14 @@ def _events(problem: CycleProblem, z: np.ndarray, period: float, until: float) -
         Event(str(kind), float(time) / period)
         for kind, time in zip(early["kind"], early["time"], strict=True)
     ]
+
+
+def _slips_on(problem: CycleProblem, last: CurvePoint) -> bool:
+    """Whether the motion just beyond a point never comes to stick in its period. The cycle may do so
+    shortly before its release, which is no event that is compared."""
+    period = last.orbit.period
+    motion = _events(problem, last.z + BEYOND[0] * last.tangent, period, period)
+    return all(event.kind != "slip_to_stick" for event in motion)
 
 
 def _are_same(one: Event | None, other: Event | None, same_time: float) -> bool:

@@ -69,10 +69,12 @@ class Hysteresis(Quantity):
         "slip_fraction": Variable("1", "share of the time spent slipping", dims=_DIMS),
         "separation_fraction": Variable("1", "share of the time spent separated", dims=_DIMS),
         "onset_speed": Variable(
-            "rad s-1", "speed at which separation first is found on the way up"
+            "rad s-1",
+            "speed at which separation first is found on the way up, nan if at none or at the lowest",
         ),
         "offset_speed": Variable(
-            "rad s-1", "lowest speed to which it persists without a gap on the way down"
+            "rad s-1",
+            "lowest speed to which it persists without a gap on the way down, nan if it still does at the lowest",
         ),
     }
     COORDINATES: ClassVar = {
@@ -120,17 +122,15 @@ class Hysteresis(Quantity):
 
     def _edges(self, values: dict[str, Any]) -> dict[str, float]:
         """Speeds at which separation sets in on the way up, and to which it persists on the way
-        down, as far as they are known."""
+        down, as far as they are known: each lies beside a speed at which contact is kept."""
         speeds = self.scan.values
         edges = {}
         done = values["sweep_status"] == STATUSES.index("ok")
         rising, falling = values["separation_rate"] > 0
-        if rising.any():
+        if rising.any() and not rising[0]:
             edges["onset_speed"] = speeds[rising.argmax()]
         if falling[-1]:
             quiet = np.flatnonzero(~falling)
-            if not quiet.size:
-                edges["offset_speed"] = speeds[0]
-            elif done[1, quiet[-1]]:
+            if quiet.size and done[1, quiet[-1]]:
                 edges["offset_speed"] = speeds[quiet[-1] + 1]
         return edges

@@ -1,0 +1,129 @@
+"""Sweeps of the speed over the preload: where separation begins and ends, and what lies between."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.colors import ListedColormap
+from matplotlib.transforms import ScaledTranslation
+
+from disc_model.data.swept_speeds import swept_speeds
+from disc_model.data.variables import stated_in
+from disc_model.figures.classes import AT_BOUND
+from disc_model.figures.drawing import BLUE, ORANGE, SEPARATED, large, mark, mark_failed, wide
+from disc_model.figures.selection import failed, stretches
+from disc_model.figures.types import Axes
+
+ONSET = SEPARATED  # colour of speeds at which separation begins,
+END = BLUE  # and at which it ends
+ARROW = 5.0  # pt, length of an arrow to lower speeds, and its distance from the mark
+BAR = 20.0  # N, height of the mark of coexistence, well within a step of the sweeps
+
+
+def draw_sweeps(
+    ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset | None, basins: xr.Dataset | None
+) -> str:
+    """Draw sweeps of the speed, and shade where some motions stay quiet and others separate;
+    returns a title."""
+    loads = sweep["N"].values
+    lost = failed(sweep).values
+    swept = swept_speeds(sweep)
+    onset = np.where(lost, np.nan, swept.onset.values)
+    end = np.where(lost, np.nan, swept.end.values)
+    for speeds, shape, colour, label in (
+        (onset, "^", ONSET, "sweep up: separation begins"),
+        (end, "v", END, "sweep down: separation ends"),
+    ):
+        ax.plot(
+            speeds,
+            loads,
+            shape,
+            color=colour,
+            markersize=mark(4),
+            markerfacecolor="none",
+            clip_on=False,
+            label=label,
+        )
+    _point_to_less(ax, loads, onset, swept.onset_at_bound.values & ~lost, ONSET)
+    _point_to_less(ax, loads, end, swept.end_at_bound.values & ~lost, END)
+    mark_failed(ax, loads[lost], on="y")
+    if basins is not None:
+        _coexistence(ax, basins)
+    elif cycle is not None:
+        _stable_cycles(ax, sweep, cycle)
+    step = float(np.diff(sweep["sweep_Omega"].values[:2])[0])
+    return f"sweeps in steps of {step:g} rad/s"
+
+
+def _point_to_less(
+    ax: Axes, loads: np.ndarray, speeds: np.ndarray, at_bound: np.ndarray, colour: str
+) -> None:
+    """Set an arrow beside each speed that is the lowest of its sweep, and may be less."""
+    if not at_bound.any():
+        return
+    label = AT_BOUND.label
+    if label in ax.get_legend_handles_labels()[1]:
+        label = "_nolegend_"
+    page: Any = ax.get_figure(root=True)
+    left = ScaledTranslation(-large(ARROW) / 72, 0, page.dpi_scale_trans)
+    ax.plot(
+        speeds[at_bound],
+        loads[at_bound],
+        linestyle="",
+        marker=r"$\leftarrow$",
+        color=colour,
+        label=label,
+        markersize=mark(ARROW),
+        markeredgewidth=0,
+        transform=ax.transData + left,
+        clip_on=False,
+    )
+
+
+def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
+    """Mark speeds at which some starts stay quiet and others separate: both fractions exceed zero
+    with their intervals. A single speed is a line."""
+    load = stated_in(basins, "base")["N"]
+    speeds = basins["Omega"].values
+    quiet = basins["basin_fraction_low"].sel(attractor_class="quiet")
+    apart = basins["separating_fraction_low"]
+    both = ((quiet > 0) & (apart > 0)).values
+    label = f"quiet or separating,\ncomputed at {load:g} N"
+    for first, after in stretches(both):
+        width = speeds[after - 1] - speeds[first]
+        ax.barh(
+            load,
+            width,
+            BAR,
+            speeds[first],
+            label=label,
+            color=ORANGE,
+            ec=ORANGE,
+            alpha=0.6,
+            lw=wide(0.8),
+        )
+        label = "_nolegend_"
+
+
+def _stable_cycles(ax: Axes, sweep: xr.Dataset, cycle: xr.Dataset) -> None:
+    """Shade where the cycle is stable by its multipliers, as short stays only delay a sweep up, and
+    the sweep down still separates; not between loads of which one never does."""
+    speeds = cycle["Omega"].values
+    loads = cycle["N"].values
+    ends = swept_speeds(sweep).end.values
+    lowest = np.interp(loads, sweep["N"].values, ends, left=np.nan, right=np.nan)
+    highest = float(sweep["sweep_Omega"].max())
+    within = (speeds >= lowest[:, None]) & (speeds <= highest)
+    stable = (cycle["growth_rate"].values < 0) & within
+    shown = np.ma.masked_where(~stable, stable)
+    ax.pcolormesh(
+        speeds,
+        loads,
+        shown,
+        cmap=ListedColormap([ORANGE]),
+        alpha=0.25,
+        shading="nearest",
+        rasterized=True,
+    )
+    label = "the cycle is stable where the\nsweep down still separates"
+    ax.fill_between([], [], [], color=ORANGE, alpha=0.25, label=label)
