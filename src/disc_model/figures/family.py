@@ -8,7 +8,6 @@ from weakref import WeakKeyDictionary
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.canvas import MOST_LINES, OWN, Page
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -21,6 +20,7 @@ from disc_model.figures.drawing import (
     large,
     sample,
 )
+from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text, what_case
 
