@@ -11,8 +11,9 @@ from matplotlib import pyplot
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import keep_height
-from disc_model.figures.pages import MOST_LINES, OWN, Page, given_axes, restate, write_legend
-from disc_model.figures.pages import Wishes as Wishes  # a page is always asked for with wishes
+from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
+from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
+from disc_model.figures.pages import Wishes as Wishes
 from disc_model.figures.placing import check_room
 from disc_model.figures.room import make_room
 from disc_model.figures.style import readers_style

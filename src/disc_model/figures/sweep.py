@@ -9,12 +9,11 @@ import xarray as xr
 
 from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
-from disc_model.figures.pages import Page
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import horizon_text, label_of, measured, what_case
 from disc_model.parameters import Disc
