@@ -426,6 +426,16 @@ def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
     assert (heights > 0).all()
 
 
+def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:
+    """The picture had a legend, and nothing else."""
+    found = dm.critical(BLOCK, "Omega", (1, 2), points=3)
+    assert np.isneginf(found.growth_rate).all()
+    ax = found.plot()
+    assert "growth rate −∞" in labels(ax.figure)
+    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
+    assert triangles.get_xdata().tolist() == found.values.tolist()
+
+
 @pytest.mark.parametrize("kinds", [("stick_slip", "slipping"), ("slipping", "stick_slip")])
 def test_branches_with_and_without_finite_growth_show_on_the_same_axes(kinds: Any) -> None:
     ax = block_branch(kinds[0]).plot("growth_rate")
