@@ -12,8 +12,9 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.errors import script
-from disc_model.figures.drawing import BLACK, SEPARATED, sample, styled
+from disc_model.figures.drawing import BLACK, SEPARATED, sample
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.style import styled
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"

@@ -16,11 +16,12 @@ from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.analysis.spectra import TimeFrequency
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures import stages
-from disc_model.figures.drawing import PHASE_COLOURS, save
+from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from disc_model.figures.spectrogram import span_of
 from disc_model.figures.stages import SECTIONS, stages_of
+from disc_model.figures.style import save
 from tests.damages import damaged
 from tests.figures.reading import assert_fit_for_print
 

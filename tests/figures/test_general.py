@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
 from disc_model.figures import curve, heat_map, selection
-from disc_model.figures.drawing import save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
+from disc_model.figures.style import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
 

@@ -20,7 +20,7 @@ from disc_model.figures.cells import (
     unresolved,
 )
 from disc_model.figures.classes import LOOKS, UNRESOLVED
-from disc_model.figures.drawing import save
+from disc_model.figures.style import save
 from disc_model.studies.quantities.regions import Regions
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 

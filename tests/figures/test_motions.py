@@ -16,7 +16,8 @@ from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
 from disc_model.figures.bifurcation import MARKS
 from disc_model.figures.borders import Curve
-from disc_model.figures.branches import LOWEST, Sweep, stable_segments
+from disc_model.figures.branch_lines import stable_segments
+from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import peaks
 from disc_model.figures.classes import LOOKS, lightness

@@ -16,7 +16,10 @@ import disc_model as dm
 from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import CycleStatus
 from disc_model.figures.branch import _mark_special_points
+from disc_model.figures.classes import lightness
 from disc_model.figures.disc import Motion, scale_of
+from disc_model.figures.drawing import PAGE
+from disc_model.figures.family import LOOKS
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from disc_model.simulation.states import static_start
@@ -296,7 +299,7 @@ def test_branches_on_the_same_axes_share_a_legend() -> None:
     assert words[3:] == kinds
     colours = [line.get_color() for line in legend.get_lines()[:3]]
     assert len({*colours}) == 3
-    drawn = {line.get_color() for line in ax.lines if line.get_linestyle() == "-"}
+    drawn = {line.get_color() for line in ax.lines if line.get_linestyle() != "None"}
     assert {*colours} <= drawn
 
 
@@ -328,6 +331,140 @@ def test_a_title_says_what_all_branches_have_in_common() -> None:
     words = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert words[:2] == ["N = 380 N", "N = 385 N"]
     assert {line.get_linewidth() for line in ax.lines} == {*widths}
+
+
+def test_branches_on_the_same_axes_differ_in_grey_print() -> None:
+    """The second and the third were of nearly the same grey, both whole lines."""
+    assert len({look.dashes for look in LOOKS}) == len(LOOKS) == 6
+    shades = [lightness(look.colour) for look in LOOKS]
+    assert np.abs(np.diff(shades[:5])).min() > 0.1, "the next one, which a grey print shows too"
+    ax = None
+    for number in range(6):
+        ax = branch().plot("period", ax=ax, labels={"branch": f"sheet {number}"})
+    assert ax is not None
+    samples = ax.figure.legends[0].get_lines()[:6]
+    assert len({_pattern(line) for line in samples}) == 6
+    room = ax.figure.legends[0].handlelength * ax.figure.legends[0]._fontsize
+    widest = max(line.get_linewidth() for line in ax.lines)
+    drawn = {line.get_color(): line for line in ax.lines if line.get_linewidth() == widest}
+    for line in samples:
+        assert _pattern(drawn[line.get_color()]) == _pattern(line), "in points, of every width"
+        assert sum(_pattern(line)) < room, "the legend shows a whole period"
+
+
+def _pattern(line: Any) -> tuple[float, ...]:
+    """Lengths of dashes and gaps, points, to hundredths; none for a whole line."""
+    return tuple(round(length, 2) for length in line._dash_pattern[1] or ())
+
+
+def test_an_unstable_stretch_of_a_further_branch_leaves_the_gaps_of_a_stable_one_free() -> None:
+    folded = dm.continue_cycle(QUIET, "Omega", (14.8, 15.2))
+    ax = branch().plot("period")
+    before = len(ax.lines)
+    folded.plot("period", ax=ax)
+    fold = folded.folds[0, 0]
+    joined = [line for line in ax.lines[before:] if line.get_linestyle() == "--"]
+    ends = {line.get_linewidth(): line.get_xdata()[[0, -1]].tolist() for line in joined}
+    assert ends == {min(ends): [fold, 14.8], max(ends): [14.8, fold]}
+    assert len(ends) == 2
+
+
+def test_a_legend_forgets_names_of_branches_that_differ_in_something_else_now() -> None:
+    """Beside "1 release per period" there stood "branch 1", of the same branch."""
+    _, ax = pyplot.subplots(figsize=(PAGE, 3), layout="constrained")
+    branch().plot("period", ax=ax)
+    branch().plot("period", ax=ax, labels={"branch": "again"})
+    assert legend_words(ax)[:2] == ["branch 1", "again"]
+    other = dm.continue_cycle(QUIET.replace(N=384), "Omega", (14.8, 15.0))
+    other.plot("period", ax=ax)
+    assert legend_words(ax) == ["N = 385 N", "again", "N = 384 N", "stable"]
+
+
+def legend_words(ax: Any) -> list[str]:
+    return [text.get_text() for text in ax.get_legend().get_texts()]
+
+
+BLOCK = dm.Parameters(
+    n_diameters=-1,
+    m=0.538,
+    k=0,
+    k_p=6957,
+    c_p=5.946,
+    N=10,
+    mu_s=0.6,
+    mu_k=0.2,
+    friction_decay=10,
+    r_0=0.1,
+    Omega=2,
+)
+"""A block on a rigid disc, whose stick-slip has no memory of the cycle before: all multipliers are 0."""
+
+
+@functools.cache
+def block_branch(kind: Any) -> Any:
+    return dm.continue_cycle(BLOCK, "Omega", (1.8, 2.1), kind=kind)
+
+
+def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
+    """The axis was around 0 rad/s, without a line, and numpy warned of an invalid value."""
+    sticking = block_branch("stick_slip")
+    assert np.isneginf(sticking.growth_rate).all()
+    ax = sticking.plot("growth_rate")
+    figure = ax.figure
+    figure.draw_without_rendering()
+    assert labels(figure) == ["stable", "growth rate −∞"]
+    low, high = ax.get_xlim()
+    assert low < 1.8
+    assert high > 2.1
+    assert high - low < 0.4, "the values of the branch and little beside them"
+    assert ax.get_ylim()[0] < 0 < ax.get_ylim()[1]
+    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
+    assert triangles.get_xdata() == pytest.approx(sticking.values[:, 0], rel=1e-12)
+    places = triangles.get_transform().transform(triangles.get_xydata())
+    heights = (places[:, 1] - ax.bbox.y0) / ax.bbox.height
+    assert (heights < 0.1).all()
+    assert (heights > 0).all()
+
+
+def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:
+    """The picture had a legend, and nothing else."""
+    found = dm.critical(BLOCK, "Omega", (1, 2), points=3)
+    assert np.isneginf(found.growth_rate).all()
+    ax = found.plot()
+    assert "growth rate −∞" in labels(ax.figure)
+    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
+    assert triangles.get_xdata().tolist() == found.values.tolist()
+
+
+@pytest.mark.parametrize("kinds", [("stick_slip", "slipping"), ("slipping", "stick_slip")])
+def test_branches_with_and_without_finite_growth_show_on_the_same_axes(kinds: Any) -> None:
+    ax = block_branch(kinds[0]).plot("growth_rate")
+    block_branch(kinds[1]).plot("growth_rate", ax=ax)
+    ax.figure.draw_without_rendering()
+    slipping = block_branch("slipping")
+    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
+    top = triangles.get_window_extent().y1
+    finite = np.column_stack([slipping.values[:, 0], slipping.growth_rate])
+    places = ax.transData.transform(finite)
+    assert ax.bbox.count_contains(places) == len(places)
+    assert places[:, 1].min() > top, "finite rates stand above"
+    assert ax.transData.transform((2.0, 0.0))[1] > top, "as does the line of zero"
+    low, high = ax.get_ylim()
+    assert low < 0 < slipping.growth_rate.max() < high
+    assert {"0 releases per period", "1 release per period"} < {*labels(ax.figure)}
+
+
+def test_a_special_point_of_minus_infinity_stands_at_the_lower_edge_too() -> None:
+    grazing = SimpleNamespace(kind="grazing", values=[2.0], growth_rate=-np.inf)
+    made: Any = SimpleNamespace(special=[grazing], parameters=("Omega",))
+    _, ax = pyplot.subplots()
+    [entry] = _mark_special_points(ax, made, "growth_rate", (1.0, 1.0))
+    assert entry.get_label() == "grazing at 2"
+    [mark] = [line for line in ax.lines if line.get_transform() != ax.transData]
+    assert (mark.get_marker(), mark.get_xdata().tolist()) == (entry.get_marker(), [2.0])
+    place = mark.get_transform().transform((2.0, *mark.get_ydata()))
+    height = (place[1] - ax.bbox.y0) / ax.bbox.height
+    assert 0 < height < 0.1
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
@@ -398,6 +535,29 @@ def test_a_resonance_is_named_once_for_each_kind_of_curve_and_covers_none() -> N
         for curve in curves:
             points = ax.transData.transform(curve.values)
             assert not box.count_contains(points)
+
+
+def test_thin_neutral_curves_are_named_in_the_legend() -> None:
+    """Nothing said why a curve is thin."""
+    loads = np.linspace(300, 400, 11)
+    values = np.column_stack([np.linspace(11, 14, 11), loads])
+    stable = loads < 350
+    resonance = Resonance(2, 135.42, 0, 0, 0.0)
+    said = {}
+    for name, beside in (("both", stable), ("stable", loads > 0)):
+        curve = StabilityCurve("neutral", values, beside, loads, loads + 0j, resonance)
+        found = NeutralCurves(P, {"Omega": (10.0, 15.0), "N": (250.0, 450.0)}, (curve,), ())
+        said[name] = labels(figure_of(found.plot()))
+    assert said["stable"] == ["cycle loses stability"]
+    assert said["both"] == ["cycle loses stability", "thin: unstable cycles on both sides"]
+
+
+def test_without_a_neutral_curve_there_is_an_error_and_no_empty_picture() -> None:
+    """Axes were empty, without a word."""
+    nothing = NeutralCurves(P, {"Omega": (14.0, 16.0), "N": (350.0, 420.0)}, (), ())
+    with pytest.raises(dm.ParameterError, match="curves=0: there is nothing to draw"):
+        nothing.plot()
+    assert pyplot.get_fignums() == []
 
 
 def test_exponents_are_per_second() -> None:

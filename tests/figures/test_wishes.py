@@ -278,6 +278,32 @@ def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: floa
     assert box.x1 <= figure.bbox.x1
 
 
+@pytest.mark.parametrize("size", [(PAGE, 3.0), (PAGE, 2.4)])
+def test_legends_of_branches_beside_each_other_stand_clear_of_them(
+    size: tuple[float, float],
+) -> None:
+    """That of the first panel lay over its branches, once that of the second had made it lower."""
+    loads = (385, 370, 355)
+    branches = [dm.continue_cycle(CASE.replace(N=N, Omega=14), "Omega", (12, 16)) for N in loads]
+    settings = {"font.family": "serif", "font.size": 8, "lines.linewidth": 0.8}
+    with mpl.rc_context(settings):
+        figure, axes = pyplot.subplots(1, 2, figsize=size, layout="constrained")
+        for each in branches:
+            each.plot("range", ax=axes[0], title="(a)")
+        for number, each in enumerate(branches):
+            name = {"branch": f"a long name of branch {number} of many words"}
+            each.plot("range", ax=axes[1], title="(b)", labels=name)
+        figure.draw_without_rendering()
+    for ax in axes:
+        box = ax.get_legend().get_window_extent()
+        assert not any(_line_on_page(line).intersects_bbox(box, filled=False) for line in ax.lines)
+
+
+def _line_on_page(line: Any) -> Any:
+    """A line or the places of marks, in pixels."""
+    return line.get_transform().transform_path(line.get_path())
+
+
 def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     """A map on axes of 40 mm was a strip of 4 mm."""
     study = growth()

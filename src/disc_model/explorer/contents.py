@@ -1,8 +1,6 @@
 """Contents of studies for the explorer's page: numbers packed for JSON, words as they are."""
 
-import base64
 import json
-import zlib
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -12,6 +10,7 @@ import xarray as xr
 
 from disc_model.data.variables import SHOWN, attributes
 from disc_model.explorer.marks import marked_cells
+from disc_model.explorer.packing import packed, shortened
 from disc_model.figures.classes import LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, classes_without_rate
@@ -33,8 +32,6 @@ from disc_model.parameters import Parameters
 
 TRACES = ("P", "u", "psi")
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
-MANTISSA = 23  # bits of the mantissa of a 32-bit float,
-BITS = 17  # and those that are kept: five digits, as many as are shown
 
 
 class Stated(NamedTuple):
@@ -191,25 +188,6 @@ def runs(values: np.ndarray) -> list[list[int]]:
     """Runs of equal values: the index where each begins, and its value."""
     begins = np.flatnonzero(np.diff(values, prepend=values[0] + 1))
     return [[int(i), int(values[i])] for i in begins]
-
-
-def packed(values: np.ndarray, kind: str) -> str:
-    """An array, last dimension fastest, as base64: first bytes of all numbers, then second ones and
-    so on, deflated."""
-    numbers = np.ascontiguousarray(values, dtype=kind).reshape(-1)
-    planes = numbers.view(np.uint8).reshape(-1, numbers.itemsize).T
-    return base64.b64encode(zlib.compress(planes.tobytes(), 9)).decode("ascii")
-
-
-def shortened(values: np.ndarray) -> np.ndarray:
-    """Numbers rounded to `BITS` bits of their mantissa; the other bits are zero, which compresses
-    well."""
-    whole = np.array(values, dtype=np.float32)
-    bits = whole.view(np.uint32)
-    shift = np.uint32(MANTISSA - BITS)
-    half = np.uint32(1 << (shift - 1))
-    rounded = (bits + half) >> shift << shift
-    return np.where(np.isfinite(whole), rounded.view(np.float32), whole)
 
 
 def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:

@@ -9,17 +9,20 @@ import xarray as xr
 
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
-from disc_model.figures.branches import STABLE, THIN, draw_branch, stable_segments
+from disc_model.figures.branch_lines import (
+    FLOOR,
+    STABLE,
+    THIN,
+    above_floor,
+    draw_at_floor,
+    draw_branch,
+    set_margins,
+    stable_segments,
+)
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
-from disc_model.figures.family import (
-    SPECIAL_MARKS,
-    Shown,
-    join_family,
-    name_and_labels,
-    next_colour,
-)
+from disc_model.figures.family import SPECIAL_MARKS, Shown, join_family, name_and_labels, next_look
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Axes
 from disc_model.figures.words import label_of
@@ -50,14 +53,15 @@ def plot_branch(
     name, labels = name_and_labels(labels)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         axes = page.ax
-        colour = next_colour(axes)
+        look = next_look(axes)
         # the stability changes at special points, which lie between the others
         stable = stable_segments(branch.refined_growth_rate())
         refined_x = branch.refined("values")[:, 0] * factor
         refined_values = _refined_upward(branch, y) * upward
-        draw_branch(axes, refined_x, refined_values, stable, colour)
+        draw_branch(axes, refined_x, above_floor(refined_values), stable, look)
         # what lies between is not computed
-        axes.plot(x, values, ".", color=colour, markersize=mark(3))
+        axes.plot(x, above_floor(values), ".", **look.dot())
+        lowest = draw_at_floor(axes, x, look, np.isneginf(values))
         if y == "growth_rate" and not second:
             scale_rates(axes)
         if y == "range" and not second and np.nanmax(values) > WIDE * np.nanmin(values):
@@ -68,8 +72,9 @@ def plot_branch(
             for occurs, width, text in looks
             if occurs
         ]
+        handles += lowest
         special = _mark_special_points(axes, branch, y, (factor, upward))
-        axes.margins(0.04)
+        set_margins(axes)
         axes.set_xlabel(across)
         axes.set_ylabel(label)
         page.explain([*handles, *special])
@@ -115,11 +120,14 @@ def _mark_special_points(
         if not special:
             continue
         places = np.array([each.values[0] for each in special]) * across
-        heights = [_upward(each, branch, y) * upward for each in special]
+        heights = np.array([_upward(each, branch, y) * upward for each in special], float)
         text = f"{len(special)} {name}s"
         if len(special) == 1:
             text = f"{name} at {places[0]:.5g}"
-        handles += ax.plot(
-            places, heights, sign, label=text, color=colour, markersize=mark(4), markeredgewidth=0.5
-        )
+        look: dict[str, Any] = {"color": colour, "markersize": mark(4), "markeredgewidth": 0.5}
+        handles += ax.plot(places, above_floor(heights), sign, label=text, **look)
+        lowest = places[np.isneginf(heights)]
+        if lowest.size:
+            edge = np.full(lowest.size, FLOOR)
+            ax.plot(lowest, edge, sign, transform=ax.get_xaxis_transform(), **look)
     return handles

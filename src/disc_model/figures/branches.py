@@ -9,6 +9,14 @@ import xarray as xr
 from matplotlib.legend_handler import HandlerTuple
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.figures.branch_lines import (
+    STABLE,
+    THIN,
+    Look,
+    between,
+    draw_branch,
+    stable_segments,
+)
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -25,12 +33,9 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.motions import Branches
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import broken, stretches
 from disc_model.figures.types import Array, Axes, Figure, Mask
 
 LOWEST = 1e-3  # least range that is distinguished from rest, mm
-STABLE = 2.0  # width of lines of stable motions, points,
-THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
 BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend
 ABOVE_SLIDING = 0.12  # height of the names of cases, as a share of the panel
 ROOM_BELOW = 0.45  # lower end of the axis over `LOWEST`, for the name of steady sliding
@@ -54,7 +59,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         colour = SEPARATED if branch["separations"] > 0 else BLACK
         values = branch["value"].values * factor
         stable = stable_segments(branch["growth_rate"].values)
-        draw_branch(ax, values, 1e3 * branch["range"].values, stable, colour, BENDS)
+        draw_branch(ax, values, 1e3 * branch["range"].values, stable, Look(colour), BENDS)
     _draw_sliding(ax, study, along)
     jumps = [_draw_sweep(ax, sweep) for sweep in sweeps_of(study, along)]
 
@@ -68,41 +73,6 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     return figure
 
 
-def draw_branch(
-    ax: Axes, x: Array, y: Array, stable: Mask, color: str, factor: float = np.inf
-) -> None:
-    """Draw a line along a branch, with gaps where its height jumps by more than a factor.
-
-    x, y : (n,), points; those behind the last one are nan
-    stable : (n - 1,), whether the branch is stable, and its line thick, between each point and the
-        next one
-    """
-    known = np.isfinite(x)
-    x = x[known]
-    y = y[known]
-    stable = stable[known[1:]]
-    height = np.log(y) if factor < np.inf else None
-    ax.plot(*broken(x, y, np.log(factor), height), color=color, linewidth=wide(THIN))
-    for first, last in stretches(stable):
-        part = slice(first, last + 1)
-        ax.plot(x[part], y[part], color=color, linewidth=wide(STABLE), solid_capstyle="butt")
-
-
-def stable_segments(growth: Array) -> Mask:
-    """Whether a branch is stable between each point and the next one, (n - 1,), from growth rates
-    at n points, which are exactly 0 where stability changes."""
-    stable = np.maximum(growth[:-1], growth[1:]) <= 0
-    between_changes = (growth[:-1] == 0) & (growth[1:] == 0)
-    for i in np.flatnonzero(between_changes):
-        stable[i] = i > 0 and not stable[i - 1]
-    return stable
-
-
-def between(stable: Mask) -> Mask:
-    """Whether both ends of each segment are stable, (n - 1,), from the stability of n points."""
-    return stable[:-1] & stable[1:]
-
-
 def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
     """Draw the stability of steady sliding as a line along the lower edge."""
     unstable = study["sliding_growth_rate"].values > 0
@@ -111,7 +81,7 @@ def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
         phrase = "unstable"
     elif not unstable.any():
         phrase = "stable"
-    draw_branch(ax, along, np.full(along.size, LOWEST), between(~unstable), GREY)
+    draw_branch(ax, along, np.full(along.size, LOWEST), between(~unstable), Look(GREY))
     place = (along[-1], LOWEST)
     look: dict[str, Any] = {"fontsize": large(7), "color": GREY, "path_effects": halo(2.5)}
     say(ax, f"steady sliding: {phrase}", place, (-4, -3), **look)

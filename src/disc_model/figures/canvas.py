@@ -2,128 +2,22 @@
 what the reader asks of its legend, labels and title."""
 
 import warnings
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
-from dataclasses import dataclass, field
-from inspect import signature
-from itertools import chain
-from typing import Any, Literal
-from weakref import WeakSet
+from typing import Any
 
-import numpy as np
 from matplotlib import pyplot
-from matplotlib.legend import Legend
 
-from disc_model.errors import Fault, ParameterError, require, suggestion
-from disc_model.figures.colours import bars_of
-from disc_model.figures.drawing import large, readers_style
-from disc_model.figures.labels import break_labels, part_numbers
-from disc_model.figures.legends import (
-    figure_legend,
-    finds_room_below,
-    finds_room_inside,
-    keep_height,
-    legend_below,
-    legend_inside,
-)
-from disc_model.figures.placing import check_room, fit_to_page
-from disc_model.figures.types import Artist, Axes
+from disc_model.figures.drawing import large
+from disc_model.figures.labels import break_labels
+from disc_model.figures.legends import keep_height
+from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
+from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
+from disc_model.figures.pages import Wishes as Wishes
+from disc_model.figures.placing import check_room
+from disc_model.figures.room import make_room
+from disc_model.figures.style import readers_style
 from disc_model.figures.words import head_text
-
-Place = Literal["inside", "below"]
-OWN = "disc_model"  # group id of figures that this package has made
-LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
-ROUNDS = 4  # in which legends find their places after axes have got other sizes
-SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
-PLACED = "_disc_model_placed"
-"""Attribute of a legend that has been placed here: its picture, and what was asked of it."""
-MOST_LINES = 3  # of values of a case above a picture
-LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
-
-
-@dataclass(frozen=True)
-class Wishes:
-    """What a reader asks of a picture.
-
-    ax : axes to draw on, one or several; None for a new figure
-    legend : whether there is a legend; or options of `Axes.legend`, such as its place
-    labels : other words for labels of axes, which are called "x" and "y", of a bar of colours,
-        called "bar", and for entries of the legend, which are called as they are without
-    title : another title; "" for none, None for the usual one
-    """
-
-    ax: Any = None
-    legend: bool | Mapping[str, Any] = True
-    labels: Mapping[str, str] | None = None
-    title: str | None = None
-
-    def check(self) -> None:
-        """Raise `ParameterError` if a wish cannot be understood."""
-        options = self.legend if isinstance(self.legend, Mapping) else {}
-        unknown = [name for name in options if name not in LEGEND_OPTIONS]
-        wrong = next(iter(unknown), None)
-        like = suggestion(wrong, LEGEND_OPTIONS, all_of_them=False)
-        labels = {} if self.labels is None else self.labels
-        require(
-            (isinstance(self.legend, bool | Mapping), "legend", self.legend, LEGEND_RULE),
-            (not unknown, "legend", wrong, f"{LEGEND_RULE}{like}"),
-            (_are_texts(labels), "labels", labels, "must be texts by x, y, or what they replace"),
-            (isinstance(self.title, str | None), "title", self.title, "must be a text"),
-        )
-
-
-def _are_texts(labels: object) -> bool:
-    """Whether these are texts by texts."""
-    if not isinstance(labels, Mapping):
-        return False
-    return all(isinstance(text, str) for text in (*labels, *labels.values()))
-
-
-@dataclass
-class Page:
-    """Axes that a picture is drawn on, and the entries of its legend.
-
-    axes : one for each panel, row by row
-    own : whether the figure is a new one
-    handles : entries of the legend; none if there is none
-    beside : where the legend stands on a reader's axes; below them if it would cover something
-    heading : title of the legend
-    note : what stands above the first panel, unless the reader asks for another title
-    joins : whether the entries of a legend that the axes have are kept
-    replaced : words of such entries that are not
-    bars : axes of bars of colours
-    legend : the one that was written beside a reader's axes, unless the reader has placed it
-    spare : inches beside a legend below a reader's axes that it leaves free
-    is_map : whether a new figure grows so that its panels keep their height beside the legend
-    """
-
-    axes: list[Axes]
-    own: bool
-    handles: Sequence[Artist] = field(default_factory=list)
-    beside: Place = "inside"
-    heading: str = ""
-    note: str = ""
-    joins: bool = False
-    replaced: Collection[str] = ()
-    bars: Sequence[Axes] = field(default_factory=list)
-    legend: Any = None
-    spare: float = 0.0
-    is_map: bool = False
-
-    @property
-    def ax(self) -> Axes:
-        """The first panel."""
-        return self.axes[0]
-
-    @property
-    def figure(self) -> Any:
-        return self.ax.get_figure()
-
-    def explain(self, handles: Sequence[Artist], beside: Place = "inside", title: str = "") -> None:
-        """Set the entries of the legend, its title, and where it stands on a reader's axes."""
-        self.handles = handles
-        self.beside = beside
-        self.heading = title
 
 
 @contextmanager
@@ -144,7 +38,7 @@ def page_for(
     """
     wishes.check()
     if wishes.ax is not None:
-        page = Page(_given(wishes.ax, rows * columns), own=False)
+        page = Page(given_axes(wishes.ax, rows * columns), own=False)
         figure: Any = page.ax.get_figure(root=True)
         before = set(figure.axes)
         # what is added to a figure of this package has its style
@@ -168,8 +62,8 @@ def page_for(
                 usual = head_text(width, "", title, MOST_LINES)
             if usual:
                 figure.suptitle(usual, fontsize=large(8))
-            _restate(page, wishes)
-            _write_legend(page, wishes)
+            restate(page, wishes)
+            write_legend(page, wishes)
             break_labels(figure)
             if page.is_map:
                 keep_height(figure, page.axes)
@@ -181,159 +75,13 @@ def page_for(
 def _finish(page: Page, wishes: Wishes) -> None:
     """Write labels, title and legend on a reader's axes."""
     figure: Any = page.ax.get_figure(root=True)
-    _restate(page, wishes)
+    restate(page, wishes)
     shown = [*page.axes, *page.bars]
     break_labels(figure, shown)  # long ones would leave the legend no room
-    _write_legend(page, wishes)
+    write_legend(page, wishes)
     break_labels(figure, shown)  # of axes that may be lower or narrower now
     if page.beside == "below":  # also below labels that have more lines now
-        _write_legend(page, wishes)
-    _make_room(page, wishes)
+        write_legend(page, wishes)
+    make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
-
-
-_DRAWN_ON: WeakSet[Axes] = WeakSet()
-"""Axes of readers that have a picture of this package."""
-
-
-def _make_room(page: Page, wishes: Wishes) -> None:
-    """Let axes, labels and legends of a reader's figure not meet, also those of former pictures,
-    whose axes have other sizes since this one has been drawn."""
-    figure: Any = page.ax.get_figure(root=True)
-    _remember(page, wishes)
-    _DRAWN_ON.update(page.axes)
-    panels = {ax: bars_of(ax) for ax in figure.axes if ax in _DRAWN_ON}
-    for ax in page.axes:
-        part_numbers(ax)
-
-    plain = figure.get_layout_engine() is None
-    for _ in range(ROUNDS):
-        if plain:
-            fit_to_page(figure, panels)
-        if len(panels) > len(page.axes):
-            break_labels(figure, [*panels, *chain(*panels.values())])
-        figure.draw_without_rendering()  # sets the places
-        cramped = _cramped_in(figure)
-        if not cramped:
-            break
-        for former, asked in cramped:
-            former.spare += SPARE
-            _write_legend(former, asked)
-            _remember(former, asked)
-    if plain:
-        fit_to_page(figure, panels)
-    for ax in panels:
-        part_numbers(ax)
-
-
-def _remember(page: Page, wishes: Wishes) -> None:
-    """Note at the legend of a picture, if it was placed here, what it belongs to."""
-    if page.legend is not None:
-        vars(page.legend)[PLACED] = (page, wishes)
-
-
-def _cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
-    """The pictures on a figure whose legends have no room, but those that a reader has placed and
-    those that have found none in all rounds."""
-    found = []
-    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
-        page, wishes = vars(legend).get(PLACED, (None, None))
-        if page is not None and page.spare < ROUNDS * SPARE and not _finds_room(page):
-            found.append((page, wishes))
-    return found
-
-
-def _finds_room(page: Page) -> bool:
-    """Whether the legend of a picture covers nothing, and meets nothing beside it."""
-    if page.beside == "below":
-        return finds_room_below(page.axes[-1], page.bars)
-    return finds_room_inside(page.ax)
-
-
-def _given(ax: Any, count: int) -> list[Axes]:
-    """The axes of a reader, if they are as many as panels; raises `ParameterError`."""
-    given = list(np.ravel(np.asarray(ax, dtype=object)))
-    fit = len(given) == count and all(isinstance(each, Axes) for each in given)
-    require((fit, "ax", given, f"must be {count} axes of matplotlib, one for each panel"))
-    return given
-
-
-def _restate(page: Page, wishes: Wishes) -> None:
-    """Write the title and labels that a reader asks for."""
-    if wishes.title is None:
-        if page.note:
-            page.ax.set_title(page.note, loc="left", fontsize=large(8))
-    elif not page.own:
-        page.ax.set_title(wishes.title)
-    _relabel(page, wishes.labels or {})
-
-
-def _relabel(page: Page, labels: Mapping[str, str]) -> None:
-    """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
-    that a label replaces."""
-    replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
-    if page.bars:
-        replaced.append("bar")
-    for name in labels:
-        rule = f"must replace x, y or an entry of the legend{suggestion(name, replaced)}"
-        require((name in replaced, "labels", name, rule))
-    for bar in page.bars:
-        bar.set_ylabel(labels.get("bar", bar.get_ylabel()))
-    for ax in page.axes:
-        if ax.get_xlabel() and "x" in labels:
-            ax.set_xlabel(labels["x"])
-        if ax.get_ylabel() and "y" in labels:
-            ax.set_ylabel(labels["y"])
-    for handle in page.handles:
-        usual = str(handle.get_label())
-        handle.set_label(labels.get(usual, usual))
-
-
-def _joined(ax: Axes, handles: Sequence[Artist], replaced: Collection[str]) -> list[Artist]:
-    """The entries of the legend that axes have, or that their figure has of them alone, but some
-    that are replaced, and others whose words are not among these; the legend is removed."""
-    figure: Any = ax.get_figure()
-    former: list[Any] = []
-    own = ax.get_legend()
-    if own is not None:
-        former.append(own)
-    if figure.axes == [ax]:
-        former += figure.legends
-    entries: dict[str, Artist] = {}
-    for legend in former:
-        for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
-            if text.get_text() in replaced:
-                continue
-            handle.set_label(text.get_text())
-            entries.setdefault(text.get_text(), handle)
-        legend.remove()
-    for handle in handles:
-        entries.setdefault(str(handle.get_label()), handle)
-    return [*entries.values()]
-
-
-def _write_legend(page: Page, wishes: Wishes) -> None:
-    """Write the legend, if there is one: in the place that the reader's options give, below a new
-    figure, or inside a reader's axes or below them."""
-    legend = wishes.legend
-    if not page.handles or legend is False:
-        return
-    if page.joins and not page.own:
-        page.handles = _joined(page.ax, page.handles, page.replaced)
-    if isinstance(legend, Mapping):
-        try:
-            page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
-        except (TypeError, ValueError) as error:
-            raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
-    elif page.figure.get_gid() == OWN:
-        figure_legend(page.figure, page.handles, title=page.heading)
-    else:
-        if page.beside == "inside":
-            page.legend = legend_inside(page.ax, page.handles, title=page.heading)
-        if page.beside == "below" or page.legend is None:
-            page.beside = "below"
-            last = page.axes[-1]
-            page.legend = legend_below(
-                last, page.handles, page.bars, page.spare, title=page.heading
-            )

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 
 from disc_model.data.variables import axis_of, presentation_of
+from disc_model.figures.branch_lines import Look, above_floor, draw_at_floor, set_margins
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
@@ -68,7 +69,7 @@ def plot_critical(
             entry = "_nolegend_"
         axes.plot(
             x,
-            critical.growth_rate,
+            above_floor(critical.growth_rate),
             ".-",
             color=BLACK,
             label=words.computed,
@@ -76,6 +77,9 @@ def plot_critical(
             linewidth=wide(0.7),
         )
         scale_rates(axes)
+        lowest = draw_at_floor(axes, x, Look(BLACK), np.isneginf(critical.growth_rate))
+        if lowest:
+            set_margins(axes)
         gone = x[np.isnan(critical.growth_rate)]
         if gone.size:
             axes.plot(
@@ -95,5 +99,5 @@ def plot_critical(
         axes.set_xlabel(label)
         axes.set_ylabel(words.rate)
         axes.set_xlim((x[0], x[-1]))
-        page.explain(axes.get_legend_handles_labels()[0])
+        page.explain([*axes.get_legend_handles_labels()[0], *lowest])
     return page.ax

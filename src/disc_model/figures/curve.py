@@ -376,6 +376,8 @@ def scale_rates(ax: Axes) -> None:
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
         return f"{rate:g}" if leading in "25" and near else ""
 
+    if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
+        ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)
     if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
         ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")

@@ -1,19 +1,15 @@
-"""Style of all figures and what several of them draw: colours, sizes, panels, labels and marks.
+"""What several figures draw: colours, sizes, panels, labels and marks.
 
 Widths of lines, sizes of text and of marks follow the settings of matplotlib in force: those of the
 common style, or of a reader who brings own axes.
 """
 
-import logging
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import AbstractContextManager
 from itertools import chain, repeat
-from pathlib import Path
 from typing import Any, Literal
 
 import matplotlib as mpl
-import matplotlib.style
 import numpy as np
 import xarray as xr
 from matplotlib.axis import Axis
@@ -32,11 +28,6 @@ from disc_model.figures.sizes import COLUMN as COLUMN  # sizes are a part of the
 from disc_model.figures.sizes import PAGE as PAGE
 from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import measured
-
-# the reports of fontTools on fonts would fill the logs of figures
-logging.getLogger("fontTools").setLevel(logging.WARNING)
-
-STYLE = Path(__file__).with_name("drawing.mplstyle")
 
 # ---- Colours, of Okabe and Ito: one per quantity in the whole set
 
@@ -99,23 +90,6 @@ def mark(points: float) -> float:
 # ---- Figures
 
 
-def styled() -> AbstractContextManager[None]:
-    """The common style instead of the user's settings, as a context."""
-    return mpl.style.context(STYLE, after_reset=True)
-
-
-def readers_style() -> AbstractContextManager[None]:
-    """The common style where the reader's settings are those of matplotlib, as a context: what the
-    reader has set stays."""
-    style = mpl.rc_params_from_file(STYLE, use_default_template=False)
-    free = {
-        name: value
-        for name, value in style.items()
-        if mpl.rcParams[name] == mpl.rcParamsDefault[name]
-    }
-    return mpl.rc_context(free)
-
-
 def new_figure(width: float, height: float) -> Figure:
     """An empty figure of a size in inches, outside pyplot's state."""
     return Figure(figsize=(width, height), layout="constrained")
@@ -143,18 +117,6 @@ def row_of_panels(width: float, count: int, height: float, stacked: float, **sha
     if width == PAGE or count == 1:
         return panels(width, height, 1, count, **shared)
     return panels(width, stacked * count, count, 1, **shared)
-
-
-def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title; equal figures give equal bytes. Further files have the layout
-    of the first."""
-    stamps = {".pdf": "CreationDate"}
-    metadata: dict[str, Any] = {stamps.get(Path(path).suffix, "Software"): None}
-    if title:
-        metadata["Title"] = title
-    with styled():
-        figure.savefig(path, metadata=metadata)
-        figure.set_layout_engine(None)  # not "none", with which all is drawn twice
 
 
 # ---- Ticks

@@ -7,7 +7,7 @@ from weakref import WeakKeyDictionary
 
 from disc_model.display import counted
 from disc_model.errors import require
-from disc_model.figures.canvas import MOST_LINES, OWN, Page
+from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -19,8 +19,8 @@ from disc_model.figures.drawing import (
     SKY,
     large,
     sample,
-    wide,
 )
+from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text, what_case
 
@@ -33,8 +33,15 @@ SPECIAL_MARKS = {
     "hopf": ("^", BLUE, "Hopf point"),
 }
 """Kinds of special points, with their mark, colour and name in the legend."""
-COLOURS = (BLACK, GREEN, BROWN, SKY, PURPLE, ORANGE)
-"""Of branches on the same axes, in their order."""
+LOOKS = (
+    Look(BLACK),
+    Look(GREEN, (5, 2)),
+    Look(ORANGE, (6, 1.8, 1.2, 1.8)),
+    Look(BROWN, (1.2, 1.8)),
+    Look(SKY, (3, 3)),
+    Look(PURPLE, (5, 1.8, 1.2, 1.8, 1.2, 1.8)),
+)
+"""Of branches on the same axes, in their order: dashes tell them apart in grey print."""
 WIDTH = 1.4  # points, of their lines in the legend
 
 
@@ -63,9 +70,9 @@ def name_and_labels(labels: Any) -> tuple[str, Any]:
     return name, {word: text for word, text in labels.items() if word != "branch"}
 
 
-def next_colour(ax: Axes) -> str:
-    """The colour of the next branch on axes."""
-    return COLOURS[len(_SHOWN.get(ax, [])) % len(COLOURS)]
+def next_look(ax: Axes) -> Look:
+    """The look of the next branch on axes."""
+    return LOOKS[len(_SHOWN.get(ax, [])) % len(LOOKS)]
 
 
 def join_family(page: Page, new: Shown) -> None:
@@ -84,12 +91,12 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     """Set the entries of the legend, which replace those of each branch alone."""
     alone = [handle for each in family for handle in (*each.looks, *each.special)]
     replaced = {str(handle.get_label()) for handle in alone}
+    replaced |= {*_names(family[:-1])}  # a further branch may differ in something else
 
     handles: list[Any] = []
-    for number, each in enumerate(family):
-        text = each.name or _what_differs(each, family) or f"branch {number + 1}"
-        colour = COLOURS[number % len(COLOURS)]
-        handles.append(sample(color=colour, linewidth=wide(WIDTH), label=text))
+    for number, text in enumerate(_names(family)):
+        look = LOOKS[number % len(LOOKS)]
+        handles.append(sample(label=text, **look.line(WIDTH)))
     looks: dict[str, Any] = {}
     marks: dict[str, Any] = {}
     for each in family:
@@ -102,6 +109,14 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     handles += [*looks.values(), *marks.values()]
     page.replaced = replaced | {str(handle.get_label()) for handle in handles}
     page.explain(handles)
+
+
+def _names(family: Sequence[Shown]) -> list[str]:
+    """Names of branches: those that a reader gives, or what differs between them, or numbers."""
+    names = []
+    for number, each in enumerate(family):
+        names.append(each.name or _what_differs(each, family) or f"branch {number + 1}")
+    return names
 
 
 def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:

@@ -10,7 +10,8 @@ from matplotlib.animation import FuncAnimation, writers
 
 from disc_model.errors import require
 from disc_model.figures.disc import Motion, colour_of, draw_circle, draw_disc, scale_of
-from disc_model.figures.drawing import BLACK, GREY, styled, wide
+from disc_model.figures.drawing import BLACK, GREY, wide
+from disc_model.figures.style import styled
 from disc_model.figures.types import Array, Axes, Figure
 from disc_model.parameters import Parameters
 from disc_model.units import is_number

@@ -2,38 +2,20 @@
 
 import math
 from collections.abc import Sequence
-from itertools import cycle
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.patches import Patch
 
 from disc_model.data import dataset
-from disc_model.data.variables import PHASES, SHOWN
 from disc_model.errors import require
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, GREY, PAGE, PHASE_COLOURS, letters, panels, wide
+from disc_model.figures.drawing import COLUMN, PAGE, letters, panels
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import Course, ramps_of, show, spans_in, stated, window_of
+from disc_model.figures.runs import ramps_of, show, spans_in, stated, window_of
+from disc_model.figures.shades import shade_phases, shade_ramps
 from disc_model.figures.types import Artist, Axes, Figure
-
-MOST_SHADED = 60
-"""Largest number of stretches of one phase that are shaded; more would be as dense as a fill."""
-SHADES: dict[str, dict[str, Any]] = {
-    "stick": {"color": PHASE_COLOURS["stick"], "alpha": 0.22},
-    "separation": {"color": PHASE_COLOURS["separation"], "alpha": 0.5},
-}
-"""Behind a history, told apart by darkness in grey print; slip is left white."""
-RAMPS: tuple[dict[str, Any], ...] = (
-    {"facecolor": GREY, "alpha": 0.18, "linewidth": 0, "zorder": -1},
-    {"facecolor": "none", "edgecolor": GREY, "hatch": 5 * "/", "linewidth": 0, "zorder": -1},
-    {"facecolor": "none", "edgecolor": GREY, "hatch": 3 * ".", "linewidth": 0, "zorder": -1},
-)
-"""Behind a history, while a ramp goes on: of each parameter in the order of their ramps."""
-MOST_RAMPS = 4
-"""Largest number of ramps with an entry for each in the legend."""
 
 
 def draw(plot: History, case: xr.DataTree) -> Figure:
@@ -91,7 +73,7 @@ def plot_run(
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
             _leave_to_first(column, grid[:, 0])
-            handles += _draw_ramps(column, case)
+            handles += shade_ramps(column, ramps_of(case))
             entries |= {str(handle.get_label()): handle for handle in handles}
         page.explain([*entries.values()])
         if page.own:
@@ -118,35 +100,6 @@ def _stands_above(ax: Axes, other: Axes) -> bool:
     return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
 
 
-def _draw_ramps(axes: Sequence[Axes], case: xr.DataTree) -> list[Artist]:
-    """Shade the time of each ramp that is seen, between lines where it begins and ends; returns
-    entries of a legend, which state its values, or one for many ramps of a parameter."""
-    low, high = axes[0].get_xlim()
-    ramps = ramps_of(case)
-    ramped = dict.fromkeys(ramp.parameter for ramp in ramps)
-    looks = dict(zip(ramped, cycle(RAMPS), strict=False))
-    seen = [ramp for ramp in ramps if ramp.start < high and ramp.end > low]
-    for ramp in seen:
-        for ax in axes:
-            ax.axvspan(ramp.start, ramp.end, **looks[ramp.parameter])
-            for time in (ramp.start, ramp.end):
-                ax.axvline(time, color=GREY, linewidth=wide(0.6), linestyle=":")
-    for ax in axes:
-        ax.set_xlim(low, high)
-    if len(seen) > MOST_RAMPS:
-        names = dict.fromkeys(ramp.parameter for ramp in seen)
-        return [Patch(label=f"ramps of {SHOWN[name].symbol}", **looks[name]) for name in names]
-    return [Patch(label=_ramp_text(ramp), **looks[ramp.parameter]) for ramp in seen]
-
-
-def _ramp_text(ramp: Course) -> str:
-    """What a legend says of a ramp."""
-    shown = SHOWN[ramp.parameter]
-    ends = [f"{shown.factor * value:.4g}" for value in (ramp.before, ramp.after)]
-    times = f"{ramp.start:g} to {ramp.end:g} s"
-    return f"{shown.symbol} from {ends[0]} to {ends[1]} {shown.unit}, {times}"
-
-
 def _share_heights(grid: Any) -> None:
     """Give the axes of each row one range of heights: numbers stand beside the first of them
     only."""
@@ -169,19 +122,4 @@ def draw_history(
     axes[-1].locator_params(axis="x", nbins=6)
     axes[-1].ticklabel_format(axis="x", useOffset=False)
 
-    spans = spans_in(case, window)
-    if not 0 < max(len(spans[name]) for name in SHADES) <= MOST_SHADED:
-        return []
-    for name, look in SHADES.items():
-        bars = [(start, stop - start) for start, stop in spans[name]]
-        for ax in axes:
-            whole = ax.get_xaxis_transform()
-            ax.broken_barh(bars, (0, 1), transform=whole, linewidth=0, zorder=0, **look)
-    return [_shade(name) for name in PHASES if spans[name]]
-
-
-def _shade(phase: str) -> Artist:
-    """The legend entry of a phase."""
-    if phase in SHADES:
-        return Patch(label=phase, **SHADES[phase])
-    return Patch(label=phase, facecolor="white", edgecolor=GREY, linewidth=0.5)
+    return shade_phases(axes, spans_in(case, window))

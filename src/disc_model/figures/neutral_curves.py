@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import axis_of, typeset
-from disc_model.figures.branches import STABLE, between, draw_branch
+from disc_model.errors import require
+from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, wide
 from disc_model.figures.names import Names
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 KINDS = {"neutral": (BLACK, "cycle loses stability"), "fold": (SEPARATED, "cycle ends in a fold")}
 """Colours and names of the curves."""
+UNSTABLE_BESIDE = "thin: unstable cycles on both sides"
 APART = (0.1, 0.2, 0.3, 0.4)
 """Shares of a curve from its middle at which its name may stand, too,"""
 OFFSETS = ((-4, 4), (4, -4), (4, 4), (-4, -4), (8, 0), (-8, 0))
@@ -35,7 +37,9 @@ def plot_neutral_curves(
     title: str | None = None,
 ) -> Axes:
     """Draw the curves within their bounds, thick where a stable cycle adjoins, with the resonances
-    to which they belong; returns the axes."""
+    to which they belong; returns the axes. Raises `ParameterError` without a curve."""
+    found = len(curves) > 0
+    require((found, "curves", 0, "there is nothing to draw: no curve was found, try other lines"))
     (across, in_x), (up, in_y) = (axis_of(name) for name in curves.bounds)
     factors = np.array([in_x, in_y])
     low, high = np.transpose([*curves.bounds.values()]) * factors
@@ -50,15 +54,16 @@ def plot_neutral_curves(
         for curve, line in zip(curves, lines, strict=True):
             colour, _ = KINDS[curve.kind]
             stable = between(curve.adjoins_stable_cycle)
-            draw_branch(axes, line[:, 0], line[:, 1], stable, colour)
-        if lines:
-            _name_curves(axes, curves.curves, lines)
+            draw_branch(axes, line[:, 0], line[:, 1], stable, Look(colour))
+        _name_curves(axes, curves.curves, lines)
         present = {curve.kind for curve in curves}
         handles = [
             sample(color=colour, linewidth=wide(STABLE), label=text)
             for kind, (colour, text) in KINDS.items()
             if kind in present
         ]
+        if not all(curve.adjoins_stable_cycle.all() for curve in curves):
+            handles.append(sample(color=BLACK, linewidth=wide(THIN), label=UNSTABLE_BESIDE))
         page.explain(handles)
     return page.ax
 

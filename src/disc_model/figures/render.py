@@ -33,11 +33,12 @@ from disc_model.figures import (
     spectrogram,
     spectrum,
 )
-from disc_model.figures.drawing import COLUMN, panels, styled
+from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
 from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
 from disc_model.figures.legends import keep_height
 from disc_model.figures.selection import normalizations, of, picked
+from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
 from disc_model.figures.words import MODES, UNITS, factors_of, head_text, named_value, what_case
 

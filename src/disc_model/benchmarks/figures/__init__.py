@@ -11,7 +11,7 @@ from disc_model.benchmarks.figures.maps import answer_maps, failure_maps
 from disc_model.benchmarks.figures.replies import answers, prices
 from disc_model.benchmarks.figures.speed import overview, scaling
 from disc_model.benchmarks.figures.truncation import contact_truncation
-from disc_model.figures.drawing import styled
+from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
 
 FIGURES: dict[str, Callable[..., Figure]] = {

@@ -1,0 +1,73 @@
+"""Room for the labels and legends of pictures on a reader's figure."""
+
+from itertools import chain
+from typing import Any
+from weakref import WeakSet
+
+from disc_model.figures.colours import bars_of
+from disc_model.figures.labels import break_labels, part_numbers
+from disc_model.figures.legends import finds_room_below, finds_room_inside
+from disc_model.figures.pages import Page, Wishes, write_legend
+from disc_model.figures.placing import fit_to_page
+from disc_model.figures.types import Axes
+
+ROUNDS = 4  # in which legends find their places after axes have got other sizes
+SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
+PLACED = "_disc_model_placed"
+"""Attribute of a legend that has been placed here: its picture, and what was asked of it."""
+_DRAWN_ON: WeakSet[Axes] = WeakSet()
+"""Axes of readers that have a picture of this package."""
+
+
+def make_room(page: Page, wishes: Wishes) -> None:
+    """Let axes, labels and legends of a reader's figure not meet, also those of former pictures,
+    whose axes have other sizes since this one has been drawn."""
+    figure: Any = page.ax.get_figure(root=True)
+    _remember(page, wishes)
+    _DRAWN_ON.update(page.axes)
+    panels = {ax: bars_of(ax) for ax in figure.axes if ax in _DRAWN_ON}
+    for ax in page.axes:
+        part_numbers(ax)
+
+    plain = figure.get_layout_engine() is None
+    for _ in range(ROUNDS):
+        if plain:
+            fit_to_page(figure, panels)
+        if len(panels) > len(page.axes):
+            break_labels(figure, [*panels, *chain(*panels.values())])
+        figure.draw_without_rendering()  # sets the places
+        cramped = _cramped_in(figure)
+        if not cramped:
+            break
+        for former, asked in cramped:
+            former.spare += SPARE
+            write_legend(former, asked)
+            _remember(former, asked)
+    if plain:
+        fit_to_page(figure, panels)
+    for ax in panels:
+        part_numbers(ax)
+
+
+def _remember(page: Page, wishes: Wishes) -> None:
+    """Note at the legend of a picture, if it was placed here, what it belongs to."""
+    if page.legend is not None:
+        vars(page.legend)[PLACED] = (page, wishes)
+
+
+def _cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
+    """The pictures on a figure whose legends have no room, but those that a reader has placed and
+    those that have found none in all rounds."""
+    found = []
+    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
+        page, wishes = vars(legend).get(PLACED, (None, None))
+        if page is not None and page.spare < ROUNDS * SPARE and not _finds_room(page):
+            found.append((page, wishes))
+    return found
+
+
+def _finds_room(page: Page) -> bool:
+    """Whether the legend of a picture covers nothing, and meets nothing beside it."""
+    if page.beside == "below":
+        return finds_room_below(page.axes[-1], page.bars)
+    return finds_room_inside(page.ax)
