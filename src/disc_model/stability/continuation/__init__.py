@@ -9,8 +9,8 @@ static deflection, with q, over the parameters' scales.
 `curve` predicts and corrects points of any curve, and tests whether a step stays on it; `problem`
 is F, and `first_cycle` a zero of it; `spectrum` follows multipliers from point to point.  In one
 parameter `tracing` takes a step, `course` both ways from a cycle, `special` locates special points,
-`ends` finds the reason for which a branch ends, and `cycles` returns all of it as a `Branch`;
-`arguments` reads what it is asked.
+`ends` finds the reason for which a branch ends, and `cycles` does all of it; `arguments` reads what
+it is asked, and `found` makes a `Branch` of the result.
 `borders` follows borders of stability.
 """
 

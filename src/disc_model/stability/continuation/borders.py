@@ -22,7 +22,7 @@ from disc_model.stability.continuation.curve import (
     interpolate,
     solve,
 )
-from disc_model.stability.continuation.cycles import branch_of
+from disc_model.stability.continuation.found import branch_of
 from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
 from disc_model.stability.cycle import find_cycle, multipliers

@@ -27,7 +27,8 @@ from disc_model.stability.continuation.doubling import (
 from disc_model.stability.continuation.ends import End
 from disc_model.stability.continuation.problem import CycleProblem, value_text
 from disc_model.stability.continuation.special import Located, Unlocated
-from disc_model.stability.continuation.tracing import PEAK, BranchTracer
+from disc_model.stability.continuation.tracing import PEAK, BranchTracer, parameter_row
+from disc_model.stability.cycle import FloquetResult
 
 UNLOCATED = "a fold that cannot be located"  # beginning of one of the reasons to end
 KIND_WORDS = {
@@ -79,6 +80,11 @@ class Search:
         limits = (-np.inf, np.inf) if steps.beyond else (self.low, self.high)
         self.tracer = BranchTracer(problem, steps, *limits)
         self.trace = _Trace(problem.n + 1)
+
+    def follow_cycle(self, cycle: FloquetResult, direction: int = 0) -> Course:
+        """The branch from a cycle of the problem's own case on, as `follow`."""
+        rising = parameter_row(self.problem.n + 1, 1.0)
+        return self.follow(self.problem.start(cycle, rising), direction)
 
     def follow(self, start: CurvePoint, direction: int = 0) -> Course:
         """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one

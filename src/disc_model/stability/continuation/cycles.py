@@ -2,26 +2,19 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from disc_model.display import progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import violations
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State
-from disc_model.stability.continuation import ends, special
-from disc_model.stability.continuation.arguments import ROUNDING, read_values
-from disc_model.stability.continuation.branch import CHANGES, Branch, SpecialPoint
-from disc_model.stability.continuation.course import SAME_VALUE, Course, Search
+from disc_model.stability.continuation.arguments import read_values
+from disc_model.stability.continuation.branch import CHANGES, Branch
+from disc_model.stability.continuation.course import Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
-from disc_model.stability.continuation.problem import (
-    CycleProblem,
-    growth_rate,
-    parameter_scale,
-    stretch_of,
-)
-from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
+from disc_model.stability.continuation.found import branch_of
+from disc_model.stability.continuation.problem import parameter_scale, stretch_of
+from disc_model.stability.cycle import STICK_SLIP, guess_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
 CYCLE = StepControl()
@@ -106,8 +99,6 @@ def continue_cycle(  # noqa: PLR0913
 
     scale, steps = _scaled(case, name, span, steps)
     problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
-    rising = np.zeros(problem.n + 1)
-    rising[-1] = 1.0
     with progress_bar("continue_cycle", None, progress) as bar:
 
         def tell(point: CurvePoint) -> None:
@@ -115,7 +106,7 @@ def continue_cycle(  # noqa: PLR0913
             bar.advance()
 
         search = Search(problem, steps, span, stop_at, tell)
-        course = search.follow(problem.start(cycle, rising), int(direction))
+        course = search.follow_cycle(cycle, int(direction))
         course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
 
@@ -135,85 +126,3 @@ def _scaled(
     }
     scale = stretch * parameter_scale(case, name, max(map(abs, span)))
     return scale, steps.replace(**shorter)
-
-
-def branch_of(
-    problem: CycleProblem, course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()
-) -> Branch:
-    """The branch of a course, in SI units. Values of the parameter that scaling has moved by its
-    rounding from one of some `exact` or `wanted` ones are these."""
-    points = course.points
-    values = np.array([point.z[problem.n :] * problem.scales for point in points])
-    for value in (*exact, *wanted):
-        values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
-    every = [multipliers(point.jacobian) for point in points]
-    period = np.array([point.orbit.period for point in points])
-    stick_time = np.array([point.orbit.stick_time for point in points])
-    growth = [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
-    rows = _special_points(problem, course)
-    folds = [row.values for row in rows if row.kind == special.FOLD]
-    reasons = [end.text for end in (course.first, course.last) if end is not None]
-    return Branch(
-        parameters=problem.names,
-        values=values,
-        period=period,
-        stick_fraction=stick_time / period,
-        growth_rate=np.array(growth),
-        multipliers=np.array(every),
-        diameters=np.array([problem.leading_diameters(point) for point in points]),
-        separations=np.array([point.orbit.counts.separations for point in points]),
-        releases=np.array([point.orbit.counts.releases for point in points]),
-        points=np.array([problem.reference_point(point.z) for point in points]),
-        folds=np.array(folds).reshape(-1, len(problem.names)),
-        ended="; ".join(dict.fromkeys(reasons)),
-        case=problem.base,
-        special=rows,
-        not_reached=_missed(values, wanted, ROUNDING * problem.scales[0]),
-        _make_map=problem.make_map,
-    )
-
-
-def _missed(values: np.ndarray, wanted: Sequence[float], slack: float) -> np.ndarray:
-    """Those of some wanted values from which all along a branch differ by more than a slack."""
-    nearest = [np.abs(values - value).min() for value in wanted]
-    return np.array(wanted, dtype=float)[np.array(nearest) > slack]
-
-
-def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint, ...]:
-    """The special points of a course, its ends included, in their order."""
-    places = list(course.special)
-    last = len(course.points) - 1
-    closed = course.last.kind == ends.CLOSED
-    if not (closed or (course.first is not None and course.first.kind == ends.STOPPED)):
-        places.insert(0, _end_of(course.first, course.points[0], 0))
-    if not (closed or course.last.kind == ends.STOPPED):
-        places.append(_end_of(course.last, course.points[-1], last))
-    rows = []
-    for place in places:
-        z = place.point.z
-        orbit = place.point.orbit
-        values = z[problem.n :] * problem.scales
-        case = problem.base.replace(**dict(zip(problem.names, values.tolist(), strict=True)))
-        rows.append(
-            SpecialPoint(
-                kind=place.kind,
-                values=values,
-                period=orbit.period,
-                stick_fraction=orbit.stick_time / orbit.period,
-                growth_rate=growth_rate(special.leading(place.point), orbit.period),
-                multiplier=place.multiplier,
-                after=place.after,
-                case=case,
-                modal=problem.reference_point(z) / problem.reference.scale,
-                make_map=problem.make_map,
-            )
-        )
-    return tuple(rows)
-
-
-def _end_of(end: ends.End | None, point: CurvePoint, number: int) -> special.Located:
-    """The end of a branch as a special point; without a reason it is the start."""
-    kind = "end"
-    if end is not None and end.kind in (ends.GRAZED, ends.HOPF, ends.DOUBLED):
-        kind = end.kind
-    return special.Located(kind, point, special.leading(point), number)
