@@ -155,25 +155,36 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         kind = item["type"]
         value = item["input"]
         context = item.get("ctx", {})
-        if isinstance(
-            reason := context.get("error"), ParameterError
-        ):  # raised by a part that is a model of its own
+        reason = context.get("error")
+        if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
             yield from (fault.inside(path) for fault in reason.faults)
         elif kind == "missing":
             yield Fault(path, "", "is required")
         elif kind == "too_short" and len(value) >= context["min_length"]:
             continue  # only valid items were counted, and the others are faults by themselves
         elif kind == "extra_forbidden":
-            word, rule = (getattr(model, name, "") for name in ("_word", "_unknown"))
-            more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
-            yield Fault(
-                path, "" if rule else as_text(value), (rule or f"unknown {word or 'key'}") + more
-            )
-        elif kind in _BOUNDS and isinstance(value, float) and math.isnan(value):
-            yield Fault.of(path, value, "must be a finite number")
+            yield _unknown_name(path, value, model)
         else:
-            told = re.sub("^[A-Z][a-z]+ should", "must", item["msg"].removeprefix("Value error, "))
-            yield Fault.of(path, value, _RULES[kind].format(**context) if kind in _RULES else told)
+            yield Fault.of(path, value, _rule(kind, value, context, item["msg"]))
+
+
+def _unknown_name(path: tuple[str, ...], value: Any, model: type[BaseModel]) -> Fault:
+    """The fault of a name that a model does not know."""
+    word = getattr(model, "_word", "")
+    rule = getattr(model, "_unknown", "")
+    more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
+    if rule:
+        return Fault(path, "", rule + more)
+    return Fault(path, as_text(value), f"unknown {word or 'key'}{more}")
+
+
+def _rule(kind: str, value: Any, context: Mapping[str, Any], message: str) -> str:
+    """The rule that a value breaks, from pydantic's kind of fault and message."""
+    if kind in _BOUNDS and isinstance(value, float) and math.isnan(value):
+        return "must be a finite number"
+    if kind in _RULES:
+        return _RULES[kind].format(**context)
+    return re.sub("^[A-Z][a-z]+ should", "must", message.removeprefix("Value error, "))
 
 
 _BOUNDS = ("greater_than_equal", "greater_than", "less_than", "less_than_equal")
