@@ -5,7 +5,7 @@ import json
 
 from disc_model.data.dataset import load
 from disc_model.errors import script
-from disc_model.figures.drawing import save
+from disc_model.figures.style import save
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 

@@ -64,7 +64,8 @@ def prepare():
     for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends, drawings):
         import_module(name)
         yield 0
-    from disc_model.figures.drawing import panels, styled
+    from disc_model.figures.drawing import panels
+    from disc_model.figures.style import styled
 
     for form in ("png", "pdf"):
         with styled():
