@@ -21,6 +21,7 @@ WHAT = {
     "studies": "YAML to jobs, jobs to results, results to one dataset",
     "fitting": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
+    "mode_measures": "quantities of the motion that tell it",
     "mode_request": "what a study file asks of the number of modes",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 
@@ -18,11 +18,9 @@ from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised, counted, number_text
 from disc_model.errors import DiscModelError, require
+from disc_model.mode_measures import MEASURES
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
-from disc_model.simulation.api import simulate
-from disc_model.stability.floquet import floquet
-from disc_model.stability.sliding import steady_sliding
 
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
@@ -33,7 +31,6 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 MORE_MODES = "give a table with more modes, or a larger tolerance"
-HORIZON = 600.0  # s, simulated at most until the first separation
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
@@ -329,29 +326,3 @@ def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:
     if p.disc is not None:
         return " and ".join(str(size[0]) for size in sizes) + " modes of the table"
     return ", ".join(str(count_modes(p, size)) for size in sizes) + " modes"
-
-
-# ---- Quantities of the motion
-
-
-def growth(p: Parameters) -> float:
-    """Growth rate of the stick-slip cycle, 1/s; nan without a cycle."""
-    return float(floquet(p).growth_rate)
-
-
-def sliding_growth(p: Parameters) -> float:
-    """Growth rate of steady sliding, 1/s; nan if there is none."""
-    return steady_sliding(p).growth_rate
-
-
-def first_separation(p: Parameters) -> float:
-    """Time of the first separation, s; nan if there is none within `HORIZON`."""
-    result = simulate(p, HORIZON, stop_at="first_separation", events=False)
-    return result.raise_for_status().first_separation
-
-
-MEASURES: dict[str, Callable[[Parameters], float]] = {
-    "growth": growth,
-    SLIDING_GROWTH: sliding_growth,
-    "first_separation": first_separation,
-}

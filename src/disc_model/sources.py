@@ -33,6 +33,7 @@ PHYSICS = (
     "hashing.py",
     "modal_disc.py",
     "mode_choice.py",
+    "mode_measures.py",
     "mode_request.py",
     "parameters.py",
     "simulation",

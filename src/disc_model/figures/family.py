@@ -36,10 +36,10 @@ SPECIAL_MARKS = {
 LOOKS = (
     Look(BLACK),
     Look(GREEN, (5, 2)),
-    Look(ORANGE, (6, 1.8, 1.2, 1.8)),
+    Look(ORANGE, (4.5, 1.6, 1.2, 1.6)),
     Look(BROWN, (1.2, 1.8)),
     Look(SKY, (3, 3)),
-    Look(PURPLE, (5, 1.8, 1.2, 1.8, 1.2, 1.8)),
+    Look(PURPLE, (3, 1.3, 1.1, 1.3, 1.1, 1.3)),
 )
 """Of branches on the same axes, in their order: dashes tell them apart in grey print."""
 WIDTH = 1.4  # points, of their lines in the legend
