@@ -12,6 +12,7 @@ import matplotlib.pyplot as plt
 from disc_model import Parameters
 from disc_model.paper.figures.schematic import sketch
 
+WIDTH = 518.740157 / 72  # inches: 183 mm
 FONT = {
     "font.size": 11,
     "mathtext.fontset": "cm",
@@ -22,7 +23,7 @@ FONT = {
 
 def main():
     with plt.rc_context(FONT):
-        figure = sketch(Parameters(N=200, Omega=20))
+        figure = sketch(Parameters(N=200, Omega=20), WIDTH)
         figure.savefig(
             Path(__file__).with_suffix(".svg"), metadata={"Date": None}, facecolor="white"
         )

@@ -31,12 +31,16 @@ OUTER = 1.2  # radius of the disc as drawn
 
 def draw(plot: Schematic, case: xr.DataTree) -> Figure:
     """Draw the three views."""
-    width = plot.inches
+    return sketch(Parameters.model_validate_json(case.attrs["parameters"]), plot.inches)
+
+
+def sketch(p: Parameters, width: float) -> Figure:
+    """Draw the three views of a case in a figure of a width in inches."""
     figure = Figure(figsize=(width, 0.97 * width))
     boxes = ((0.0, 0.5, 1, 0.45), (0.0, 0.0, 0.57, 0.45), (0.57, 0.0, 0.43, 0.45))
     side, above, forces = (figure.add_axes(box) for box in boxes)
     _draw_side(side)
-    _draw_above(above, Parameters.model_validate_json(case.attrs["parameters"]))
+    _draw_above(above, p)
     _draw_forces(forces)
     for ax in (side, above, forces):
         ax.set_aspect("equal")
