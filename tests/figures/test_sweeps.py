@@ -659,6 +659,14 @@ def rate(case: dm.Parameters) -> dict[str, float]:
     return {"rate": case.N * case.Omega}
 
 
+def test_growth_rates_of_samples_are_drawn_over_their_names() -> None:
+    """A line of growth rates has gaps, between which names were to be numbers."""
+    table = {"sample": ["A", "B", "C"], "N": [385.0, 300.0, 320.0], "Omega": [15.0, 10.0, 12.0]}
+    ax = dm.plot_sweep(dm.sweep(dm.floquet, CASE, zip=table), "growth_rate", x="sample")
+    [line] = [each for each in ax.lines if len(each.get_xdata()) == 3]
+    assert list(line.get_xdata()) == ["A", "B", "C"]
+
+
 def test_samples_are_drawn_over_their_names() -> None:
     table = {"sample": ["A", "B", "C"], "N": [300.0, 200.0, 385.0]}
     ax = dm.plot_sweep(dm.sweep(rate, CASE, zip=table), "rate", x="sample")

@@ -157,7 +157,7 @@ def draw_lines(
     _choose_marks(marks, parts)
     gapless = joined and not (names or rates or array.isnull().any())
     # of cycles, of which the next point may have another; steady sliding is one equilibrium
-    jumps = rates and "sliding" not in array.attrs.get("long_name", "")
+    jumps = joined and rates and "sliding" not in array.attrs.get("long_name", "")
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts, marks), parts, titles_of(parts), strict=True):
         heights = part.data.values
