@@ -667,6 +667,37 @@ def test_growth_rates_of_samples_are_drawn_over_their_names() -> None:
     assert list(line.get_xdata()) == ["A", "B", "C"]
 
 
+BLOCK = dm.Parameters(
+    n_diameters=-1,
+    m=0.538,
+    k=0,
+    k_p=6957,
+    c_p=5.946,
+    N=10,
+    mu_s=0.6,
+    mu_k=0.2,
+    friction_decay=10,
+    r_0=0.1,
+    Omega=2,
+)
+
+
+@pytest.mark.filterwarnings("error:invalid value", "error:overflow")
+@pytest.mark.parametrize("axes", [{}, {"mu_k": [0.15, 0.2]}])
+def test_growth_rates_below_any_axis_are_named(axes: dict[str, list[float]]) -> None:
+    """On a rigid disc they are -inf: a line left their speeds out, and a map had "no value"."""
+    speeds = [1.0, 1.5, 2.0, 2.5]
+    growth = dm.sweep(dm.floquet, BLOCK, Omega=speeds, **axes)
+    assert np.isneginf(growth["growth_rate"].values).any()
+    ax = dm.plot_sweep(growth, "growth_rate")
+    said = [text.get_text() for text in ax.figure.findobj(pyplot.Text)]
+    assert "growth rate −∞" in said
+    low, high = ax.get_xlim()
+    assert low <= 1.0
+    assert high >= 2.5
+    pyplot.close("all")
+
+
 def test_samples_are_drawn_over_their_names() -> None:
     table = {"sample": ["A", "B", "C"], "N": [300.0, 200.0, 385.0]}
     ax = dm.plot_sweep(dm.sweep(rate, CASE, zip=table), "rate", x="sample")

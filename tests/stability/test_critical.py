@@ -446,3 +446,10 @@ def test_no_value_is_computed_very_close_to_another(
         scan.is_stable(value)
     scan.refine(0.3, Bar(0))
     assert len(scan.motions) == computed
+
+
+def test_neutral_sliding_is_not_said_to_be_stable() -> None:
+    """Without a damper in the plane the slider's own mode neither grows nor decays."""
+    block = Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
+    found = critical.critical(block, "Omega", (5, 20), points=4, kind="sliding")
+    assert found.message == "steady sliding has no growing mode at any of the 4 values computed"

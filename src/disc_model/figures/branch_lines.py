@@ -7,6 +7,7 @@ import numpy as np
 from disc_model.figures.drawing import BLACK, mark, sample, wide
 from disc_model.figures.selection import broken, stretches
 from disc_model.figures.types import Array, Artist, Axes, Mask
+from disc_model.figures.words import BELOW_ANY
 
 STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
@@ -14,7 +15,6 @@ DOT = 3.0  # points, size of the mark of a cycle computed
 MARGIN = 0.04  # share of the values beside them that stays free
 FLOOR = 0.04  # height of values of -inf, as a share of the panel
 ABOVE_FLOOR = 0.2  # margin where there are such values: a whole line of numbers lies above them
-FLOOR_LABEL = "growth rate −∞"
 
 
 class Look(NamedTuple):
@@ -100,14 +100,14 @@ def draw_at_floor(ax: Axes, x: Array, look: Look, place: Mask) -> list[Artist]:
     if not place.any():
         return []
     edge = np.full(x.size, FLOOR)
-    at_edge: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "gid": FLOOR_LABEL}
+    at_edge: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "gid": BELOW_ANY}
     _draw_stretches(ax, x, edge, between(place), {**look.line(STABLE), **at_edge})
     triangles: dict[str, Any] = {"marker": "v", "linestyle": "", "markersize": mark(4)}
     ax.plot(x[place], edge[place], color=look.colour, **triangles, **at_edge)
-    return [sample(color=BLACK, label=FLOOR_LABEL, **triangles)]
+    return [sample(color=BLACK, label=BELOW_ANY, **triangles)]
 
 
 def set_margins(ax: Axes) -> None:
     """Leave room around the values of all branches, and below them for those of -inf."""
-    below = any(line.get_gid() == FLOOR_LABEL for line in ax.lines)
+    below = any(line.get_gid() == BELOW_ANY for line in ax.lines)
     ax.margins(MARGIN, ABOVE_FLOOR if below else MARGIN)

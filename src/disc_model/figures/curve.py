@@ -147,6 +147,7 @@ def draw_lines(
         marks = {}
     names, array = as_numbers(as_classes(study, variable))
     array = array.copy(data=measured(array).values)
+    array = array.where(~np.isneginf(array))  # such points are marked above the panel
     by = remaining(array, [x])
     label, along = _along(array[x])
     joined = joined and along.dtype.kind != "U"

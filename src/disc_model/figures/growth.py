@@ -14,7 +14,7 @@ from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
 from disc_model.figures.selection import class_of_gap, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
-from disc_model.figures.words import label_of
+from disc_model.figures.words import NO_VALUE, label_of, missing_text
 
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
@@ -48,10 +48,11 @@ def growth_panels(
         edges = edges_of(plane[name])
         rates = plane[name].values
         words = classes_without_rate(plane, name)
-        shown = np.ma.masked_invalid(rates)
+        known = np.isfinite(rates)
+        shown = np.ma.array(np.where(known, rates, 0.0), mask=~known)
         mesh = ax.pcolormesh(*edges, shown, cmap=scale.cmap, norm=scale.norm, rasterized=True)
         painted = paint(ax, edges, words, MAP_LOOKS)
-        colours = np.where(np.isfinite(rates)[..., None], mesh.to_rgba(rates), painted)
+        colours = np.where(known[..., None], mesh.to_rgba(shown), painted)
         used |= set(words.flat)
         for mark, cells in marks_of(plane, name).items():
             if not cells.any():
@@ -59,10 +60,10 @@ def growth_panels(
             used.add(mark)
             if MAP_LOOKS[mark].hatch:
                 lay_over(ax, edges, cells, MAP_LOOKS[mark], colours)
-    if not has_values(planes, name):
-        return entries(used, MAP_LOOKS)
-    draw_bar(figure, axes, mesh, scale, label_of(planes[0][name])[0])
-    return entries(used, MAP_LOOKS)
+    if has_values(planes, name):
+        draw_bar(figure, axes, mesh, scale, label_of(planes[0][name])[0])
+    unvalued = MAP_LOOKS[NO_VALUE]._replace(label=missing_text(planes[0], name))
+    return entries(used, {**MAP_LOOKS, NO_VALUE: unvalued})
 
 
 def marks_of(plane: xr.Dataset, name: str = "growth_rate") -> dict[str, Mask]:
@@ -100,7 +101,9 @@ def isolated(plane: xr.Dataset, name: str = "growth_rate") -> Mask:
     """Cells whose growth rate (of another cycle, or a narrow resonance) or stability differs from
     that around them."""
     rate = plane[name].values
-    places = np.where(np.isfinite(rate), growth_norm(rate)(np.nan_to_num(rate)), np.nan).clip(0, 1)
+    known = np.isfinite(rate)
+    places = growth_norm(rate)(np.where(known, rate, 0.0)).clip(0, 1)
+    places = np.where(known, places, np.nan)
     padded = np.pad(places, 1, constant_values=np.nan)
     around = np.lib.stride_tricks.sliding_window_view(padded, (3, 3))
     like = np.abs(places[..., None, None] - around) < 0.1  # of the scale; a cell is like itself

@@ -68,6 +68,7 @@ SHORT = {
 """What labels call variables whose long names explain them."""
 WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
 """Variables that say what a motion does within the horizon that a study states."""
+BELOW_ANY = "growth rate −∞"  # of a disturbance that is gone within a period, as on a rigid disc
 NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
@@ -172,7 +173,11 @@ def label_in(study: xr.Dataset, name: str) -> str:
 
 
 def missing_text(study: xr.Dataset, name: str) -> str:
-    """What figures call points of a variable that were computed and have no value."""
+    """What figures call points of a variable that were computed and have no value, or one that is
+    below any axis."""
+    values = study[name].values
+    if values.dtype.kind == "f" and np.isneginf(values).any():
+        return BELOW_ANY
     horizon = horizon_text(study)
     if name != "first_separation" or not horizon:
         return name_of(NO_VALUE)

@@ -88,10 +88,11 @@ class Critical(Drawn, EqualByValue):
     def message(self) -> str:
         """Why `value` is no value at which stability is lost, in words; "" where it is one."""
         if math.isnan(self.value):
-            message = f"{MOTIONS[self.kind]} is stable at all {len(self.values)} values computed"
-            if self.kind == STICK_SLIP:
-                message += "; steady sliding is asked for by kind='sliding'"
-            return message
+            count = len(self.values)
+            if self.kind == SLIDING:  # which may be neutral
+                return f"steady sliding has no growing mode at any of the {count} values computed"
+            message = f"{MOTIONS[self.kind]} is stable at all {count} values computed"
+            return f"{message}; steady sliding is asked for by kind='sliding'"
         if not self.at_lower_bound:
             return ""
         return f"already unstable at the lower bound, {value_text(self.name, self.value)}"

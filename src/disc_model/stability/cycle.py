@@ -198,8 +198,12 @@ def find_cycle(
 def _repetition(map_: ReturnMap, x: Array) -> str:
     """After how many releases the motion from a point of the section repeats, in words."""
     for releases, point in enumerate(map_.returns(x, MOST_RELEASES, may_separate=True), 1):
-        if np.linalg.norm(point - x) <= REPEATS * map_.deflection:
-            return f"the motion from there repeats after {counted(releases, 'release')}"
+        if np.linalg.norm(point - x) > REPEATS * map_.deflection:
+            continue
+        times = counted(releases, "release")
+        if newton(map_, x, releases=releases, may_separate=True) is None:
+            return f"the motion from there nearly repeats after {times}, but near no cycle"
+        return f"the motion from there repeats after {times}"
     return f"the motion from there does not repeat within {MOST_RELEASES} releases"
 
 

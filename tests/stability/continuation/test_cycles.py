@@ -347,6 +347,19 @@ def test_a_doubled_branch_ends_at_the_doubling_of_the_single_one(separating: Sta
     assert end.range == pytest.approx(doubling.range, rel=1e-6)
 
 
+def test_a_doubled_branch_that_soon_ends_is_followed(separating: State) -> None:
+    """Its cycles are within 5e-3 of the doubling, where the first one was sought."""
+    case = Parameters(N=385, Omega=15.1)
+    long = continue_cycle(case, "k_p", (2.0e4, 2.6e4), guess=separating, releases=2)
+    at_end = long.special[-1]
+    single = continue_cycle(at_end.case, "k_p", (2.0e4, 2.6e4), guess=at_end.state)
+    doubling = next(each for each in single.special if each.kind == "period_doubling")
+    assert doubling.values[0] == pytest.approx(20436.19, abs=0.01)
+    short = continue_cycle(doubling.case, "k_p", (2.0e4, 2.6e4), guess=doubling.state, releases=2)
+    assert short.ended.endswith("stick vanishes: the cycle touches zero slip speed")
+    assert short.values.max() < 20450
+
+
 def test_a_guess_of_another_number_of_releases_is_told_when_it_repeats(separating: State) -> None:
     p = Parameters(N=385, Omega=15.1)
     rule = (

@@ -29,7 +29,8 @@ EXACT = 1e-9
 BESIDE = 1e-6
 ROUNDING = 1e-14
 FARTHEST = 0.2
-DEPARTURE = 5e-3  # distance of a branch's first cycle from the doubling, over the deflection
+# distances of a branch's first cycle from the doubling, over the deflection: the branch may end nearer
+DEPARTURES = (5e-3, 1e-3, 2e-4)
 
 
 def releases_in_half(problem: CycleProblem) -> int:
@@ -125,10 +126,13 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
     along = np.linalg.svd(shorter.by)[2][-1]
     row = away - (away @ along) * along
     row /= np.linalg.norm(row)
-    guess = start.z + DEPARTURE * away
-    try:
-        matrix = np.vstack([problem.evaluate(guess).by, row])
-        z, found = solve(problem, guess, row[None, :], matrix, DEPARTURE)
-    except Rejected as lost:
-        raise ParameterError(f"{rule}, and no cycle of twice the period is near: {lost}") from None
-    return curve_point(z, found, row)
+    for distance in DEPARTURES:
+        guess = start.z + distance * away
+        try:
+            matrix = np.vstack([problem.evaluate(guess).by, row])
+            z, found = solve(problem, guess, row[None, :], matrix, distance)
+        except Rejected as lost:
+            reason = str(lost)
+        else:
+            return curve_point(z, found, row)
+    raise ParameterError(f"{rule}, and no cycle of twice the period is near: {reason}")
