@@ -452,4 +452,4 @@ def test_neutral_sliding_is_not_said_to_be_stable() -> None:
     """Without a damper in the plane the slider's own mode neither grows nor decays."""
     block = Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
     found = critical.critical(block, "Omega", (5, 20), points=4, kind="sliding")
-    assert found.message == "steady sliding has no growing mode at any of the 4 values computed"
+    assert found.message.startswith("steady sliding has no growing mode at any of the ")
