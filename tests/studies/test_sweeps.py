@@ -18,6 +18,8 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.errors import ParameterError
+from disc_model.figures.words import label_of
 from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
 from disc_model.studies.whole_study import run_study
@@ -583,3 +585,19 @@ def test_whole_numbers_along_a_sweep_are_floats() -> None:
     numbers = swept["n_diameters"]
     assert numbers.dtype.kind == "f"
     assert numbers.values.tolist() == [1.0, 2.0]
+
+
+def test_a_parameter_that_is_searched_is_not_swept() -> None:
+    """Its values had no effect, and nothing told so."""
+    rule = "mu_k: must not be swept, because critical searches along it"
+    with pytest.raises(ParameterError, match=rule):
+        sweep(dm.critical, P, name="mu_k", bounds=(0.1, 0.3), points=3, mu_k=[0.1, 0.2])
+
+
+def test_names_of_own_results_have_no_meaning() -> None:
+    """A number called w was the disc under the slider, in mm."""
+    found = sweep(lambda case: {"w": 2.0, "period": 1.0}, P, Omega=[1.0, 2.0])
+    assert found["w"].attrs == {}
+    assert found["period"].attrs == {}
+    assert label_of(found["w"]) == ("w", 1.0)
+    assert label_of(found["period"]) == ("Period", 1.0)

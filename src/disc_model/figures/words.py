@@ -12,7 +12,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import variables
-from disc_model.data.variables import EXCLUDED, SHOWN, axis_of, flag_names, typeset
+from disc_model.data.variables import EXCLUDED, SERIES, SHOWN, axis_of, flag_names, typeset
 from disc_model.figures.classes import name_of
 from disc_model.figures.kinds.base import si_unit
 from disc_model.units import in_si
@@ -127,6 +127,8 @@ def named(variable: xr.DataArray) -> Named:
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
     ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
+    if _is_own(variable):
+        ranged = None
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
     units = str(variable.attrs.get("units", "1"))
@@ -153,12 +155,20 @@ def _words_of(variable: xr.DataArray) -> str:
 
 def known_name(variable: xr.DataArray) -> str:
     """The name of a variable in `SHOWN`, "" if it is not there."""
+    if _is_own(variable):
+        return ""
     own = str(variable.name)
     # a scanned parameter is the long name of its dimension, or its name has a prefix
     for name in (own.removeprefix("scan_").removeprefix("sweep_"), _words_of(variable)):
         if name in SHOWN:
             return name
     return ""
+
+
+def _is_own(variable: xr.DataArray) -> bool:
+    """Whether a variable has the name of a sampled one, such as w, but is a reader's own, of which
+    nothing but the name is known."""
+    return not variable.attrs and RANGE_END.sub("", str(variable.name)) in SERIES
 
 
 def label_in(study: xr.Dataset, name: str) -> str:
@@ -175,8 +185,7 @@ def label_in(study: xr.Dataset, name: str) -> str:
 def missing_text(study: xr.Dataset, name: str) -> str:
     """What figures call points of a variable that were computed and have no value, or one that is
     below any axis."""
-    values = study[name].values
-    if values.dtype.kind == "f" and np.isneginf(values).any():
+    if name in study and study[name].dtype.kind == "f" and np.isneginf(study[name]).any():
         return BELOW_ANY
     horizon = horizon_text(study)
     if name != "first_separation" or not horizon:

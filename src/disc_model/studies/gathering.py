@@ -74,8 +74,11 @@ def _of_class(name: str) -> dict[str, dict[str, Any]]:
 
 
 def _attributes_of(result: Any, name: str) -> dict[str, Any]:
-    """Unit and name of a variable of a result; empty if they are not known."""
+    """Unit and name of a variable of a result of this package; empty if they are not known, and of a
+    reader's own results, whose names need not mean the same."""
     kind = type(result).__name__
+    if not is_dataclass(type(result)):
+        return {}
     if (
         kind == "Critical"
         and name == "value"

@@ -10,6 +10,7 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.errors import Fault, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.studies.calls import Call, are_recorded, checked_call
@@ -88,6 +89,11 @@ def sweep(
     """
     call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
+    chosen = {**call.defaults, **call.options}
+    searched = _searched(function, call.title, chosen)
+    swept = [name for dimension in call.dimensions for name in dimension.columns]
+    rule = f"must not be swept, because {call.title} searches along it"
+    raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
     records = are_recorded(errors)
     row = partial(_row, partial(function, **call.options), case, call, records)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
@@ -100,10 +106,9 @@ def sweep(
             coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
-    chosen = {**call.defaults, **call.options}
     options = json.dumps(chosen, sort_keys=True, default=repr)
     stated = {**case.stated, "disc": case.canonical.get("disc")}
-    for name in _searched(function, call.title, chosen):
+    for name in searched:
         stated.pop(name, None)
     base = canonical_json(stated)
     attrs = {
