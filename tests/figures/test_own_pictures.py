@@ -318,6 +318,18 @@ def test_a_doubled_branch_is_named_by_its_releases() -> None:
     assert {*again.releases.tolist()} == {2}
 
 
+def test_a_branch_at_values_of_table_1_is_named_by_them() -> None:
+    """It was "branch 2" beside "m = 90 g" and "m = 110 g"."""
+    ax = None
+    for mass in (0.09, 0.1, 0.11):
+        branch = dm.continue_cycle(dm.Parameters(N=350, Omega=11, m=mass), "Omega", (11, 11.2))
+        ax = branch.plot("period", ax=ax)
+    assert ax is not None
+    assert {"m = 90 g", "m = 100 g", "m = 110 g"} <= {
+        text.get_text() for text in ax.figure.legends[0].get_texts()
+    }
+
+
 def test_a_title_says_what_all_branches_have_in_common() -> None:
     """It was that of the first one."""
     cases = [QUIET.replace(N=N, m=0.11) for N in (380, 385)]

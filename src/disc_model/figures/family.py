@@ -22,7 +22,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
-from disc_model.figures.words import head_text, what_case
+from disc_model.figures.words import head_text, stated_value, what_case
 
 SPECIAL_MARKS = {
     "fold": ("s", SEPARATED, "fold"),
@@ -124,7 +124,7 @@ def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
     a period of its cycles has; "" if nothing does."""
     common = _common_values(family)
     differing = {name: value for name, value in branch.values.items() if name not in common}
-    said = [what_case(differing)]
+    said = [stated_value(name, value) for name, value in differing.items()]
     if len({each.releases for each in family}) > 1:
         said.append(f"{counted(branch.releases, 'release')} per period")
     return ", ".join(filter(None, said))

@@ -289,6 +289,17 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
     return f"{typeset(named(data[by]).name)} = {text}"
 
 
+def stated_value(name: str, value: Any) -> str:
+    """The value of a parameter by its symbol, whether it is that of Table 1 or not."""
+    text = value_text(xr.Dataset(coords={name: value}), name)
+    if name == "contact":
+        return f"{text} contact"
+    if isinstance(value, str) or name in AT_ZERO:
+        return text
+    symbol = SHOWN[name].symbol if name in SHOWN else name
+    return f"{symbol} = {text}"
+
+
 def rank_of(value: Any) -> Any:
     """Place of a value in an order: words as in `WORDS`, or by the number that they begin with."""
     if not isinstance(value, str):

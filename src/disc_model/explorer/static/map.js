@@ -128,7 +128,7 @@ function markChosen(ink) {
     ink.lineWidth = thick;
     ink.strokeRect(x0, y0, x1 - x0, y1 - y0);
     const near = nearestMotion();
-    if (near && near.places[x] !== undefined && near.places[y] !== undefined) {
+    if (near && isInMap(near)) {
       ink.beginPath();
       ink.arc(horizontal(xs.middles[near.places[x]]), vertical(ys.middles[near.places[y]]), 6, 0, 2 * Math.PI);
       ink.stroke();

@@ -53,6 +53,14 @@ function nearestMotion() {
   return best;
 }
 
+/** Whether a motion was computed at a point of the map: along the axes that it does not show, at their chosen values. */
+function isInMap(motion) {
+  const { study, place, x, y } = view;
+  const places = motionPlaces(study, motion);
+  const shown = [x, y].every((name) => places[name] !== undefined);
+  return shown && Object.entries(places).every(([name, at]) => name === x || name === y || at === place[name]);
+}
+
 /** Why no motion is shown, as a sentence. */
 function lackOfMotion(study, place) {
   if (!study.motions) return "No motions of this quantity are stored.";
@@ -81,7 +89,7 @@ function drawMotion() {
     return;
   }
   const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
-  const ring = [view.x, view.y].every((name) => motion.places[name] !== undefined) ? " (ring in the map)" : "";
+  const ring = isInMap(motion) ? " (ring in the map)" : "";
   const fate = fateOf(study, place);
   const like = fate ? `of the same kind, ${fate}, ` : "";
   const said = own ? "At this point" : `Nearest stored motion ${like}at ${where(motion.places, dims)}${ring}`;
