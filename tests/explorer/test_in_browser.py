@@ -465,6 +465,15 @@ def shows_motions(shown: Explorer) -> None:
             f"Nearest stored motion of the same kind, {outcome}, at N = {N} N, Ω = {Omega} rad/s, "
         )
         assert shown.text("motion-note").startswith(f"{near}modes as published (ring in the map).")
+    # a motion of another slice has no place in this one
+    same, other = shown.page.run(
+        "const shownAxes = [view.x, view.y];"
+        "const third = view.study.dims.find((dim) => !shownAxes.includes(dim.name)).name;"
+        "const places = {...motionPlaces(view.study, nearestMotion())};"
+        "places[third] = 1 - places[third];"
+        "return [isInMap(nearestMotion()), isInMap({places})];"
+    )
+    assert (same, other) == (True, False)
     shown.page.point(*shown.ask("beginning"))
     assert shown.text("motion-hovered").startswith(
         "0 ms, Contact force P 385 N, Slider u −8.8 mm, Angle ψ 0 rad"
