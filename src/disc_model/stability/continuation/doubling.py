@@ -23,11 +23,11 @@ from disc_model.stability.return_map import Array, newton_step
 SAME = 1e-3
 NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
 # of corrections of a shorter cycle, and the last of them; the first change of the parameter, and the
-# last one, over its value; how far a doubling may be from the cycle beside which it is sought
+# last one, over its scale; how far a doubling may be from the cycle beside which it is sought
 MOST_CORRECTIONS = 8
 EXACT = 1e-9
 BESIDE = 1e-6
-ROUNDING = 1e-14
+ROUNDING = 1e-12
 FARTHEST = 0.2
 # distances of a branch's first cycle from the doubling, over the deflection: the branch may end nearer
 DEPARTURES = (5e-3, 1e-3, 2e-4)
@@ -87,7 +87,7 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
         return float(np.real(values[np.argmin(np.abs(values + 1))] + 1))
 
     try:
-        value = newton(excess, near.value, x1=near.value * (1 + BESIDE), tol=ROUNDING)
+        value = newton(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
         excess(value)
         found = problem.evaluate(z)
     except (Rejected, RuntimeError):  # which scipy raises where a search does not converge
