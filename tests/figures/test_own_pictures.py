@@ -318,6 +318,17 @@ def test_a_doubled_branch_is_named_by_its_releases() -> None:
     assert {*again.releases.tolist()} == {2}
 
 
+def test_ranges_of_several_branches_that_are_wide_together_are_logarithmic() -> None:
+    """Each was narrow, and all but one lay flat at 0."""
+    small = dm.continue_cycle(dm.Parameters(N=300, Omega=14), "Omega", (13.9, 14))
+    large = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.9, 15.2))
+    assert large.range.max() > 30 * small.range.min()
+    ax = small.plot("range")
+    assert ax.get_yscale() == "linear"
+    large.plot("range", ax=ax)
+    assert ax.get_yscale() == "log"
+
+
 def test_a_branch_at_values_of_table_1_is_named_by_them() -> None:
     """It was "branch 2" beside "m = 90 g" and "m = 110 g"."""
     ax = None

@@ -64,7 +64,8 @@ def plot_branch(
         lowest = draw_at_floor(axes, x, look, np.isneginf(values))
         if y == "growth_rate" and not second:
             scale_rates(axes)
-        if y == "range" and not second and np.nanmax(values) > WIDE * np.nanmin(values):
+        heights = axes.dataLim  # of all branches on the axes
+        if y == "range" and not second and heights.y1 > WIDE * heights.minposy:
             axes.set_yscale("log")
         looks = ((stable.any(), STABLE, "stable"), (not stable.all(), THIN, "unstable"))
         handles = [
