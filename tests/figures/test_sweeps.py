@@ -499,7 +499,7 @@ def test_a_sweep_in_other_units_is_drawn_in_those_of_its_label() -> None:
         return {"u": 1e-6 * case.Omega}
 
     study = dm.sweep(height, CASE, Omega=SPEEDS)
-    study["u"].attrs["units"] = "m"
+    study["u"].attrs.update(units="m", long_name="vertical displacement of the slider")
     ax = dm.plot_sweep(study, "u")
     assert ax.get_ylabel() == "Slider u (mm)"
     np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e-3 * np.array(SPEEDS))

@@ -601,3 +601,7 @@ def test_names_of_own_results_have_no_meaning() -> None:
     assert found["period"].attrs == {}
     assert label_of(found["w"]) == ("w", 1.0)
     assert label_of(found["period"]) == ("Period", 1.0)
+    # one's own attributes are said, and numbers stay as they are
+    own = {"units": "mm", "long_name": "pad amplitude"}
+    named = sweep(lambda case: xr.Dataset({"u": ((), 2.0, own)}), P, Omega=[1.0, 2.0])
+    assert label_of(named["u"]) == ("Pad amplitude (mm)", 1.0)

@@ -116,7 +116,11 @@ def _names(family: Sequence[Shown]) -> list[str]:
     names = []
     for number, each in enumerate(family):
         names.append(each.name or _what_differs(each, family) or f"branch {number + 1}")
-    return names
+    distinct = []
+    for number, name in enumerate(names):
+        alike = names.count(name) > 1 and not family[number].name
+        distinct.append(f"{name}, branch {number + 1}" if alike else name)
+    return distinct
 
 
 def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:

@@ -48,8 +48,9 @@ def plot_sweep(  # noqa: PLR0913
     variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
         given
-    log : whether the scale of the variable is logarithmic: on both sides of zero, and linear up to its least size, if
-        some values are negative or zero. Growth rates of both signs have such a scale in any case
+    log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
+        and then linear up to its least size, or to a thousandth of the greatest if that is more. Growth rates of both
+        signs have such a scale in any case
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures

@@ -166,9 +166,15 @@ def known_name(variable: xr.DataArray) -> str:
 
 
 def _is_own(variable: xr.DataArray) -> bool:
-    """Whether a variable has the name of a sampled one, such as w, but is a reader's own, of which
-    nothing but the name is known."""
-    return not variable.attrs and RANGE_END.sub("", str(variable.name)) in SERIES
+    """Whether a variable has the name of a sampled one, such as w, but is a reader's own, with
+    another unit or long name, or none."""
+    name = str(variable.name)
+    sampled = SERIES.get(RANGE_END.sub("", name))
+    if sampled is None:
+        return False
+    if variable.attrs.get("units") != sampled.attributes.get("units"):
+        return True
+    return name in SERIES and variable.attrs.get("long_name") != sampled.long_name
 
 
 def label_in(study: xr.Dataset, name: str) -> str:

@@ -121,8 +121,16 @@ function showPoint() {
   const message = messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;
-  fillTable("values", study.variables.map((one) => [one, shown(study, one, place)]));
+  fillTable("values", study.variables.map((one) => [one, shownWithin(study, one, place)]));
   fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.shown), one.unit)]));
+}
+
+/** The value of a variable at a point; of one that has several there, such as one for each speed of a scan, with the place of it. */
+function shownWithin(study, variable, place) {
+  const grid = study.status?.dims ?? variable.dims;
+  const within = study.dims.filter((dim) => variable.dims.includes(dim.name) && !grid.includes(dim.name));
+  const said = shown(study, variable, place);
+  return within.length ? `${said}, at ${where(place, within)}` : said;
 }
 
 function fillTable(id, rows) {
