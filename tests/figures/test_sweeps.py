@@ -49,9 +49,19 @@ FUNCTIONS: dict[Callable[..., Any], dict[str, Any]] = {
 }
 
 
+SEARCH_OMEGA = (dm.critical_speed, dm.hysteresis)
+"""Functions that vary the speed by themselves, which is no axis of a sweep of them."""
+
+
 @functools.cache
 def swept(function: Callable[..., Any]) -> xr.Dataset:
-    return dm.sweep(function, CASE, Omega=SPEEDS, N=LOADS, **FUNCTIONS[function])
+    """A sweep over speed and preload; what does not depend on the speed is the same at all of them."""
+    if function not in SEARCH_OMEGA:
+        return dm.sweep(function, CASE, Omega=SPEEDS, N=LOADS, **FUNCTIONS[function])
+    study = dm.sweep(function, CASE, N=LOADS, **FUNCTIONS[function])
+    study = study.expand_dims(Omega=SPEEDS)
+    study["Omega"].attrs.update(units="rad s-1", long_name="speed of the drive point")
+    return study
 
 
 def words_of(variable: xr.DataArray) -> str:

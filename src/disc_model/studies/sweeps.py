@@ -93,8 +93,7 @@ def sweep(
     searched = _searched(function, call.title, chosen)
     swept = [name for dimension in call.dimensions for name in dimension.columns]
     rule = f"must not be swept, because {call.title} searches along it"
-    if call.title == "critical":
-        raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
+    raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
     records = are_recorded(errors)
     row = partial(_row, partial(function, **call.options), case, call, records)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
