@@ -157,8 +157,7 @@ def draw_lines(
     parts = parts_along(array, by)
     _choose_marks(marks, parts)
     gapless = joined and not (names or rates or array.isnull().any())
-    # of cycles, of which the next point may have another; steady sliding is one equilibrium
-    jumps = joined and rates and "sliding" not in array.attrs.get("long_name", "")
+    jumps = joined and _are_of_cycles(array, rates)
     line = "" if names or not joined else "-"
     for colour, part, title in zip(_colours(parts, marks), parts, titles_of(parts), strict=True):
         heights = part.data.values
@@ -192,6 +191,12 @@ def draw_lines(
 def _are_rates(array: xr.DataArray, log: bool) -> bool:
     """Whether a variable is drawn on the scale of growth rates, which has both signs."""
     return array.name == RATE and (not log or needs_zero(array.values))
+
+
+def _are_of_cycles(array: xr.DataArray, rates: bool) -> bool:
+    """Whether growth rates are those of cycles, of which the next point may have another; steady
+    sliding is one equilibrium."""
+    return rates and "sliding" not in array.attrs.get("long_name", "")
 
 
 def _scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
