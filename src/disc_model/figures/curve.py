@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
-from matplotlib.transforms import ScaledTranslation
 
+from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.classes import AT_BOUND, name_of
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import (
@@ -311,28 +311,12 @@ def _point_down(
     by = remaining(array, [x])
     along = _along(array[x]).values
     ax.margins(y=ROOM)
-    page: Any = ax.get_figure(root=True)
-    below = ScaledTranslation(0, -large(ARROW) / 72, page.dpi_scale_trans)
-    label = AT_BOUND.label
     parts = parts_along(array, by)
     masks = parts_along(bound, by)
     for colour, part, mask in zip(_colours(parts, marks), parts, masks, strict=True):
         here = mask.data.values
-        if not here.any():
-            continue
-        ax.plot(
-            along[here],
-            part.data.values[here],
-            linestyle="",
-            marker=r"$\downarrow$",
-            color=colour,
-            label=label,
-            markersize=mark(ARROW),
-            markeredgewidth=0,
-            transform=ax.transData + below,
-            clip_on=False,
-        )
-        label = "_nolegend_"
+        if here.any():
+            draw_arrows(ax, along[here], part.data.values[here], colour, "down", ARROW)
 
 
 def _mark_gaps(

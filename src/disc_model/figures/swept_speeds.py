@@ -1,16 +1,13 @@
 """Sweeps of the speed over the preload: where separation begins and ends, and what lies between."""
 
-from typing import Any
-
 import numpy as np
 import xarray as xr
 from matplotlib.colors import ListedColormap
-from matplotlib.transforms import ScaledTranslation
 
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import stated_in
-from disc_model.figures.classes import AT_BOUND
-from disc_model.figures.drawing import BLUE, ORANGE, SEPARATED, large, mark, mark_failed, wide
+from disc_model.figures.arrows import draw_arrows
+from disc_model.figures.drawing import BLUE, ORANGE, SEPARATED, mark, mark_failed, wide
 from disc_model.figures.selection import failed, stretches
 from disc_model.figures.types import Axes
 
@@ -59,25 +56,8 @@ def _point_to_less(
     ax: Axes, loads: np.ndarray, speeds: np.ndarray, at_bound: np.ndarray, colour: str
 ) -> None:
     """Set an arrow beside each speed that is the lowest of its sweep, and may be less."""
-    if not at_bound.any():
-        return
-    label = AT_BOUND.label
-    if label in ax.get_legend_handles_labels()[1]:
-        label = "_nolegend_"
-    page: Any = ax.get_figure(root=True)
-    left = ScaledTranslation(-large(ARROW) / 72, 0, page.dpi_scale_trans)
-    ax.plot(
-        speeds[at_bound],
-        loads[at_bound],
-        linestyle="",
-        marker=r"$\leftarrow$",
-        color=colour,
-        label=label,
-        markersize=mark(ARROW),
-        markeredgewidth=0,
-        transform=ax.transData + left,
-        clip_on=False,
-    )
+    if at_bound.any():
+        draw_arrows(ax, speeds[at_bound], loads[at_bound], colour, "left", ARROW)
 
 
 def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
