@@ -28,6 +28,7 @@ from disc_model.stability.curves import NeutralCurves, StabilityCurve
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.lyapunov import Lyapunov
 from disc_model.stability.sliding import SlidingStatus, SteadySliding
+from tests.blocks import RIG
 from tests.figures.described import drawn
 from tests.figures.every_kind import flag
 from tests.figures.measured import Shown, assert_shows, drawn_values
@@ -418,25 +419,12 @@ def legend_words(ax: Any) -> list[str]:
     return [text.get_text() for text in ax.get_legend().get_texts()]
 
 
-BLOCK = dm.Parameters(
-    n_diameters=-1,
-    m=0.538,
-    k=0,
-    k_p=6957,
-    c_p=5.946,
-    N=10,
-    mu_s=0.6,
-    mu_k=0.2,
-    friction_decay=10,
-    r_0=0.1,
-    Omega=2,
-)
 """A block on a rigid disc, whose stick-slip has no memory of the cycle before: all multipliers are 0."""
 
 
 @functools.cache
 def block_branch(kind: Any) -> Any:
-    return dm.continue_cycle(BLOCK, "Omega", (1.8, 2.1), kind=kind)
+    return dm.continue_cycle(RIG, "Omega", (1.8, 2.1), kind=kind)
 
 
 def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
@@ -462,7 +450,7 @@ def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
 
 def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:
     """The picture had a legend, and nothing else."""
-    found = dm.critical(BLOCK, "Omega", (1, 2), points=3)
+    found = dm.critical(RIG, "Omega", (1, 2), points=3)
     assert np.isneginf(found.growth_rate).all()
     ax = found.plot()
     assert "growth rate −∞" in labels(ax.figure)

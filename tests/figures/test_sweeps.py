@@ -14,6 +14,7 @@ import disc_model as dm
 from disc_model.figures.classes import name_of
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.words import unit_text
+from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
 from tests.figures.reading import assert_numbers_are_apart, labels
 
@@ -677,27 +678,12 @@ def test_growth_rates_of_samples_are_drawn_over_their_names() -> None:
     assert list(line.get_xdata()) == ["A", "B", "C"]
 
 
-BLOCK = dm.Parameters(
-    n_diameters=-1,
-    m=0.538,
-    k=0,
-    k_p=6957,
-    c_p=5.946,
-    N=10,
-    mu_s=0.6,
-    mu_k=0.2,
-    friction_decay=10,
-    r_0=0.1,
-    Omega=2,
-)
-
-
 @pytest.mark.filterwarnings("error:invalid value", "error:overflow")
 @pytest.mark.parametrize("axes", [{}, {"mu_k": [0.15, 0.2]}])
 def test_growth_rates_below_any_axis_are_named(axes: dict[str, list[float]]) -> None:
     """On a rigid disc they are -inf: a line left their speeds out, and a map had "no value"."""
     speeds = [1.0, 1.5, 2.0, 2.5]
-    growth = dm.sweep(dm.floquet, BLOCK, Omega=speeds, **axes)
+    growth = dm.sweep(dm.floquet, RIG, Omega=speeds, **axes)
     assert np.isneginf(growth["growth_rate"].values).any()
     ax = dm.plot_sweep(growth, "growth_rate")
     said = [text.get_text() for text in ax.figure.findobj(pyplot.Text)]

@@ -7,6 +7,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.stability.frequencies import frequencies
+from tests.blocks import RIG
 from tests.references import block
 
 pytestmark = pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -15,11 +16,6 @@ LEINE = dm.Parameters(
     n_diameters=-1, m=1, k=0, k_p=1, N=1, r_0=1, a=0.5, b=2, Omega=0.2, mu_s=1, mu_k=0, friction_decay=3
 )  # fmt: skip
 JUMP = dm.Parameters(n_diameters=-1, N=30, Omega=0.5, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
-# a published rig: between the Hopf point of steady sliding, 0.159 m/s, and the end of stick-slip,
-# 0.2306 m/s, both are stable
-RIG = dm.Parameters(
-    n_diameters=-1, m=0.538, k=0, k_p=6957, c_p=5.946, N=10, mu_s=0.6, mu_k=0.2, friction_decay=10, r_0=0.1, Omega=2
-)  # fmt: skip
 STRIBECK = RIG.replace(friction_law="exponential", viscous_friction=0.1)
 END_OF_STICK_SLIP = 2.305984645  # rad/s, by an integration of the rig's block with scipy
 

@@ -14,6 +14,7 @@ from disc_model.display import Bar
 from disc_model.stability import critical, parameter_scan
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
+from tests.blocks import RIG
 
 
 @pytest.mark.compiled
@@ -116,19 +117,7 @@ def test_a_value_that_is_no_border_is_said_to_be_none(
     assert message in found._repr_html_()
 
 
-BLOCK = Parameters(
-    n_diameters=-1,
-    m=0.5,
-    k=0,
-    k_p=7e3,
-    c_p=6,
-    N=10,
-    mu_s=0.6,
-    mu_k=0.2,
-    friction_decay=10,
-    r_0=0.1,
-    Omega=2,
-)
+BLOCK = RIG.replace(m=0.5, k_p=7e3, c_p=6)
 
 
 def test_sliding_of_a_block_is_stable_above_the_slope_of_friction() -> None:

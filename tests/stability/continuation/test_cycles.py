@@ -13,6 +13,7 @@ from disc_model.errors import ParameterError
 from disc_model.simulation.states import State
 from disc_model.stability.continuation import Branch, StepControl
 from disc_model.stability.return_map import ReturnMap
+from tests.blocks import RIG
 
 pytestmark = pytest.mark.compiled
 
@@ -34,19 +35,6 @@ STEEL = {
     "mu_k": 0.35,
     "damping_ratio": 5e-4,
 }
-BLOCK = Parameters(
-    n_diameters=-1,
-    m=0.538,
-    k=0,
-    k_p=6957,
-    c_p=5.946,
-    N=10,
-    mu_s=0.6,
-    mu_k=0.2,
-    friction_decay=10,
-    r_0=0.1,
-    Omega=2,
-)
 BRANCHES = {
     "published": (Parameters(N=200, Omega=20), (4, 50)),
     "orthonormal": (Parameters(N=300, Omega=20, normalization="orthonormal"), (10, 40)),
@@ -384,13 +372,13 @@ def test_a_guess_of_another_number_of_releases_is_told_when_it_repeats(separatin
 
 def test_the_end_of_stick_on_a_rigid_disc_is_a_grazing() -> None:
     """It was no reason: stick ends so shortly before the release that this was not compared."""
-    branch = continue_cycle(BLOCK.replace(Omega=2.2), "Omega", (2.2, 3), direction=1)
+    branch = continue_cycle(RIG.replace(Omega=2.2), "Omega", (2.2, 3), direction=1)
     assert branch.ended == "stick vanishes: the cycle touches zero slip speed"
     assert branch.special[-1].kind == "grazing"
 
 
 def test_a_hopf_point_has_no_folds_beside_it() -> None:
-    block = BLOCK.replace(m=0.4, k_p=7000, c_p=6)
+    block = RIG.replace(m=0.4, k_p=7000, c_p=6)
     branch = continue_cycle(block, "Omega", (1, 3), kind="slipping")
     assert [each.kind for each in branch.special] == ["hopf", "grazing"]
 

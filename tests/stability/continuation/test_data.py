@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 import disc_model as dm
 from disc_model.simulation.states import MODAL
 from disc_model.stability.continuation import Branch
+from tests.blocks import RIG
 
 pytestmark = pytest.mark.compiled
 
@@ -135,24 +136,9 @@ def test_a_cycle_is_simulated_from_its_row(branch: Branch, data: xr.Dataset) -> 
     )
 
 
-BLOCK = dm.Parameters(
-    n_diameters=-1,
-    m=0.538,
-    k=0,
-    k_p=6957,
-    c_p=5.946,
-    N=10,
-    mu_s=0.6,
-    mu_k=0.2,
-    friction_decay=10,
-    r_0=0.1,
-    Omega=2,
-)
-
-
 def test_a_rigid_disc_has_no_modes() -> None:
     bounds = (1.9, 2.1)
-    branch = dm.continue_cycle(BLOCK, "Omega", bounds)
+    branch = dm.continue_cycle(RIG, "Omega", bounds)
     sizes = branch.to_dataset().sizes
     assert sizes["mode"] == 0
 
@@ -172,7 +158,7 @@ def test_a_frequency_of_a_given_disc_is_a_parameter_too() -> None:
 
 
 def slipping_branch() -> Branch:
-    return dm.continue_cycle(BLOCK, "Omega", (1.8, 2.2), kind="slipping")
+    return dm.continue_cycle(RIG, "Omega", (1.8, 2.2), kind="slipping")
 
 
 @pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])
