@@ -8,7 +8,7 @@ later. A branch therefore begins and ends there.
 from __future__ import annotations
 
 import numpy as np
-from scipy.optimize import newton
+from scipy.optimize import newton as root_by_secants
 
 from disc_model.display import counted
 from disc_model.errors import ParameterError
@@ -16,16 +16,14 @@ from disc_model.stability.continuation.curve import CurvePoint, Rejected, curve_
 from disc_model.stability.continuation.ends import DOUBLED, End
 from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
-from disc_model.stability.return_map import Array, newton_step
+from disc_model.stability.return_map import Array, newton
 
 # largest distance, over the deflection, of a cycle from itself half a period later that is looked at
 # as one of half the period: at a doubling, Newton's method comes to a double zero
 SAME = 1e-3
 NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
-# of corrections of a shorter cycle, and the last of them; the first change of the parameter, and the
-# last one, over its scale; how far a doubling may be from the cycle beside which it is sought
-MOST_CORRECTIONS = 8
-EXACT = 1e-9
+# the first change of the parameter in the search for a doubling, and the last one, over its scale; how
+# far a doubling may be from the cycle beside which it is sought
 BESIDE = 1e-6
 ROUNDING = 1e-12
 FARTHEST = 0.2
@@ -69,25 +67,24 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
     The shorter cycle is regular there, while F of the longer one has a double zero.
     """
     half = releases_in_half(problem)
-    n = problem.n
     z = near.z.copy()
-    z[:n] += half_a_period_on(problem, near.z) / 2
+    z[: problem.n] += half_a_period_on(problem, near.z) / 2
 
     def excess(value: float) -> float:
         """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
         then the shorter cycle there."""
+        nonlocal z
         z[-1] = value
-        for _ in range(MOST_CORRECTIONS):
-            found = problem.evaluate(z, half)
-            step = newton_step(found.by[:, :n], found.residual)
-            z[:n] -= step
-            if np.linalg.norm(step) < EXACT:
-                break
-        values = spectrum_of(found.jacobian).values
+        start = problem.section_point(z)
+        orbit = newton(problem.map_at(z), start, releases=half, may_separate=True)
+        if orbit is None:
+            raise Rejected("the shorter cycle is not found")
+        z = problem.moved_to(z, orbit.start)
+        values = spectrum_of(orbit.jacobian).values
         return float(np.real(values[np.argmin(np.abs(values + 1))] + 1))
 
     try:
-        value = newton(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
+        value = root_by_secants(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
         excess(value)
         found = problem.evaluate(z)
     except (Rejected, RuntimeError):  # which scipy raises where a search does not converge

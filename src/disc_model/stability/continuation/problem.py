@@ -262,6 +262,11 @@ class CycleProblem:
             raise ParameterError(fault)
         return self.place_at(self.reference.point(cycle.state))
 
+    def moved_to(self, z: Array, x: Array) -> Array:
+        """z at the point x of the section, in the coordinates of the map at z."""
+        unknowns = self._to_unknowns @ (x * self._turn(self.map_at(z))) / self.size
+        return np.concatenate([unknowns, z[self.n :]])
+
     def place_at(self, x: Array) -> Array:
         """z of a point of the section of the case `base`."""
         values = np.array([self.base.numbers[name] for name in self.names])
