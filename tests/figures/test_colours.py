@@ -41,6 +41,13 @@ def test_numbers_of_both_signs_are_centred_on_zero_and_others_fill_the_scale(
     assert scale.cmap is cmap
 
 
+@pytest.mark.parametrize("number", [0.0, 3.0, -2.5])
+def test_the_bar_of_a_single_number_names_it_alone(number: float) -> None:
+    scale = colours_of(np.array([number, np.nan, number]), PERIOD)
+    assert scale.places == [number]
+    assert scale.norm(number) == pytest.approx(0.5)
+
+
 def test_each_of_few_counts_has_a_colour_of_its_own() -> None:
     counts = xr.DataArray([0, 2], name="releases")
     scale = colours_of(np.array([0, 2]), counts)

@@ -113,6 +113,8 @@ def colours_of(numbers: Array, array: xr.DataArray, wishes: ColourWishes = USUAL
         scale = _through_zero(usual, values, low, high)
     elif wishes.log:
         scale = _positive(usual, low, high, is_growth(array.name))
+    elif low == high:
+        scale = _constant(usual, low)
     beyond = (bool((values < low).any()), bool((values > high).any()))
     return replace(scale, cmap=_chosen(wishes, scale.cmap), open_ends=beyond)
 
@@ -128,6 +130,12 @@ def counted(count: int, cmap: str | Colormap | None = None) -> Scale:
     colours = [of_all(i / count) for i in range(count)]
     own, norm = from_levels_and_colors((np.arange(count + 1) - 0.5).tolist(), colours)
     return Scale(own, norm, [str(i) for i in range(count)])
+
+
+def _constant(usual: Colormap, number: float) -> Scale:
+    """The colour of a map of one number, in the middle of a bar that names that alone."""
+    margin = abs(number) / 2 or 1.0
+    return Scale(usual, Normalize(number - margin, number + margin), places=[number])
 
 
 def _positive(usual: Colormap, low: float, high: float, growth: bool) -> Scale:

@@ -16,7 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 from disc_model.analysis.classify import (
+    CLOSES,
     FEWEST,
+    STILL,
     Motion,
     Settled,
     Settling,
@@ -26,7 +28,7 @@ from disc_model.analysis.classify import (
 )
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays, tangential_amplitudes
-from disc_model.engine.record import STICK_TO_SLIP
+from disc_model.engine.record import LOSS_OF_CONTACT, STICK_TO_SLIP
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -86,8 +88,31 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
     if near is not None and near.lingers:
         return Arrival(Settling(Settled.CHANGING, near.cycle.growth_rate, least=0.0))
 
+    repeats = repetition_in_slip(legs)
+    if repeats is not None:
+        return Arrival(repeats)
     times, angles = np.hstack([switch_angles(leg) for leg in legs])
     return Arrival(settling(times, angles))
+
+
+def repetition_in_slip(legs: Sequence[Result]) -> Settling | None:
+    """The answer for a motion that loses contact and never sticks, whose losses repeat over the
+    last `REPETITION` s of its legs: it does not come to the section of the return map, so that
+    multipliers cannot tell. None for any other motion."""
+    end = legs[-1].final_state.time
+    since = end - thresholds.REPETITION
+    releases = np.hstack([event_times(leg, STICK_TO_SLIP) for leg in legs])
+    losses = np.hstack([event_times(leg, LOSS_OF_CONTACT) for leg in legs])
+    intervals = np.diff(losses[losses > since])
+    if np.any(releases > since) or len(intervals) < FEWEST:
+        return None
+
+    # from before the record to its end
+    goes_on = end - losses[-1] <= 2 * intervals.max()
+    if losses[0] > since or not goes_on or not shortest_period(intervals):
+        return None
+    visible = CLOSES / (STILL * float(intervals.mean()))  # relative, as for other records
+    return Settling(Settled.SETTLED, least=visible / thresholds.REPETITION, since=since)
 
 
 def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:

@@ -69,6 +69,9 @@ STEADY = 1e-3  # largest relative change of the range over these without a drift
 # largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones
 # vary by half of it
 VARIATION = 0.01
+# s over which intervals of a motion that never sticks must repeat to `CLOSES`: at 100 Hz that shows
+# rates of `SLOWEST`, as a record of 200 s does that is known to 1 %
+REPETITION = 40.0
 SAME = 0.05  # segments that differ by less are of one attractor; the extrapolated rest of a drift may reach half of it
 SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal: the slider's height is constant
 OWN_STARTS = (
