@@ -12,14 +12,14 @@ import pytest
 import yaml
 from scipy.stats import qmc
 
-from disc_model.analysis.classify import Settled, Settling
+from disc_model.analysis.classify import SLOWEST, Settled, Settling
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays
-from disc_model.engine.record import EVENT_ROW, STICK_TO_SLIP
+from disc_model.engine.record import EVENT_ROW, LOSS_OF_CONTACT, STICK_TO_SLIP
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State, slip_rate, static_start
+from disc_model.simulation.states import State, perturb, slip_rate, static_start
 from disc_model.stability import attractors
 from disc_model.stability.attractors import Arrival, Basins, random_perturbation
 from disc_model.stability.outcome import Attractor, OutcomeResult, Stage, find_outcome, growing
@@ -452,6 +452,76 @@ def test_a_stay_is_doubled_until_it_has_settled_and_no_further(
     # from a value inside the sweep rises to the last, and falls to the first
     later = attractors.sweep(p, "Omega", [10, 11, 12], 2.0, 20.0, 0.5, 1e-8, lowest=1)
     assert [step for step, *_ in later] == [(0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]
+
+
+# ------------------------------------------------------------------------ Motions without stick
+def legs_with(losses: Any, releases: Any = (), end: float = 100.0) -> list[Any]:
+    """A record of 100 s in two legs, with losses of contact and releases at some times (s)."""
+    times = np.concatenate([losses, releases])
+    rows = np.zeros((times.size, len(EVENT_ROW)))
+    rows[:, EVENT_ROW.index("time")] = times
+    rows[:, EVENT_ROW.index("kind")] = [LOSS_OF_CONTACT] * len(losses) + [STICK_TO_SLIP] * len(
+        releases
+    )
+    rows = rows[np.argsort(times)]
+    cut = np.searchsorted(rows[:, EVENT_ROW.index("time")], 70.0)
+    parts = [(rows[:cut], 70.0), (rows[cut:], end)]
+    return [
+        SimpleNamespace(event_rows=part, final_state=SimpleNamespace(time=stop))
+        for part, stop in parts
+    ]
+
+
+REGULAR_LOSSES = np.arange(5, 99.995, 0.01)
+
+
+def test_a_motion_that_never_sticks_has_settled_if_its_losses_of_contact_repeat() -> None:
+    """Every second interval is longer; before the last 40 s the motion differs, and sticks."""
+    losses = REGULAR_LOSSES.copy()
+    losses[1::2] += 1e-3
+    losses[:3000] += np.geomspace(1e-3, 1e-9, 3000)
+    found = attractors.repetition_in_slip(legs_with(losses, releases=[20.0, 59.0]))
+    assert found is not None
+    assert found.answer is Settled.SETTLED
+    assert found.since == 60.0
+    # 1e-8 s of a thousandth of 0.01 s, in 40 s
+    assert found.least == pytest.approx(1e-8 / 1e-5 / 40, rel=1e-6)
+    assert found.least < SLOWEST
+
+
+@pytest.mark.parametrize(
+    "legs",
+    [
+        legs_with(REGULAR_LOSSES + 1e-5 * np.sin(REGULAR_LOSSES)),  # a beat
+        legs_with(REGULAR_LOSSES + 2e-8 * REGULAR_LOSSES**2),  # a drift of 4e-12 s each time
+        legs_with(REGULAR_LOSSES, releases=[61.0]),
+        legs_with(REGULAR_LOSSES[REGULAR_LOSSES > 65]),  # since too short a time
+        legs_with(REGULAR_LOSSES[REGULAR_LOSSES < 90]),  # it has ceased
+        legs_with([]),
+    ],
+)
+def test_a_record_of_losses_of_contact_that_do_not_repeat_to_its_end_decides_nothing(
+    legs: list[Any],
+) -> None:
+    assert attractors.repetition_in_slip(legs) is None
+
+
+@pytest.mark.compiled
+def test_a_motion_that_slips_and_loses_contact_repeats_after_a_transient() -> None:
+    """Transients decay at half the damping of the modes, about 0.1/s: they are seen after 60 s, not
+    after 240 s, nor at any later time."""
+    p = Parameters(N=350, Omega=24)
+    rest = static_start(p)
+    start = perturb(p, rest, u=-3 * abs(rest.u))
+    early = simulate(p, 60, tol=1e-8, initial_state=start)
+    late = simulate(p, 240, tol=1e-8, initial_state=early.final_state)
+    later = simulate(p, 600, tol=1e-8, initial_state=late.final_state)
+    assert attractors.repetition_in_slip([early]) is None
+    for run in (late, later):
+        reached = attractors.arrival(p, [run])
+        assert reached.settled
+        assert reached.near is None
+        assert reached.settling.since == pytest.approx(run.final_state.time - 40)
 
 
 # ------------------------------------------------------------------------ Cycles and perturbations

@@ -104,12 +104,19 @@ def repetition_in_slip(legs: Sequence[Result]) -> Settling | None:
     releases = np.hstack([event_times(leg, STICK_TO_SLIP) for leg in legs])
     losses = np.hstack([event_times(leg, LOSS_OF_CONTACT) for leg in legs])
     intervals = np.diff(losses[losses > since])
-    if np.any(releases > since) or len(intervals) < FEWEST:
+    sticks = bool(np.any(releases > since))
+    if sticks or len(intervals) < FEWEST:
         return None
 
     # from before the record to its end
     goes_on = end - losses[-1] <= 2 * intervals.max()
-    if losses[0] > since or not goes_on or not shortest_period(intervals):
+    period = shortest_period(intervals)
+    if losses[0] > since or not goes_on or not period:
+        return None
+
+    # not only from each to the next: a drift takes many periods
+    spreads = [float(np.ptp(intervals[i::period])) for i in range(period)]
+    if max(spreads) > CLOSES:
         return None
     visible = CLOSES / (STILL * float(intervals.mean()))  # relative, as for other records
     return Settling(Settled.SETTLED, least=visible / thresholds.REPETITION, since=since)
