@@ -16,7 +16,7 @@ from disc_model.stability.continuation.curve import CurvePoint, Rejected, curve_
 from disc_model.stability.continuation.ends import DOUBLED, End
 from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.spectrum import spectrum_of
-from disc_model.stability.return_map import Array, newton
+from disc_model.stability.return_map import Array, Orbit, newton
 
 # largest distance, over the deflection, of a cycle from itself half a period later that is looked at
 # as one of half the period: at a doubling, Newton's method comes to a double zero
@@ -75,8 +75,7 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
         then the shorter cycle there."""
         nonlocal z
         z[-1] = value
-        start = problem.section_point(z)
-        orbit = newton(problem.map_at(z), start, releases=half, may_separate=True)
+        orbit = _shorter_cycle(problem, z, half)
         if orbit is None:
             raise Rejected("the shorter cycle is not found")
         z = problem.moved_to(z, orbit.start)
@@ -92,6 +91,13 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
     if np.linalg.norm(z - near.z) > FARTHEST:
         return None
     return curve_point(z, found, near.tangent)
+
+
+def _shorter_cycle(problem: CycleProblem, z: Array, releases: int) -> Orbit | None:
+    """The orbit of the shorter cycle near a point of the longer one's problem; None if it is not
+    found."""
+    start = problem.section_point(z)
+    return newton(problem.map_at(z), start, releases=releases, may_separate=True)
 
 
 def doubling_end(problem: CycleProblem, point: CurvePoint) -> End:
@@ -110,7 +116,12 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
     half = releases_in_half(problem)
     if not half or np.linalg.norm(half_a_period_on(problem, start.z)) > SAME:
         return None
-    shorter = problem.evaluate(start.z, half)
+    # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
+    z = start.z
+    orbit = _shorter_cycle(problem, z, half)
+    if orbit is not None:
+        z = problem.moved_to(z, orbit.start)
+    shorter = problem.evaluate(z, half)
     spectrum = spectrum_of(shorter.jacobian)
     critical = int(np.argmin(np.abs(spectrum.values + 1)))
     rule = f"releases={2 * half}: the cycle at this state repeats after {counted(half, 'release')}"
@@ -124,12 +135,12 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
     row = away - (away @ along) * along
     row /= np.linalg.norm(row)
     for distance in DEPARTURES:
-        guess = start.z + distance * away
+        guess = z + distance * away
         try:
             matrix = np.vstack([problem.evaluate(guess).by, row])
-            z, found = solve(problem, guess, row[None, :], matrix, distance)
+            first, found = solve(problem, guess, row[None, :], matrix, distance)
         except Rejected as lost:
             reason = str(lost)
         else:
-            return curve_point(z, found, row)
+            return curve_point(first, found, row)
     raise ParameterError(f"{rule}, and no cycle of twice the period is near: {reason}")
