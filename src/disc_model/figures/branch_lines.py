@@ -68,6 +68,13 @@ def draw_branch(
     _draw_stretches(ax, x, y, stable, {**look.line(STABLE), "solid_capstyle": "butt"})
 
 
+def draw_dots(ax: Axes, x: Array, y: Array, look: Look) -> None:
+    """Draw the cycles of a branch as dots, but for those whose height is nan."""
+    known = np.isfinite(y)
+    if known.any():  # without one matplotlib has no distances
+        ax.plot(x[known], y[known], ".", **look.dot())
+
+
 def _draw_stretches(ax: Axes, x: Array, y: Array, chosen: Mask, line: dict[str, Any]) -> None:
     """Draw a line between points and the next ones, where it is chosen."""
     for first, last in stretches(chosen):
