@@ -239,7 +239,6 @@ class _CurveSearch:
     def _seeds(self, cases: Sequence[Parameters]) -> Iterator[_Seed]:
         """Special points along a line where the cycle changes stability or ends, found by
         continuation from both neighbours."""
-        name = self.names[0]
         growth = [find_cycle(case, self.tol).growth_rate for case in cases]
         exists = [not np.isnan(rate) for rate in growth]
         for i, (before, after) in enumerate(pairwise(growth)):
@@ -248,10 +247,25 @@ class _CurveSearch:
             for begin, end in ((i, i + 1), (i + 1, i)):
                 if not exists[begin]:
                     continue
-                value = cases[end].numbers[name]
-                seed = _border(cases[begin], name, value, self.tol, self.failures)
+                seed = self._seed_towards(cases, growth, begin, end)
                 if seed is not None:
                     yield seed
+
+    def _seed_towards(
+        self, cases: Sequence[Parameters], growth: Sequence[float], begin: int, end: int
+    ) -> _Seed | None:
+        """The special point from a case of a line towards its neighbour, or beyond it as long as the
+        stable cycle goes on where the search from the static start finds none that is stable."""
+        name = self.names[0]
+        step = end - begin
+        told = len(self.failures)
+        for each in cases[end::step]:
+            seed = _border(cases[begin], name, each.numbers[name], self.tol, self.failures)
+            lost = seed is not None or len(self.failures) > told
+            if lost or not growth[begin] < 0 or growth[end] < 0:
+                return seed
+            end += step
+        return None
 
     def _follow(self, seed: _Seed) -> None:
         """Follow the curve through a special point, unless it is known."""
