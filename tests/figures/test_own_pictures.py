@@ -3,6 +3,7 @@ them."""
 
 import functools
 import re
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -183,6 +184,31 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     # the same numbers, but for the factor's rounding
     assert mark.get_xdata() == pytest.approx([speed], rel=1e-12)
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
+
+
+def test_dots_of_many_cycles_leave_a_thin_line_thin() -> None:
+    """At 84 mm those of 1,734 cycles made it as thick as that of stable ones."""
+    many = 2000
+    x = np.linspace(10, 20, many)
+    thin: Any = replace(
+        branch(),
+        values=x[:, None],
+        growth_rate=np.where(x < 15, -1.0, 1.0),
+        period=np.full(many, 0.01),
+        special=(),
+        case=P,
+    )
+    figure, ax = pyplot.subplots(figsize=(3.3, 2.5), dpi=300)
+    thin.plot("period", ax=ax, legend=False)
+    figure.canvas.draw()
+    grey = np.asarray(figure.canvas.buffer_rgba())[::-1, :, 0]  # type: ignore[attr-defined]
+    heights = {}
+    for name, ends in (("thick", (11, 14)), ("thin", (16, 19))):
+        left, right = (int(ax.transData.transform((end, 10))[0]) for end in ends)
+        middle = int(ax.transData.transform((15, 10))[1])
+        heights[name] = np.median((grey[middle - 10 : middle + 10, left:right] < 128).sum(axis=0))
+    # 2 and 0.7 points, and half a pixel of either edge; dots would be as high as the thick line
+    assert 1 <= heights["thin"] < 0.65 * heights["thick"]
 
 
 def test_several_special_points_of_a_kind_are_counted() -> None:

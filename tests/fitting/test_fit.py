@@ -388,6 +388,8 @@ def test_parameters_that_are_hardly_told_apart_are_doubted() -> None:
     assert "do not determine mu_s and mu_k apart" in fit.doubt
     assert not fit.consistent
     assert dict(fit.summary())["intervals"].startswith("none")
+    ends = [math.isfinite(end) for each in fit.parameters.values() for end in (each.low, each.high)]
+    assert ends == [False, False, False, False, True, True]
     alone = dm.fit(start.replace(mu_k=0.25), ["mu_s", "k_p"], measured)
     assert alone.doubt == ""
     # the search ends where chi squared no longer falls by 1e-10
@@ -438,6 +440,28 @@ def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
     for words in ("determine mu_s and mu_k apart", "model or uncertainties are wrong", reduced):
         assert words in fit.doubt
         assert words in repr(fit)
+
+
+@pytest.mark.compiled
+def test_a_fold_within_an_interval_is_said() -> None:
+    """It said that the measurements do not determine mu_s, and gave an end at which there is no
+    cycle."""
+    case = dm.Parameters(N=385, Omega=15)
+    found = dm.fit(case, ["mu_s"], {"period": (0.0148, 1e-5)})
+    mu_s = found.parameters["mu_s"]
+    assert found.indistinct == ()
+    assert math.isnan(mu_s.low)
+    assert mu_s.high == pytest.approx(mu_s.value + 1.96 * mu_s.deviation, rel=1e-5)
+    [end] = found.unpredicted["mu_s"]
+    assert not dm.floquet(case.replace(mu_s=end)).stable
+    assert found.doubt == (
+        f"no such motion was found at mu_s={end:.6g}: a fold, or another end of the cycle, lies within the interval"
+    )
+    assert dict(found.summary())["intervals"].startswith("none: no such motion")
+    # where the cycle exists at both ends nothing is said
+    surer = dm.fit(case, ["mu_s"], {"period": (0.01485, 1e-6)})
+    assert surer.unpredicted == {}
+    assert surer.consistent
 
 
 def test_a_parameter_that_starts_far_below_its_value_is_not_doubted() -> None:

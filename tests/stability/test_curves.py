@@ -97,11 +97,38 @@ def test_a_fold_is_found_whatever_the_points_of_a_line(points: int) -> None:
 
 
 @pytest.mark.compiled
+def test_the_fold_of_a_stable_cycle_beyond_a_point_without_one_is_found() -> None:
+    """At 26,850 N/m the search from the static start finds no cycle, and at 26,860 N/m the unstable
+    one: only the fold of another unstable cycle was found."""
+    plane = {"k_p": (26700, 26900), "N": (298, 302)}
+    case = Parameters(N=300, Omega=14)
+    found = curves.neutral_curves(case, plane, [300], points=21, max_points=20)
+    [fold] = [curve for curve in found if curve.adjoins_stable_cycle.all()]
+    # that of the branch, by `continue_cycle`; the curve's points lie some 2 N/m apart
+    at_line = np.interp(300, fold.values[:, 1], fold.values[:, 0])
+    assert at_line == pytest.approx(26861.8806, abs=0.1)
+
+
+@pytest.mark.compiled
 def test_a_branch_that_ends_elsewhere_is_told() -> None:
     failures: list[str] = []
     assert curves._border(STEEL_ALONE, "Omega", 60.0, 1e-12, failures) is None
     ended = "Omega from 34.65 to 60: stick vanishes: the cycle touches zero slip speed"
     assert failures == [ended]
+
+
+def test_curves_are_a_table_in_a_notebook() -> None:
+    values = np.array([[14.0, 0.38], [14.5, 0.4], [15.25, 0.39]])
+    resonance = Resonance(2.0, 135.42, 2, 0, 0.0)
+    beside = np.array([True, True, False])
+    curve = curves.StabilityCurve("fold", values, beside, np.ones(3), np.ones(3), resonance)
+    bounds = {"Omega": (14.0, 15.5), "mu_s": (0.38, 0.42)}
+    found = curves.NeutralCurves(Parameters(N=385, Omega=15), bounds, (curve,), ("a <failure>",))
+    shown = found._repr_html_()
+    assert "<th>Omega (rad/s)</th><th>mu_s</th>" in shown
+    cells = ("fold", "14 to 15.25", "0.38 to 0.4", "2 f_s = 135.42 Hz", "66.7 %")
+    assert "".join(f"<td>{cell}</td>" for cell in cells) in shown
+    assert "<td>not followed</td><td>a &lt;failure&gt;</td>" in shown
 
 
 def test_lines_lie_within_the_bounds() -> None:

@@ -89,7 +89,9 @@ def test_the_cycle_is_found_again_from_a_simulation():
     # run through twice it is the same cycle
     twice = find_cycle(P, guess=later, releases=2)
     assert twice.period == pytest.approx(2 * result.period, rel=1e-9)
-    assert twice.message.endswith("with 2 releases")
+    assert twice.message.endswith(
+        "with 2 releases; it repeats after 1 release: find it with releases=1"
+    )
 
 
 class Logistic:

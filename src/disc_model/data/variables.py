@@ -46,9 +46,9 @@ class CycleStatus(StatusBase):
     OK = "ok", "A cycle was found; its growth rate says whether it is stable."
     NO_CYCLE = (
         "no_cycle",
-        "The slider moves on, but no such cycle of up to three releases exists near the start of the search, "
-        "as beyond a fold: give floquet the last state of a simulation as guess, or follow the cycle of another case "
-        "by disc_model.continue_cycle.",
+        "The slider moves on, but no such cycle of up to three releases was found near the start of the search, "
+        "as beyond a fold or close to one: give floquet the last state of a simulation as guess, or follow the cycle "
+        "of another case by disc_model.continue_cycle.",
     )
     SEPARATES = (
         "separates",

@@ -16,6 +16,7 @@ from disc_model.figures.branch_lines import (
     above_floor,
     draw_at_floor,
     draw_branch,
+    draw_dots,
     set_margins,
     stable_segments,
 )
@@ -60,7 +61,7 @@ def plot_branch(
         refined_values = _refined_upward(branch, y) * upward
         draw_branch(axes, refined_x, above_floor(refined_values), stable, look)
         # what lies between is not computed
-        axes.plot(x, above_floor(values), ".", **look.dot())
+        draw_dots(axes, x, above_floor(values), look)
         lowest = draw_at_floor(axes, x, look, np.isneginf(values))
         if y == "growth_rate" and not second:
             scale_rates(axes)

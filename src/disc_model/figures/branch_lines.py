@@ -12,6 +12,9 @@ from disc_model.figures.words import BELOW_ANY
 STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
 DOT = 3.0  # points, size of the mark of a cycle computed
+# least distance of such marks along the branch, over the panel's diagonal: nearer ones would make a
+# thin line look like a thick one
+APART = 0.025
 MARGIN = 0.04  # share of the values beside them that stays free
 FLOOR = 0.04  # height of values of -inf, as a share of the panel
 ABOVE_FLOOR = 0.2  # margin where there are such values: a whole line of numbers lies above them
@@ -33,8 +36,12 @@ class Look(NamedTuple):
         return options
 
     def dot(self) -> dict[str, Any]:
-        """Options of the marks of cycles, which leave gaps between dashes free."""
-        options: dict[str, Any] = {"color": self.colour, "markersize": mark(DOT)}
+        """Options of the marks of cycles, which leave gaps between dashes free, and do not touch."""
+        options: dict[str, Any] = {
+            "color": self.colour,
+            "markersize": mark(DOT),
+            "markevery": APART,
+        }
         if self.dashes:
             options["markeredgewidth"] = 0
         return options
@@ -59,6 +66,13 @@ def draw_branch(
     else:
         ax.plot(*broken(x, y, np.log(factor), height), **look.line(THIN))
     _draw_stretches(ax, x, y, stable, {**look.line(STABLE), "solid_capstyle": "butt"})
+
+
+def draw_dots(ax: Axes, x: Array, y: Array, look: Look) -> None:
+    """Draw the cycles of a branch as dots, but for those whose height is nan."""
+    known = np.isfinite(y)
+    if known.any():  # without one matplotlib has no distances
+        ax.plot(x[known], y[known], ".", **look.dot())
 
 
 def _draw_stretches(ax: Axes, x: Array, y: Array, chosen: Mask, line: dict[str, Any]) -> None:

@@ -142,7 +142,8 @@ def _short(value: object) -> str:
 
 
 class Fitted(NamedTuple):
-    """A fitted parameter: its value, standard deviation and confidence interval, in its unit."""
+    """A fitted parameter: its value, standard deviation and confidence interval, in its unit; an end
+    of the interval is nan if the measurements do not determine it, or have no prediction there."""
 
     value: float
     deviation: float
@@ -168,8 +169,10 @@ class Fit(Summarised, Drawn, EqualByValue):
     indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
         alike and are known to 10 % at best, or a standard deviation away chi squared does not rise as linear
         predictions would have it
+    unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
+        beyond a fold of the cycle; `Fitted` has nan there
     doubt : all reasons why values and intervals mean nothing: a search that has not converged, parameters that are not
-        determined, too large a chi squared; "" where there is none
+        determined, an interval in which the motion ends, too large a chi squared; "" where there is none
     consistent : whether there is no `doubt`
 
     Examples
@@ -195,6 +198,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     converged: bool
     message: str
     indistinct: tuple[str, ...] = ()
+    unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -213,7 +217,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     @property
     def consistent(self) -> bool:
         """Whether values and intervals can be relied on, as far as the measurements tell: the search
-        has converged, the measurements determine every parameter, and chi squared is as small as it
+        has converged, the measurements determine every parameter, what was measured exists at both
+        ends of every interval, and chi squared is as small as it
         is in 95 % of fits if the model and the uncertainties are right (without degrees of freedom,
         where it is 0 unless a bound is in the way, as with one). Otherwise `doubt` says why not."""
         return not self.doubt
@@ -226,6 +231,8 @@ class Fit(Summarised, Drawn, EqualByValue):
             reasons.append("the search has not converged")
         if self.indistinct:
             reasons.append(_undetermined(self.indistinct))
+        for name, ends in self.unpredicted.items():
+            reasons += [_ends_within(name, end) for end in ends]
         if self.converged and self._misses:
             reasons.append(f"model or uncertainties are wrong, {self._misfit}")
         return "; ".join(reasons)
@@ -315,6 +322,12 @@ def _undetermined(names: Sequence[str]) -> str:
     return f"the measurements do not determine {together} apart: fix one of them, or measure more"
 
 
+def _ends_within(name: str, end: float) -> str:
+    """Return that what was measured does not exist at an end of a parameter's interval."""
+    place = f"{name}={end:.6g}"
+    return f"no such motion was found at {place}: a fold, or another end of the cycle, lies within the interval"
+
+
 def _unit_of_parameter(name: str) -> str:
     """Return the unit of a parameter or of a number of a disc's table; "" without one."""
     table = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": ""}
@@ -398,6 +411,14 @@ class _Problem:
             return self.predictions(values)
         except ParameterError:
             return np.full(len(self.measurements), math.nan)
+
+    def is_missing(self, values: Array) -> bool:
+        """Whether a valid case has no such quantity, as where its cycle has ended at a fold."""
+        try:
+            self.predictions(values)
+        except ParameterError as error:
+            return error.faults[0].path[0] == "measured"
+        return False
 
     def jacobian(self, values: Array) -> Array:
         """Return derivatives of the predictions, (m, n): central differences, or one-sided ones
@@ -501,8 +522,8 @@ def fit(
             ftol=TOLERANCE,
             gtol=TOLERANCE,
         )
-        indistinct = _indistinct(problem.names, search, jacobians[0], deviations)
-    found = _result(problem, search, confidence, indistinct)
+        indistinct = _indistinct(problem, search, jacobians[0], deviations)
+        found = _result(problem, search, confidence, indistinct)
     warn_of_doubts(found.case)
     return found
 
@@ -552,13 +573,13 @@ def _sensitivity(jacobian: Array) -> _Sensitivity:
 
 
 def _indistinct(
-    names: Sequence[str], search: Any, first: Array, deviations: Callable[[Array], Array]
+    problem: _Problem, search: Any, first: Array, deviations: Callable[[Array], Array]
 ) -> tuple[str, ...]:
     """Return the names of parameters that the measurements do not determine.
 
     Parameters
     ----------
-    names : of the parameters
+    problem : whose parameters these are
     search : at its end, over scaled parameters
     first : Jacobian at the start. Where predictions have kinks or peaks, as at a limit of a parameter, it says more on
         what acts alike than that of the end
@@ -569,6 +590,7 @@ def _indistinct(
     ParameterError
         If the Jacobian is singular at both ends of the search.
     """
+    names = problem.names
     at_start = _sensitivity(first)
     at_end = _sensitivity(search.jac)
     if at_start.singular and at_end.singular:
@@ -594,7 +616,7 @@ def _indistinct(
 
     # what is known least at the end
     direction = at_end.directions[-1]
-    if _is_parabola(search, direction / at_end.sizes[-1], deviations):
+    if _is_parabola(problem, search, direction / at_end.sizes[-1], deviations):
         return ()
     return _chosen(names, np.abs(direction) > WEAK)
 
@@ -632,14 +654,24 @@ def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple
     fitted = search.x * scale
     deviation = np.sqrt(np.diag(covariance))
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
-    parameters = {
-        name: Fitted(*map(float, row))
-        for name, row in zip(
-            names,
-            np.stack([fitted, deviation, fitted - reach, fitted + reach], axis=1),
-            strict=True,
-        )
-    }
+    low = fitted - reach
+    high = fitted + reach
+    unpredicted: dict[str, tuple[float, ...]] = {}
+    for i, name in enumerate(names):
+        if name in indistinct:
+            low[i] = high[i] = math.nan
+            continue
+        # the others change with it as the covariance says
+        move = reach[i] * covariance[:, i] / covariance[i, i]
+        gone = [
+            end for end, side in ((low, -1), (high, 1)) if problem.is_missing(fitted + side * move)
+        ]
+        if gone:
+            unpredicted[name] = tuple(float(end[i]) for end in gone)
+        for end in gone:
+            end[i] = math.nan
+    rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
+    parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
     computed = problem.predictions(fitted)
     return Fit(
@@ -654,6 +686,7 @@ def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple
         converged=bool(search.success),
         message=str(search.message).strip("`. ").replace("`", "") + ".",
         indistinct=indistinct,
+        unpredicted=unpredicted,
     )
 
 
@@ -670,18 +703,27 @@ def _is_flat(search: Any, step: Array, deviations: Callable[[Array], Array]) -> 
     return False
 
 
-def _is_parabola(search: Any, step: Array, deviations: Callable[[Array], Array]) -> bool:
+def _is_parabola(
+    problem: _Problem, search: Any, step: Array, deviations: Callable[[Array], Array]
+) -> bool:
     """Whether chi squared rises by about 1 over a standard deviation of the least known combination
-    of parameters on both sides of a minimum; at a limit of a parameter that is not asked."""
+    of parameters on both sides of a minimum, or on the one where the measured quantities exist; at a
+    limit of a parameter that is not asked."""
     if np.any(search.active_mask):
         return True
     least = float(search.fun @ search.fun)
-    for side in (1, -1):
+    there = [side for side in (1, -1) if not _is_gone(problem, search.x + side * step)]
+    for side in there:
         moved = deviations(search.x + side * step)
         rise = float(moved @ moved) - least
         if not PARABOLA[0] <= rise <= PARABOLA[1]:
             return False
-    return True
+    return bool(there)
+
+
+def _is_gone(problem: _Problem, x: Array) -> bool:
+    """Whether the measured quantities are missing at scaled values of the parameters."""
+    return problem.is_missing(x * problem.scale)
 
 
 # ---- Checks of the arguments

@@ -142,6 +142,10 @@ class State(EqualByValue):
             f"u={self.u:.6g} m, u_velocity={self.u_velocity:.6g} m/s, {len(self.a)} modes)"
         )
 
+    def __str__(self) -> str:
+        """What names it in a row of a table."""
+        return f"State({self.time:.6g} s, {self.phase})"
+
     def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
         the drive point, less psi. Raises `ParameterError` unless `case` is a `Parameters`."""

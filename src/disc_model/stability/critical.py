@@ -15,6 +15,7 @@ from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import STICK_SLIP
+from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
@@ -36,9 +37,9 @@ class Critical(Drawn, EqualByValue):
     Attributes
     ----------
     parameters, name : the case, and the parameter
-    value : the least value computed at which the motion is unstable; if there is a lower one, it is stable there, less
-        than `precision` away; nan if there is none. The lower bound, where that motion is unstable there already: it
-        may be so below, too
+    value : the least value computed at which the motion is unstable, or no cycle is found and stick-slip goes on; if
+        there is a lower one, it is stable there, less than `precision` away; nan if there is none. The lower bound,
+        where that motion is unstable there already: it may be so below, too
     at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
     message : says so if `value` is the lower bound or nan; else ""
     kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
@@ -129,11 +130,16 @@ def critical(
     """The least parameter value with unstable motion near the static start, and all stability
     changes above it; or those of steady sliding.
 
-    The motion near the static start is the stick-slip cycle, or steady sliding or rest if there is
-    no cycle. It is computed at equal steps, which alone limit what can be overlooked. Instability
-    often lies in much narrower tongues, where multipliers meet on the unit circle. Their angles
-    change smoothly, so that these places are predicted from neighbouring values, and computed as
-    well. Of steady sliding, the greatest growth rates between values are looked for.
+    The motion near the static start is the stick-slip cycle that `floquet` finds, or steady sliding
+    or rest if there is no cycle. Beside a fold that search may find no cycle, or the unstable one:
+    a stable cycle is followed from neighbouring values to its fold. Where an unstable one was found,
+    the motion from the static start must settle on the stable one within 10,000 releases. Where no
+    cycle is found and stick-slip goes on, the motion counts as unstable.
+
+    It is computed at equal steps, which alone limit what can be overlooked. Instability often lies
+    in much narrower tongues, where multipliers meet on the unit circle. Their angles change
+    smoothly, so that these places are predicted from neighbouring values, and computed as well. Of
+    steady sliding, the greatest growth rates between values are looked for.
 
     Parameters
     ----------
@@ -204,6 +210,9 @@ def critical(
             scan.is_stable(value)
             bar.advance()
         scan.refine(narrowest, bar)
+        if kind == STICK_SLIP:
+            scan.located_changes(shortest)
+            follow_stable_cycles(scan, shortest)
     return _result(scan, kind, shortest)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
-from disc_model.display import Drawn, counted
+from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -94,6 +94,21 @@ class NeutralCurves(Drawn):
         ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
         plane = " and ".join(ranges)
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
+
+    def _repr_html_(self) -> str:
+        """The curves in a notebook, how far each reaches, and what could not be followed."""
+        units = [Parameters.unit(name).removeprefix("1") for name in self.bounds]
+        named = zip(self.bounds, units, strict=True)
+        head = [f"{name} ({unit})" if unit else name for name, unit in named]
+        rows: list[tuple[object, ...]] = []
+        for curve in self:
+            lows = curve.values.min(axis=0)
+            highs = curve.values.max(axis=0)
+            reach = [f"{low:.6g} to {high:.6g}" for low, high in zip(lows, highs, strict=True)]
+            beside_stable = number_text(100 * curve.adjoins_stable_cycle.mean(), "%", 3)
+            rows.append((curve.kind, *reach, curve.resonance.label, beside_stable))
+        rows += [("not followed", failure, "", "", "") for failure in self.failures]
+        return html_table(("kind", *head, "resonance", "beside a stable cycle"), rows)
 
 
 class _Seed(NamedTuple):
@@ -224,7 +239,6 @@ class _CurveSearch:
     def _seeds(self, cases: Sequence[Parameters]) -> Iterator[_Seed]:
         """Special points along a line where the cycle changes stability or ends, found by
         continuation from both neighbours."""
-        name = self.names[0]
         growth = [find_cycle(case, self.tol).growth_rate for case in cases]
         exists = [not np.isnan(rate) for rate in growth]
         for i, (before, after) in enumerate(pairwise(growth)):
@@ -233,10 +247,25 @@ class _CurveSearch:
             for begin, end in ((i, i + 1), (i + 1, i)):
                 if not exists[begin]:
                     continue
-                value = cases[end].numbers[name]
-                seed = _border(cases[begin], name, value, self.tol, self.failures)
+                seed = self._seed_towards(cases, growth, begin, end)
                 if seed is not None:
                     yield seed
+
+    def _seed_towards(
+        self, cases: Sequence[Parameters], growth: Sequence[float], begin: int, end: int
+    ) -> _Seed | None:
+        """The special point from a case of a line towards its neighbour, or beyond it as long as the
+        stable cycle goes on where the search from the static start finds none that is stable."""
+        name = self.names[0]
+        step = end - begin
+        told = len(self.failures)
+        for each in cases[end::step]:
+            seed = _border(cases[begin], name, each.numbers[name], self.tol, self.failures)
+            lost = seed is not None or len(self.failures) > told
+            if lost or not growth[begin] < 0 or growth[end] < 0:
+                return seed
+            end += step
+        return None
 
     def _follow(self, seed: _Seed) -> None:
         """Follow the curve through a special point, unless it is known."""

@@ -7,7 +7,7 @@ because stick resets f to 0.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -33,6 +33,7 @@ MOST_RELEASES = (
 REPEATS = (
     1e-3  # distance after a period, over the static deflection, of a motion that nearly has settled
 )
+SAME_POINT = 1e-7  # distance of two computations of one point, over its norm
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
 
 
@@ -192,7 +193,21 @@ def find_cycle(
         if from_state:
             without += f"; {_repetition(map_, x)}"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
-    return cycle_of(map_, solution)
+    return _noting_repetition(map_, cycle_of(map_, solution), solution.start)
+
+
+def _noting_repetition(map_: ReturnMap, cycle: FloquetResult, x: Array) -> FloquetResult:
+    """A cycle from a point of the section; its message says so if it repeats after fewer releases
+    than it was sought with."""
+    rounding = SAME_POINT * float(np.linalg.norm(x))
+    fewer = cycle.releases - 1
+    for releases, point in enumerate(map_.returns(x, fewer, may_separate=True), 1):
+        if np.linalg.norm(point - x) <= rounding:
+            repeats = (
+                f"it repeats after {counted(releases, 'release')}: find it with releases={releases}"
+            )
+            return replace(cycle, message=f"{cycle.message}; {repeats}")
+    return cycle
 
 
 def _repetition(map_: ReturnMap, x: Array) -> str:
@@ -230,7 +245,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         solution = newton(map_, x, releases=releases)
         if solution is not None:
             return cycle_of(map_, run_through_once(map_, solution))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases near the static start, stick-slip goes on without one"
+    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start, where stick-slip goes on"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
@@ -266,7 +281,7 @@ def run_through_once(map_: ReturnMap, orbit: Orbit) -> Orbit:
         once = newton(map_, x, releases=releases, may_separate=may_separate)
         if once is None:
             continue
-        rounding = 1e-7 * float(np.linalg.norm(once.start))
+        rounding = SAME_POINT * float(np.linalg.norm(once.start))
         if np.allclose(once.start, x, rtol=0, atol=rounding):
             return once
     return orbit

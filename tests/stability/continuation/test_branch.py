@@ -93,3 +93,9 @@ def test_special_points_have_the_labels_of_auto(kind: str, label: str) -> None:
 def test_a_special_point_states_its_place_and_its_period() -> None:
     text = repr(special("fold", 5.2))
     assert text == "SpecialPoint(fold at 5.2, period 0.015 s)"
+
+
+def test_a_special_point_is_a_table_in_a_notebook() -> None:
+    shown = special("fold", 5.2)._repr_html_()
+    for words in ("fold (LP)", "5.2", "0.015 s", "0.25 1/s", "1+0j, modulus 1"):
+        assert f"<td>{words}</td>" in shown

@@ -118,6 +118,13 @@ def test_ranges_are_those_of_simulated_periods(branch: Branch) -> None:
         assert branch.range[i] == pytest.approx(size, rel=1e-6)
 
 
+def test_a_table_of_special_points_tells_a_state_by_time_and_phase(branch: Branch) -> None:
+    """The numbers of each state made a row 120 characters longer."""
+    state = branch.special[0].state
+    assert "State(0 s, stick)" in branch.special_points.to_string()
+    assert f"psi={state.psi:.6g} rad" in repr(state)
+
+
 def test_special_points_have_their_multipliers(branch: Branch) -> None:
     for special in branch.special:
         if special.kind not in ("fold", "neimark_sacker", "period_doubling"):
@@ -310,6 +317,43 @@ def test_a_branch_in_a_parameter_without_columns_reaches_a_grazing_release() -> 
     )
     # both end at about the square of the distance at which a difference of orbits fails, 1e-4
     assert end.values[0] == pytest.approx(shorter.special[-1].values[0], abs=1e-6)
+
+
+def test_a_branch_ends_where_a_release_turns_round() -> None:
+    """It said that no step succeeds. Contact force and pull vanish there where stick ends; the
+    period goes on smoothly, with one forward release instead of two."""
+    case = Parameters(N=385, Omega=15.1)
+    settled = simulate(case, 120).final_state
+    bounds = (0.15, 0.38)
+    twice = continue_cycle(case, "mu_k", bounds, direction=-1, guess=settled, releases=2)
+    turned = (
+        "a release turns round: the contact force and the pull touch zero together where stick ends"
+    )
+    assert twice.ended == (
+        f"{turned}; the cycle beyond has 1 release: start again there with releases=1"
+    )
+    end = twice.special[-1]
+    assert end.kind == "grazing"
+    events = simulate(end.case, 0.9 * end.period, initial_state=end.state).events
+    release = events[events["kind"] == "stick_to_slip"].iloc[-1]
+    # of preloads of 385 N: the step ends within 1e-7 of the place, where the force falls like a root
+    assert 0 < release["P"] < 0.02
+
+    # from beyond the same place is found
+    beyond = end.case.replace(mu_k=end.case.mu_k - 1e-5)
+    settled = simulate(beyond, 60, initial_state=end.state).final_state
+    once = continue_cycle(beyond, "mu_k", bounds, direction=1, guess=settled)
+    assert once.ended.startswith(turned)
+    assert once.ended.endswith("start again there with releases=2")
+    # the shortest step over the scale of mu_k, 0.16, on either side
+    assert once.special[-1].values[0] == pytest.approx(end.values[0], abs=1e-6)
+    assert once.period[-1] == pytest.approx(end.period, rel=1e-6)
+
+    # and a search for two releases there says that the cycle has one
+    found = floquet(beyond, guess=settled, releases=2)
+    assert found.period == pytest.approx(2 * once.period[0], rel=1e-9)
+    assert found.message.endswith("it repeats after 1 release: find it with releases=1")
+    assert "repeats" not in floquet(case, guess=twice.state(0), releases=2).message
 
 
 def test_a_continuation_tells_how_far_it_is(capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -9,7 +10,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices
-from disc_model.display import counted, draw, html_table, number_text
+from disc_model.data.variables import values_text
+from disc_model.display import Summarised, counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
@@ -39,7 +41,7 @@ NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SpecialPoint:
+class SpecialPoint(Summarised):
     """A point of a branch at which the number or the stability of cycles changes, or its end.
 
     Attributes
@@ -99,6 +101,16 @@ class SpecialPoint:
     def __repr__(self) -> str:
         values = ", ".join(f"{value:.9g}" for value in self.values)
         return f"SpecialPoint({self.kind} at {values}, period {self.period:.6g} s)"
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        yield "kind", f"{self.kind} ({self.label})"
+        yield "values", ", ".join(f"{value:.9g}" for value in self.values)
+        yield "case", values_text(dict(self.case))
+        yield "period", number_text(self.period, "s", 9)
+        yield "growth rate", number_text(self.growth_rate, "1/s")
+        yield "share of stick", number_text(self.stick_fraction, "", 3)
+        yield "multiplier", f"{self.multiplier:.6g}, modulus {abs(self.multiplier):.9g}"
+        yield "stability", "changes" if self.changes_stability else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -187,7 +199,8 @@ class Branch:
         Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
         by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
         `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
-        cycle to simulate and draw. Its method `to_csv` writes a file; a state is a line of words there.
+        cycle to simulate and draw, of which the printed table shows time and phase. Its method `to_csv`
+        writes a file, with the same words for a state.
 
         Examples
         --------
@@ -404,7 +417,8 @@ class Branch:
         title: str | None = None,
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
-        parameter, thick where the cycle is stable, and the special points.
+        parameter, thick where the cycle is stable, and the special points. Dots are cycles that were
+        computed; of those that would touch on the page only some are drawn.
 
         The period is drawn in ms, the range in mm, all else in the units of its name: labels of your
         own need the same unit, such as `labels={"y": "Range (mm)"}`. The axis of growth rates is

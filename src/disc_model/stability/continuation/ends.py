@@ -12,6 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.display import counted
 from disc_model.errors import DiscModelError, ParameterError
 from disc_model.simulation.api import simulate
 from disc_model.stability.continuation.curve import CurvePoint, Rejected
@@ -58,6 +59,9 @@ GRAZINGS = {
     ("reattachment", False): "a grazing impact: the slider touches the disc without an impact",
 }
 """Words for the kind of the first event that differs, and whether it appears beyond the branch."""
+TURNED = (
+    "a release turns round: the contact force and the pull touch zero together where stick ends"
+)
 
 
 class End(NamedTuple):
@@ -102,6 +106,10 @@ def reason_of_loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) 
             return End(GRAZED, text)
     if str(rejected) == WITHOUT_RETURN["time_over"] and _slips_on(problem, last):
         return End(GRAZED, GRAZINGS["slip_to_stick", False])
+    releases = _releases_beyond_turn(problem, last, same_time)
+    if releases:
+        advice = f"the cycle beyond has {counted(releases, 'release')}: start again there with releases={releases}"
+        return End(GRAZED, f"{TURNED}; {advice}")
     text = f"no step from {problem.words(last)} succeeds: {rejected}"
     if str(rejected) not in WITHOUT_RETURN.values():
         text += "; start again beyond it"
@@ -131,6 +139,25 @@ def _slips_on(problem: CycleProblem, last: CurvePoint) -> bool:
     period = last.orbit.period
     motion = _events(problem, last.z + BEYOND[0] * last.tangent, period, period)
     return all(event.kind != "slip_to_stick" for event in motion)
+
+
+def _releases_beyond_turn(problem: CycleProblem, last: CurvePoint, same_time: float) -> int:
+    """The number of releases in a period just beyond a point where a release turns round: as a
+    backward one it is not counted, and the other way about. 0 if none does."""
+    if problem.order is None:
+        return 0
+    z = last.z + BEYOND[0] * last.tangent
+    counts = last.orbit.counts
+    for turned in (1, -1):
+        releases = counts.releases - turned
+        if releases == 0:  # without one, no motion comes to the section
+            continue
+        motion = problem.follow(z, tangent=False, releases=releases)
+        same_period = abs(motion.period / last.orbit.period - 1) < same_time
+        backward = motion.counts.backward_releases - counts.backward_releases
+        if motion.returned and same_period and backward == turned:
+            return releases
+    return 0
 
 
 def _are_same(one: Event | None, other: Event | None, same_time: float) -> bool:
