@@ -60,6 +60,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None")
         | {"events": "True"},
     ),
+    (dm.initial_state, {"case": P}, {"start": "None", "prerun": "None"}),
     (dm.outcome, {"case": P}, {"start": "None", "early_end": "True", "extrapolate": "True"}),
     (
         dm.critical_speed,

@@ -45,7 +45,8 @@ def simulate(  # noqa: PLR0913
         stick-slip rate with the fastest mode, under any law, errors are up to 60 times as large (docs/verification.md).
         Instead of a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the
         result
-    initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
+    initial_state : state at the start, such as one of `disc_model.initial_state` or a `final_state`; None is the static
+        start (static equilibrium, stick, spring relaxed)
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
     execution : progress, largest number of steps and audit of energies, see `Execution`

@@ -122,7 +122,8 @@ def outcome(
     ----------
     case : the case
     horizon : s
-    start : perturbations of the static start by name: u (m), u_velocity (m/s), f (rad/s)
+    start : perturbations of the static start by name: u (m), u_velocity (m/s), f (rad/s); `initial_state` makes the
+        state that they lead to
     evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
     after_separation : s, simulated after the first separation, so that the stretch shows the motion it leads to
     early_end : whether the simulation ends once a stable cycle or steady sliding is shown to be reached
