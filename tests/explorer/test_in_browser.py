@@ -156,6 +156,21 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
         assert opened.run("return document.documentElement.scrollWidth <= window.innerWidth")
 
 
+def test_map_bar_and_legend_are_seen_at_once(tmp_path: Path) -> None:
+    """In a usual window the bar and the legend were below its edge."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("plane", plane())], []), encoding="utf-8")
+    end_of = "return document.getElementById(arguments[0]).getBoundingClientRect().bottom"
+    with browser(tmp_path / "profile") as opened:
+        opened.resize(1280, 800)
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        assert opened.run("return document.documentElement.scrollHeight > window.innerHeight")
+        assert Explorer(opened).text("legend")
+        for id_ in ("map", "legend"):
+            assert opened.run(end_of, id_) <= 800
+
+
 def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> None:
     """A click on "no cycle found" showed a neighbour's cycle, which grows or decays."""
     study = plane().drop_vars(["outcome", "message"])
