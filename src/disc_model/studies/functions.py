@@ -14,6 +14,7 @@ from disc_model.display import counted, progress_bar
 from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
+from disc_model.sources import versions_text
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of
@@ -69,6 +70,7 @@ def _quantity(
         "parameters": case.canonical_json,
         "options": quantity.model_dump_json(),
         "message": message,
+        "versions": versions_text(),
     }
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:

@@ -13,6 +13,7 @@ import xarray as xr
 from disc_model.errors import Fault, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
+from disc_model.sources import versions_text
 from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
@@ -64,7 +65,8 @@ def sweep(
         (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
         words "", and a variable of True and False, such as `stable`, consists of 1, 0 and nan: select by
         ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included) and the `parameters` of the case
+        included), the `parameters` of the case and, in JSON, the
+        `versions` of disc_model and of what it uses
 
     Raises
     ------
@@ -95,7 +97,8 @@ def sweep(
     rule = f"must not be swept, because {call.title} searches along it"
     raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
     records = are_recorded(errors)
-    row = partial(_row, partial(function, **call.options), case, call, records)
+    ours = call.title if _is_ours(function) else ""
+    row = partial(_row, partial(function, **call.options), case, call, ours, records)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
 
     coordinates: dict[str, Any] = {}
@@ -116,14 +119,20 @@ def sweep(
         "options": options,
         "parameters": case.canonical_json,
         "base": base,
+        "versions": versions_text(),
     }
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+def _is_ours(function: Any) -> bool:
+    """Whether this is a function of this package; its module is None in some shells."""
+    return str(getattr(function, "__module__", "")).startswith("disc_model.")
 
 
 def _searched(function: Any, title: str, options: Mapping[str, Any]) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
     mean nothing: of `critical` the one that it searches, of a quantity those of its scan."""
-    ours = str(getattr(function, "__module__", "")).startswith("disc_model.")  # None in some shells
+    ours = _is_ours(function)
     if ours and title == "critical":
         return {options["name"]}
     if ours and title in quantity_names():
@@ -156,10 +165,10 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, call: Call, records: bool, numbered: tuple[int, Any]
+    function: Any, case: Parameters, call: Call, ours: str, records: bool, numbered: tuple[int, Any]
 ) -> dict[str, xr.Variable]:
-    """The variables of one call; what the function is wrongly given or returns at the first point
-    is a fault of all."""
+    """The variables of one call, `ours` being the name of a function of this package; what the
+    function is wrongly given or returns at the first point is a fault of all."""
     number, point = numbered
     try:
         result = _called(function, case, point)
@@ -173,7 +182,7 @@ def _row(
             return _failure(error)
         raise
     try:
-        variables = call.checked(result, variables_of_result(result))
+        variables = call.checked(result, variables_of_result(result, ours))
     except NUMERICAL as error:
         if number == 0:
             raise
