@@ -48,8 +48,12 @@ def sweep(
     zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
         pandas.DataFrame of cases. They are one dimension, whose name joins theirs. Columns of words under other names,
         such as names of samples, stay beside them as coordinates
-    workers : number of calls at a time; compiled code runs beside other threads
-    processes : whether they are processes instead of threads: the function must then be importable
+    workers : number of calls at a time, in threads: compiled code runs beside other threads, and other code in turn.
+        They pay for `simulate` over a minute or more. `floquet`, `outcome`, `critical` and `lyapunov_exponents` are
+        little faster so, or slower: use `processes`
+    processes : whether they are processes instead of threads: the function must then be importable. They pay where the
+        whole sweep takes half a second or more, such as 100 cycles of `floquet`; where processes are not forked (macOS,
+        Windows), each first takes some seconds to import the package
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
         as an executor of mpi4py or a client of dask.distributed, or with `map`
     progress : whether a bar on standard error shows how many calls are done
