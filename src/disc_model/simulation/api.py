@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from disc_model.errors import as_text, raise_faults, require, violations
+from disc_model.errors import as_text, raise_faults, require, violations, with_known_names
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import Ramp, Window, Windows, ramp_faults, resolved_windows
@@ -18,6 +18,7 @@ from disc_model.units import in_si
 _PLAIN = Execution()
 
 
+@with_known_names
 def simulate(  # noqa: PLR0913
     case: Parameters,
     t_end: float | str | None = None,
@@ -107,6 +108,7 @@ def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
     return request._replace(windows={**request.windows, **resolved})
 
 
+@with_known_names
 def snapshots(
     case: Parameters,
     times: ArrayLike,

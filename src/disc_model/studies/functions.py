@@ -11,7 +11,15 @@ import xarray as xr
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
-from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    raise_faults,
+    renamed,
+    require,
+    violations,
+    with_known_names,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
 from disc_model.sources import versions_text
@@ -106,6 +114,7 @@ def _scan(ends: Any, step: Any) -> Any:
     return {"start": ends[0], "stop": ends[1], "step": step}
 
 
+@with_known_names
 def outcome(
     case: Parameters,
     horizon: float | str = 1000.0,
@@ -162,6 +171,7 @@ def outcome(
 
 
 @renamed(scan="bounds")
+@with_known_names
 def critical_speed(  # noqa: PLR0913
     case: Parameters,
     bounds: tuple[float, float] = (5.0, 30.0),
@@ -241,6 +251,7 @@ def _with_reason(speeds: xr.Dataset) -> xr.Dataset:
     return speeds.assign_attrs(message=message)
 
 
+@with_known_names
 def basins(  # noqa: PLR0913
     case: Parameters,
     energies: Sequence[float] = (0.0,),
@@ -318,6 +329,7 @@ def basins(  # noqa: PLR0913
 
 
 @renamed(scan="bounds")
+@with_known_names
 def hysteresis(
     case: Parameters,
     bounds: tuple[float, float],
