@@ -113,19 +113,20 @@ def sweep(
             coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
-    options = json.dumps(chosen, sort_keys=True, default=repr)
-    stated = {**case.stated, "disc": case.canonical.get("disc")}
-    for name in searched:
-        stated.pop(name, None)
-    base = canonical_json(stated)
     attrs = {
         "function": call.title,
-        "options": options,
+        "options": json.dumps(chosen, sort_keys=True, default=repr),
         "parameters": case.canonical_json,
-        "base": base,
+        "base": _base(case, searched),
         "versions": versions_text(),
     }
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+def _base(case: Parameters, searched: set[str]) -> str:
+    """What the case states, in JSON, but for what the function varies by itself."""
+    stated = {**case.stated, "disc": case.canonical.get("disc")}
+    return canonical_json({name: x for name, x in stated.items() if name not in searched})
 
 
 def _is_ours(function: Any) -> bool:
