@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from disc_model import Parameters, Ramp, Window, simulate
+from disc_model import Parameters, Ramp, Window, initial_state, simulate
 from disc_model.display import html_table
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
@@ -87,6 +87,20 @@ def test_a_choice_of_modes_is_shown_with_what_it_was_compared_with() -> None:
         "growth with 4 diameters, 0 circles": "-0.1",
         "growth with 8 diameters, 1 circle": "-0.125",
     }
+
+
+def test_a_state_is_shown_without_its_modes() -> None:
+    state = initial_state(Parameters(N=385, Omega=15), {"u": 1e-3, "u_velocity": -0.25, "f": 2.0})
+    found = cells(state._repr_html_())
+    assert found[:6] == [
+        ["State", "value", "unit"],
+        ["time", "0", "s"],
+        ["phase", "slip", ""],
+        ["psi", "0", "rad"],
+        ["f", "2", "rad/s"],
+        ["u", f"{state.u:.6g}", "m"],
+    ]
+    assert found[6:] == [["u_velocity", "-0.25", "m/s"], ["modes", "5", ""]]
 
 
 def test_windows_and_ramps_are_shown_with_their_units() -> None:

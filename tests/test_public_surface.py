@@ -5,6 +5,7 @@ import math
 import pydoc
 import re
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -60,6 +61,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         dict.fromkeys(("initial_state", "windows", "stop_at", "duration"), "None")
         | {"events": "True"},
     ),
+    (dm.initial_state, {"case": P}, {"start": "None", "prerun": "None"}),
     (dm.outcome, {"case": P}, {"start": "None", "early_end": "True", "extrapolate": "True"}),
     (
         dm.critical_speed,
@@ -252,3 +254,31 @@ def test_signatures_have_plain_types_and_defaults() -> None:
     arguments = inspect.signature(dm.Disc).parameters
     assert arguments["shapes"].annotation == tuple[tuple[float, ...], ...]
     assert arguments["static_compliance"].default is None
+
+
+@pytest.mark.parametrize(
+    ("name", "given", "meant"),
+    [
+        ("outcome", {"horizn": 3}, "horizon"),
+        ("basins", {"energy": 3}, "energies"),
+        ("critical_speed", {"bound": (3, 4)}, "bounds"),
+        ("hysteresis", {"dwel": 5}, "dwell"),
+        ("simulate", {"t_ende": 3}, "t_end"),
+        ("snapshots", {"time": 3}, "times"),
+        ("initial_state", {"preruns": {}}, "prerun"),
+        ("floquet", {"tool": 3}, "tol"),
+        ("critical", {"point": 3}, "points"),
+        ("continue_cycle", {"bound": (3, 4)}, "bounds"),
+        ("neutral_curves", {"line": [3]}, "lines"),
+        ("lyapunov_exponents", {"durations": 3}, "duration"),
+        ("choose_modes", {"tolerances": 3}, "tolerance"),
+        ("split_growth", {"splits": 3}, "split"),
+    ],
+)
+def test_the_argument_that_is_meant_is_suggested(
+    name: str, given: dict[str, Any], meant: str
+) -> None:
+    """Study files did so; functions ended in a `TypeError` without it, and sweeps named none."""
+    for call in (partial(getattr(dm, name), P), partial(dm.sweep, getattr(dm, name), P, N=[200])):
+        with pytest.raises(dm.ParameterError, match=rf"is no .*, did you mean {meant}\?"):
+            call(**given)

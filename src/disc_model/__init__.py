@@ -34,6 +34,7 @@ _NAMES = {
     "simulation.api": "simulate snapshots Execution",
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
+    "simulation.starts": "initial_state",
     "simulation.states": "State deflection",
     "studies.functions": "outcome critical_speed basins hysteresis",
     "studies.whole_study": "run_study",
@@ -74,6 +75,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.api import Execution, simulate, snapshots
     from disc_model.simulation.case import Poincare, Ramp, Window
     from disc_model.simulation.result import Result
+    from disc_model.simulation.starts import initial_state
     from disc_model.simulation.states import State, deflection
     from disc_model.stability.continuation import Branch, continue_cycle
     from disc_model.stability.critical import critical

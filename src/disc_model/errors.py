@@ -10,6 +10,7 @@ import re
 import sys
 from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import wraps
+from inspect import signature
 from typing import Any, Self, TypeVar, cast
 
 from pydantic import BaseModel, ValidationError
@@ -48,6 +49,22 @@ def renamed(**names: str) -> Callable[[Function], Function]:
         return cast("Function", checked)
 
     return wrap
+
+
+def with_known_names(function: Function) -> Function:
+    """Have a function say which argument may be meant by a name that none of its arguments has."""
+    known = [*signature(function).parameters]
+
+    @wraps(function)
+    def checked(*args: Any, **named: Any) -> Any:
+        unknown = [name for name in named if name not in known]
+        rule = f"is no argument of {function.__name__}"
+        raise_faults(
+            [Fault.of((name,), named[name], rule + suggestion(name, known)) for name in unknown]
+        )
+        return function(*args, **named)
+
+    return cast("Function", checked)
 
 
 class Fault(str):

@@ -17,7 +17,7 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import Summarised, counted, number_text
-from disc_model.errors import DiscModelError, require
+from disc_model.errors import DiscModelError, require, with_known_names
 from disc_model.mode_measures import MEASURES
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
@@ -188,6 +188,7 @@ def real_modes(diameters: int, circles: int) -> int:
     return (circles + 1) * (2 * diameters + 1)
 
 
+@with_known_names
 def choose_modes(
     case: Parameters | Mapping[str, object],
     tolerance: float | None = None,

@@ -9,6 +9,7 @@ import contextlib
 import functools
 import hashlib
 import importlib.metadata
+import json
 import os
 import platform
 import subprocess
@@ -149,6 +150,12 @@ def cache_folder() -> Path:
 # ---- Commit and versions
 
 VERSIONS_OF = ("disc_model", "numpy", "scipy", "numba", "pandas", "xarray", "netCDF4")
+
+
+@functools.cache
+def versions_text() -> str:
+    """The `versions` as JSON, for an attribute of results."""
+    return json.dumps(versions(), sort_keys=True)
 
 
 def versions(*further: str) -> dict[str, str]:

@@ -156,6 +156,21 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
         assert opened.run("return document.documentElement.scrollWidth <= window.innerWidth")
 
 
+def test_map_bar_and_legend_are_seen_at_once(tmp_path: Path) -> None:
+    """In a usual window the bar and the legend were below its edge."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("plane", plane())], []), encoding="utf-8")
+    end_of = "return document.getElementById(arguments[0]).getBoundingClientRect().bottom"
+    with browser(tmp_path / "profile") as opened:
+        opened.resize(1280, 800)
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        assert opened.run("return document.documentElement.scrollHeight > window.innerHeight")
+        assert Explorer(opened).text("legend")
+        for id_ in ("map", "legend"):
+            assert opened.run(end_of, id_) <= 800
+
+
 def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> None:
     """A click on "no cycle found" showed a neighbour's cycle, which grows or decays."""
     study = plane().drop_vars(["outcome", "message"])
@@ -247,6 +262,65 @@ def test_the_call_of_every_point_runs(tmp_path: Path) -> None:
         found = eval(call, {"dm": dm})
         assert isinstance(found, xr.Dataset if name in SEARCHES else dm.Parameters), name
     assert calls["critical_speed"].startswith("dm.critical_speed(dm.Parameters(N=200, n_diam")
+
+
+def started_study() -> xr.Dataset:
+    """Points that start elsewhere than in the static start: named starts, each with kicks."""
+    starts = {
+        "apart": {"prerun": {"parameters": {"Omega": 15.1}, "time": 2.0}, "perturbation": {}},
+        "kicked": {"prerun": None, "perturbation": {"u_velocity": 0.5}},
+        "static": {"prerun": None, "perturbation": {}},
+    }
+    axes: dict[str, list[Any]] = {"start": [*starts], "perturbation_u": [0.0, -2.75e-3]}
+    attrs = {"base": json.dumps({"N": 385, "Omega": 13}), "starts": json.dumps(starts)}
+    values = np.arange(6.0).reshape(3, 2)
+    return xr.Dataset({"u_max": ([*axes], values)}, axes, attrs)
+
+
+def test_the_motion_of_a_point_begins_at_its_start(tmp_path: Path) -> None:
+    """All points had the call of the motion from the static start, which may come to something else."""
+    started = started_study()
+    options = {"prerun": None, "perturbation": {"u": 1e-4}}
+    attrs = {"base": started.attrs["base"], "options": json.dumps(options)}
+    alike = xr.Dataset({"u_max": ("c_p", [1.0, 2.0])}, {"c_p": [0.0, 0.02]}, attrs)
+    explorer_path = tmp_path / "explorer.html"
+    told = [contents_of("started", started), contents_of("alike", alike)]
+    explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
+    case = "case = dm.Parameters(N=385, Omega=13)\nstart = dm.initial_state(case, "
+    after = 'prerun={"parameters": {"Omega": 15.1}, "time": 2}'
+    expected = {
+        (0, 0): f"{case}{after})",
+        (0, 1): f'{case}{{"u": -0.00275}}, {after})',
+        (1, 0): f'{case}{{"u_velocity": 0.5}})',
+        (1, 1): f'{case}{{"u_velocity": 0.5, "u": -0.00275}})',
+        (2, 0): "dm.Parameters(N=385, Omega=13)",
+        (2, 1): f'{case}{{"u": -0.00275}})',
+    }
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        shown = Explorer(opened)
+        calls = {}
+        for start, kick in expected:
+            opened.run("choose({start: arguments[0], perturbation_u: arguments[1]})", start, kick)
+            calls[start, kick] = [shown.text(x) for x in ("call", "motion-says", "motion-call")]
+        shown.choose("Study", "alike")
+        assert 'start = dm.initial_state(case, {"u": 0.0001})' in shown.text("call")
+    for place, text in expected.items():
+        assert calls[place][0] == text
+    assert calls[2, 0][1] == "The motion of this case from the static start:"
+    assert calls[2, 0][2] == "dm.simulate(dm.Parameters(N=385, Omega=13), 60).plot()"
+
+    call, says, motion = calls[0, 1]
+    assert says == "The motion of this case from its start, with both as above:"
+    names: dict[str, Any] = {"dm": dm}
+    exec(call, names)
+    run = eval(motion.removesuffix(".plot()").replace("60", "0.01"), names)
+    start = names["start"]
+    before = dm.simulate(names["case"].replace(Omega=15.1), 2).final_state
+    # the kick is added to a height of some 9 mm, whose rounding is 1e-18 m
+    assert start.u - before.u == pytest.approx(-2.75e-3, abs=1e-15)
+    assert run.status.complete
 
 
 def moves_by_arrow_keys(shown: Explorer) -> None:

@@ -15,6 +15,7 @@ from PIL import Image
 
 import disc_model as dm
 from disc_model.figures.spectrum import draw_spectrum
+from disc_model.figures.sweep import OF_FUNCTIONS
 from tests.figures.reading import labels
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -232,6 +233,31 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     assert axes.get_ylim() == (0.38, 0.42)
     exponents = dm.lyapunov_exponents(P, 0.5, count=2)
     assert exponents.plot().get_title(loc="left") == "over 0.5 s, 0 separations"
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "label"),
+    [
+        ("lyapunov_exponents", {"duration": 0.2, "count": 2}, "Largest Lyapunov exponent (1/s)"),
+        ("simulate", {"t_end": 0.1}, "Number of separations"),
+        (
+            "coupled_natural_frequencies",
+            {},
+            "Lowest natural frequency of disc\nand attached slider (rad/s)",
+        ),
+        ("choose_modes", {}, "Number of real-valued modes"),
+    ],
+)
+def test_a_sweep_shows_first_what_a_reader_looks_for(
+    name: str, options: dict[str, Any], label: str
+) -> None:
+    """It showed the time of averaging, the steps of the simulation, or the status."""
+    swept = dm.sweep(getattr(dm, name), P, k=[4e4, 5e4, 6e4], **options)
+    ax = dm.plot_sweep(swept)
+    shown = swept[OF_FUNCTIONS[name]]
+    first = shown.isel(dict.fromkeys({*shown.dims} - {"k"}, 0))
+    np.testing.assert_allclose(ax.lines[0].get_ydata(), first)
+    assert " ".join(ax.get_ylabel().split()) == " ".join(label.split())
 
 
 def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:

@@ -17,8 +17,9 @@ from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
-from disc_model.simulation.starts import make_initial_state
+from disc_model.simulation.starts import initial_state, make_initial_state
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
+from disc_model.studies.functions import outcome
 from tests.contact_laws import LAWS
 from tests.studies.conftest import computed
 
@@ -35,6 +36,34 @@ def test_a_preparation_that_fails_is_reported() -> None:
     found = computed(**raw).isel(Omega=0)
     assert flag_names(found["status"]) == "failed"
     assert "ParameterError" in str(found["message"].item())
+
+
+def test_a_start_can_be_simulated_by_itself() -> None:
+    """A start perturbed as in `outcome` could not be given to `simulate`."""
+    case = Parameters(N=385, Omega=13)
+    kick = {"u": -2.75e-3, "u_velocity": 1.375}
+    prerun = {"parameters": {"Omega": 14.0}, "time": 0.5}
+    before = transfer_state(case, simulate(case.replace(Omega=14.0), 0.5).final_state)
+    assert initial_state(case) == static_start(case)
+    assert initial_state(case, kick) == perturb(case, static_start(case), **kick)
+    assert initial_state(case, prerun=prerun) == before
+    assert initial_state(case, kick, prerun=prerun) == perturb(case, before, **kick)
+
+    reached = outcome(case, 45, start=kick)
+    run = simulate(case, 45, initial_state=initial_state(case, kick))
+    # both compute the same steps up to the event
+    assert reached["first_separation"].item() == pytest.approx(run.first_separation, rel=1e-12)
+    assert np.isnan(simulate(case, 45).first_separation)
+
+
+def test_a_wrong_start_is_named_as_an_argument() -> None:
+    for given, fault in (
+        ({"start": {"v": 1.0}}, "start.v="),
+        ({"prerun": {"parameters": {"Omga": 3}, "time": 1}}, "prerun.parameters.Omga=3"),
+        ({"prerun": {"parameters": {"n_diameters": 2}, "time": 1}}, "prerun.parameters.n_diam"),
+    ):
+        with pytest.raises(ParameterError, match=fault):
+            initial_state(Parameters(N=385, Omega=15.1), **given)
 
 
 # ---- the modes that a state belongs to

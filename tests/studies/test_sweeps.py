@@ -1,5 +1,7 @@
 """Sweeps: what is called, by whom, and what is gathered."""
 
+import dataclasses
+import inspect
 import json
 import re
 import sys
@@ -175,6 +177,79 @@ def test_results_of_each_class_have_their_own_units_and_names() -> None:
     assert exponents["exponents"].attrs["units"] == "s-1"
     assert exponents["duration"].attrs["units"] == "s"
     assert exponents["separations"].attrs["units"] == "1"
+
+
+SWEPT: dict[str, dict[str, Any]] = {
+    "basins": {"energies": [1e-3], "horizon": 2, "n_bisection_directions": 0},
+    "choose_modes": {},
+    "continue_cycle": {"name": "Omega", "bounds": (13.9, 14.1)},
+    "coupled_natural_frequencies": {},
+    "critical": {"name": "mu_s", "bounds": (0.3, 0.5), "points": 2},
+    "critical_speed": {"bounds": (13, 14), "horizon": 3},
+    "floquet": {},
+    "hysteresis": {"bounds": (13, 14), "step": 1, "dwell": 5, "max_dwell": 5},
+    "lyapunov_exponents": {"duration": 0.2, "count": 1},
+    "outcome": {"horizon": 2},
+    "pinned_range": {"frequency": 135.0},
+    "residual_flexibility": {},
+    "simulate": {"t_end": 0.1},
+    "split_growth": {"split": 0.0},
+    "steady_sliding": {},
+}
+"""Functions whose results a sweep gathers, with few options."""
+NOT_SWEPT = {"initial_state", "snapshots", "deflection", "plate_modes", "plot_modes", "fit"}
+NOT_SWEPT |= {"neutral_curves"}
+"""Those of a case whose results are tables, pictures, states or several curves."""
+
+
+def test_all_functions_of_a_case_are_known() -> None:
+    of_a_case = {
+        name
+        for name in dm.__all__
+        if inspect.isfunction(getattr(dm, name))
+        and "case" in inspect.signature(getattr(dm, name)).parameters
+    }
+    assert of_a_case - {"sweep"} == SWEPT.keys() | NOT_SWEPT
+
+
+@pytest.mark.parametrize("name", SWEPT)
+def test_all_that_a_sweep_gathers_has_a_unit_and_a_name(name: str) -> None:
+    """Crossings of `critical` and residuals of `floquet` had none."""
+    swept = sweep(getattr(dm, name), P.replace(n_diameters=1), N=[300], **SWEPT[name])
+    assert swept["status"].item() != "failed", swept["message"].item()
+    for key, variable in swept.variables.items():
+        if key in ("status", "message"):
+            continue
+        assert variable.attrs.get("long_name"), key
+        assert variable.dtype.kind in "UO" or variable.attrs.get("units"), key
+
+
+def test_values_of_a_search_are_in_the_unit_of_its_parameter() -> None:
+    for name, unit in (("Omega", "rad s-1"), ("mu_k", "1")):
+        bounds = (13.0, 14.0) if name == "Omega" else (0.2, 0.3)
+        found = sweep(
+            dm.critical, P.replace(n_diameters=1), N=[300], name=name, bounds=bounds, points=2
+        )
+        for key in ("value", "values", "crossings", "resolution"):
+            assert found[key].attrs["units"] == unit, key
+
+
+def test_what_computed_a_sweep_is_stated(tmp_path: Path) -> None:
+    """Files of sweeps, branches and runs did not say by which version they were made."""
+    case = P.replace(n_diameters=1)
+    run = dm.simulate(case, 0.01)
+    for data in (
+        sweep(dm.steady_sliding, case, N=[300]),
+        dm.outcome(case, 1),
+        dm.continue_cycle(case, "Omega", (13.9, 14.1)).to_dataset(),
+        run.to_tree(),
+    ):
+        assert json.loads(data.attrs["versions"])["disc_model"] == dm.__version__
+    made_elsewhere = dataclasses.replace(run, versions='{"disc_model": "0.2.9"}')
+    for name in ("run.nc", "run.mat"):
+        made_elsewhere.save(tmp_path / name)
+        assert dm.Result.load(tmp_path / name).versions == made_elsewhere.versions
+        assert dm.Result.load(tmp_path / name) == run
 
 
 def test_a_sweep_states_its_base_and_its_function() -> None:

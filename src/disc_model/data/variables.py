@@ -140,6 +140,11 @@ _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="
 SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS = map(
     _variables, ("series", "scalars", "perturbations", "modal", "of_grids")
 )
+OF_RESULTS = {
+    kind: {name: Variable(*entry) for name, entry in table.items()}
+    for kind, table in _TABLES["results"].items()
+}
+"""Variables of results by their class or function, which may mean something else elsewhere."""
 COUNTS = {
     "steps": "steps",
     "n_events": "events",

@@ -90,6 +90,8 @@ def _study_contents(
         "title": str(study.attrs.get("title", "")) or name,
         "call": {"before": stated.before, "after": stated.after, "begins": dict(stated.begins)},
         "discs": json.loads(study.attrs.get("discs", "{}")),
+        "starts": json.loads(study.attrs.get("starts", "{}")),
+        "start": _start_of_all(study),
         "has_figures": stated.has_figures,
         "axes": [name for name in stated.axes if name in study.sizes],
         "first": stated.variable,
@@ -99,6 +101,12 @@ def _study_contents(
         "messages": _messages(study),
         "motions": shown_motions,
     }
+
+
+def _start_of_all(study: xr.Dataset) -> dict[str, Any]:
+    """The start of a study's motions in its options, to which the start of a point is added."""
+    options = json.loads(study.attrs.get("options", "{}"))
+    return {name: options[name] for name in ("prerun", "perturbation") if options.get(name)}
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:

@@ -45,7 +45,8 @@ def plot_sweep(  # noqa: PLR0913
     ----------
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
         several values
-    variable : the shares of starts, the growth rate, the outcome or the first number there is if not given
+    variable : if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent, the
+        number of separations of `simulate`, the lowest coupled frequency, or the first number there is
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
         given
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,

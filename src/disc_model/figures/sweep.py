@@ -30,6 +30,18 @@ PREFERRED = (
     "kind",
 )
 """Variables that are drawn unless another one is asked for, the first that there is."""
+OF_FUNCTIONS = {
+    "choose_modes": "modes",
+    "coupled_natural_frequencies": "value",
+    "lyapunov_exponents": "exponents",
+    "simulate": "n_separations",
+}
+"""Variables that are drawn before those, of sweeps of a function."""
+FIRST_OF_SEVERAL = {
+    "exponents": "largest Lyapunov exponent",
+    "value": "lowest natural frequency of disc and attached slider",
+}
+"""Names of the first value of such variables that have several at each point."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 
@@ -54,6 +66,8 @@ def plot_sweep(  # noqa: PLR0913
         (isinstance(log, bool), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
+    if not variable:
+        study = _with_first_values(study)  # type: ignore[arg-type]  # checked
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
     varying, column = _along_pairs(whole, x)
     if not column:
@@ -94,6 +108,17 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
     return study.squeeze(
         [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
     )
+
+
+def _with_first_values(study: xr.Dataset) -> xr.Dataset:
+    """The study with the first value at each point of the usual variable of its function."""
+    name = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    if name not in FIRST_OF_SEVERAL or name not in study:
+        return study
+    several = [dim for dim in study[name].dims if dim == f"{name}_index"]
+    first = study[name].isel(dict.fromkeys(several, 0))
+    attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
+    return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
 
 
 def _ascending(study: xr.Dataset) -> xr.Dataset:
@@ -146,7 +171,8 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     over = {str(name): {*values.dims} for name, values in study.items()}
     choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
     flat = [name for name in choices if len(over[name]) < 3]
-    preferred = [name for name in PREFERRED if name in flat]
+    of_function = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    preferred = [name for name in (of_function, *PREFERRED) if name in flat]
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
     usual = next(iter([*preferred, *numeric, *choices]), "")
     named = variable or usual

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from disc_model.errors import as_text, raise_faults, require, violations
+from disc_model.errors import as_text, raise_faults, require, violations, with_known_names
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import Ramp, Window, Windows, ramp_faults, resolved_windows
@@ -18,6 +18,7 @@ from disc_model.units import in_si
 _PLAIN = Execution()
 
 
+@with_known_names
 def simulate(  # noqa: PLR0913
     case: Parameters,
     t_end: float | str | None = None,
@@ -45,7 +46,8 @@ def simulate(  # noqa: PLR0913
         stick-slip rate with the fastest mode, under any law, errors are up to 60 times as large (docs/verification.md).
         Instead of a larger value than 1.25e-7 (2e-6 on a compliant contact), this limit is used, and recorded in the
         result
-    initial_state : state at the start; None is the static start (static equilibrium, stick, spring relaxed)
+    initial_state : state at the start, such as one of `disc_model.initial_state` or a `final_state`; None is the static
+        start (static equilibrium, stick, spring relaxed)
     stop_at : None, or "first_separation" to end at the first loss of contact
     ramps : slow changes of Omega or N, in absolute time: a ramp may have begun before the initial state's time
     execution : progress, largest number of steps and audit of energies, see `Execution`
@@ -106,6 +108,7 @@ def _with_windows_to_the_stop(request: Request, windows: Windows) -> Request:
     return request._replace(windows={**request.windows, **resolved})
 
 
+@with_known_names
 def snapshots(
     case: Parameters,
     times: ArrayLike,

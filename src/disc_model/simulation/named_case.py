@@ -10,7 +10,7 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.simulation.request import Execution
 from disc_model.simulation.starts import make_initial_state
-from disc_model.sources import PHYSICS, git_commit, source_hash, versions
+from disc_model.sources import PHYSICS, git_commit, source_hash, versions_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,7 +73,7 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
     tree.attrs |= {
         "source_hash": source_hash(*PHYSICS),
         "git_commit": git_commit(),
-        "versions": json_attribute(versions()),
+        "versions": versions_text(),
         "specification": spec.beside,
         "specification_key": spec.key,
     }

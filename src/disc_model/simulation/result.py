@@ -25,6 +25,7 @@ from disc_model.errors import Fault, ParameterError, Status, require, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
+from disc_model.sources import versions_text
 from disc_model.units import Count, Finite, Real, Strict, in_si
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ SAMPLE_ROW = record.SAMPLE_ROW[1:]
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
 """Columns of a window with an envelope."""
-_PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0")
+_PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0", "versions")
 """Values of a `Result` that its files hold as they are."""
 
 
@@ -68,6 +69,7 @@ class Result(Summarised, RunPictures, EqualByValue):
     statistics : steps, events, separations, time_stick, time_slip, time_separation (s); of the audit of energies
         energy_residual, audited_steps and, nan unless every step is audited, energy_residual_transverse and
         energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves; wall_time (s)
+    versions : JSON of the versions of disc_model and of what it uses, by which the motion was computed
 
     Examples
     --------
@@ -93,11 +95,12 @@ class Result(Summarised, RunPictures, EqualByValue):
     samples: Mapping[str, dict[str, Array]] = field(default_factory=dict)
     ramps: tuple[Ramp, ...] = ()
     initial_state: State | None = field(default=None, repr=False)
+    versions: str = field(default_factory=versions_text, repr=False)
 
     def _compared(self) -> dict[str, Any]:
-        """All but the wall time, which files do not hold."""
+        """All but the wall time, which files do not hold, and what computed the motion."""
         motion = {name: x for name, x in self.statistics.items() if name != "wall_time"}
-        return super()._compared() | {"statistics": motion}
+        return super()._compared() | {"statistics": motion, "versions": ""}
 
     @property
     def _event_columns(self) -> dict[str, Array]:
@@ -167,6 +170,7 @@ class Result(Summarised, RunPictures, EqualByValue):
         from disc_model.data.columns import scalars_dataset, series_dataset
 
         scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
+        scalars.attrs["versions"] = self.versions
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
         groups = {"/": scalars, "events": series_dataset(self._event_columns, "event")}
@@ -376,6 +380,7 @@ class Header(Strict):
     message: str
     first_separation: Real
     u_0: Real
+    versions: str = ""
 
 
 def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Result:

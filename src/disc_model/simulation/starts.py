@@ -2,14 +2,79 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import lru_cache
+from typing import Any
 
-from disc_model.errors import require
-from disc_model.parameters import Parameters
+from disc_model.errors import Fault, ParameterError, raise_faults, require, with_known_names
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
 from disc_model.simulation.states import State
+from disc_model.units import TOLERANCES, limits_faults
+
+OF_STUDIES = {"perturbation": "start"}
+"""Argument of `initial_state` for what study files call otherwise."""
+
+
+@with_known_names
+def initial_state(
+    case: Parameters,
+    start: Mapping[str, float] | None = None,
+    *,
+    prerun: Mapping[str, Any] | None = None,
+    tol: float = 1e-10,
+) -> State:
+    """State from which `outcome`, or a point of a study, starts, for the `initial_state` of
+    `simulate`, `snapshots` and `lyapunov_exponents`.
+
+    Parameters
+    ----------
+    case : the case
+    start : perturbations of the static start by name, as in `outcome`: u (m), u_velocity (m/s), f (rad/s)
+    prerun : another case that is simulated first, from the static start, as in study files: its `parameters` that
+        differ from the case's, and the `time` (s) after which its state is taken. The perturbations are added to this
+        state
+    tol : as in `simulate`, of the prerun
+
+    Returns
+    -------
+    State
+        At time 0.
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule; the message names the argument, its value and the rule.
+    SimulationError
+        If the prerun ends early.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=13)
+    >>> pushed = dm.initial_state(case, {"u": -0.00275, "u_velocity": 1.375})
+    >>> run = dm.simulate(case, 60, initial_state=pushed)
+    >>> print(f"{dm.simulate(case, 60).first_separation} s, {run.first_separation:.2f} s")
+    nan s, 42.23 s
+    """
+    faults = [*foreign_case(case), *limits_faults("tol", tol, TOLERANCES)]
+    try:
+        begin = Start.model_validate(
+            {"perturbation": {} if start is None else start, "prerun": prerun}
+        )
+    except ParameterError as error:
+        faults += [_fault_of_argument(fault) for fault in error.faults]
+    raise_faults(faults)
+    state = make_initial_state(case, begin, tol)
+    return states.static_start(case) if state is None else state
+
+
+def _fault_of_argument(fault: Fault) -> Fault:
+    """The fault of a start, as that of an argument of `initial_state`."""
+    name, *within = fault.path
+    return Fault((OF_STUDIES.get(name, name), *within), fault.value, fault.rule)
 
 
 def make_initial_state(p: Parameters, start: Start, tol: float) -> State | None:

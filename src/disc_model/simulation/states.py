@@ -18,7 +18,7 @@ from pydantic import Field
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import PHASES, SERIES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import (
     modal_damping,
@@ -29,6 +29,7 @@ from disc_model.disc.plate import (
     tangential_amplitudes,
 )
 from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.display import html_table
 from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
@@ -145,6 +146,18 @@ class State(EqualByValue):
     def __str__(self) -> str:
         """What names it in a row of a table."""
         return f"State({self.time:.6g} s, {self.phase})"
+
+    def _repr_html_(self) -> str:
+        """The state without its modes as a table in a notebook."""
+        rows: list[tuple[object, ...]] = [
+            ("time", f"{self.time:.9g}", "s"),
+            ("phase", self.phase, ""),
+        ]
+        for name in ("psi", "f", "u", "u_velocity"):
+            unit = SERIES[name].units.replace(" s-1", "/s")
+            rows.append((name, f"{getattr(self, name):.6g}", unit))
+        rows.append(("modes", len(self.a), ""))
+        return html_table((type(self).__name__, "value", "unit"), rows)
 
     def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of

@@ -10,7 +10,7 @@ import numpy as np
 from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.display import Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import raise_faults, violations
+from disc_model.errors import raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
@@ -116,6 +116,7 @@ class Critical(Drawn, EqualByValue):
 
 
 @compiling()
+@with_known_names
 def critical(
     case: Parameters,
     name: str,

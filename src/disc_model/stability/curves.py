@@ -12,7 +12,7 @@ from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import ParameterError, raise_faults, violations
+from disc_model.errors import ParameterError, raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
@@ -123,6 +123,7 @@ class _Seed(NamedTuple):
 
 
 @compiling()
+@with_known_names
 def neutral_curves(
     case: Parameters,
     bounds: Mapping[str, tuple[Quantity, Quantity]],

@@ -24,7 +24,14 @@ from disc_model.arrays import EqualByValue, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, mode_arrays
 from disc_model.display import Summarised, number_text
-from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    raise_faults,
+    require,
+    violations,
+    with_known_names,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.stability.return_map import Array
 from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
@@ -89,6 +96,7 @@ class Pair(NamedTuple):
     beta: int
 
 
+@with_known_names
 def split_growth(case: Parameters, split: float | Iterable[float] | None = None) -> SplitGrowth:
     """Find whether the split of pairs of modes matters to steady sliding: growth rates with equal
     frequencies, with the split, and of each half by itself.

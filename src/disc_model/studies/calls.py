@@ -180,10 +180,9 @@ def _unknown(
     options: Mapping[str, Any], parameters: Mapping[str, Any], numbers: Sequence[str]
 ) -> Iterator[Fault]:
     """Yield a fault for each named value that neither the case nor the function has."""
+    known = [*[*parameters][1:], *numbers]
     for name in options.keys() - parameters.keys():
-        rule = (
-            f"is no number of the case, and no argument of the function{suggestion(name, numbers)}"
-        )
+        rule = f"is no number of the case, and no argument of the function{suggestion(name, known)}"
         yield Fault.of((name,), options[name], rule)
 
 

@@ -11,9 +11,18 @@ import xarray as xr
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
-from disc_model.errors import Fault, ParameterError, raise_faults, renamed, require, violations
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    raise_faults,
+    renamed,
+    require,
+    violations,
+    with_known_names,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
+from disc_model.sources import versions_text
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of
@@ -69,6 +78,7 @@ def _quantity(
         "parameters": case.canonical_json,
         "options": quantity.model_dump_json(),
         "message": message,
+        "versions": versions_text(),
     }
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
     for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
@@ -104,6 +114,7 @@ def _scan(ends: Any, step: Any) -> Any:
     return {"start": ends[0], "stop": ends[1], "step": step}
 
 
+@with_known_names
 def outcome(
     case: Parameters,
     horizon: float | str = 1000.0,
@@ -122,7 +133,8 @@ def outcome(
     ----------
     case : the case
     horizon : s
-    start : perturbations of the static start by name: u (m), u_velocity (m/s), f (rad/s)
+    start : perturbations of the static start by name: u (m), u_velocity (m/s), f (rad/s); `initial_state` makes the
+        state that they lead to
     evaluation_time : s, length of the last stretch, over which ranges and shares of the phases are taken
     after_separation : s, simulated after the first separation, so that the stretch shows the motion it leads to
     early_end : whether the simulation ends once a stable cycle or steady sliding is shown to be reached
@@ -159,6 +171,7 @@ def outcome(
 
 
 @renamed(scan="bounds")
+@with_known_names
 def critical_speed(  # noqa: PLR0913
     case: Parameters,
     bounds: tuple[float, float] = (5.0, 30.0),
@@ -238,6 +251,7 @@ def _with_reason(speeds: xr.Dataset) -> xr.Dataset:
     return speeds.assign_attrs(message=message)
 
 
+@with_known_names
 def basins(  # noqa: PLR0913
     case: Parameters,
     energies: Sequence[float] = (0.0,),
@@ -315,6 +329,7 @@ def basins(  # noqa: PLR0913
 
 
 @renamed(scan="bounds")
+@with_known_names
 def hysteresis(
     case: Parameters,
     bounds: tuple[float, float],

@@ -13,7 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.variables import COORDINATES, SCALARS, TRUTH, Variable
+from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, TRUTH
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -40,57 +40,60 @@ def _common() -> dict[str, dict[str, Any]]:
 
 
 @cache
-def _of_class(name: str) -> dict[str, dict[str, Any]]:
-    """Units and names of the variables of a result of a class, which has names of its own: a cycle
-    and steady sliding both have a growth rate."""
+def _of_kind(kind: str) -> dict[str, dict[str, Any]]:
+    """Units and names of the variables of a class of results, or of a function of plain numbers,
+    which has names of its own: a cycle and steady sliding both have a growth rate."""
+    columns = dict(OF_RESULTS.get(kind, {}))
     of_cycle = quantity_of("floquet").COLUMNS
-    columns: Mapping[str, Variable] = {}
-    if name == "FloquetResult":
-        others = {
-            "tol": Variable("1", "relative error with which the cycle returns to its start"),
-            "releases": Variable("1", "number of stick releases in its period"),
-            "separations": Variable("1", "number of separations in its period"),
-        }
-        columns = {**of_cycle, **others}
-    elif name == "SteadySliding":
-        columns = {
-            "growth_rate": of_cycle["sliding_growth_rate"],
-            "psi": Variable("rad", "angle of the drive point ahead of the slider"),
-            "eigenvalues": Variable("s-1", "eigenvalue of disturbances of steady sliding"),
-            **COORDINATES,
-        }
-    elif name == "Lyapunov":
-        columns = {
-            "exponents": Variable("s-1", "Lyapunov exponent"),
-            "errors": Variable("s-1", "uncertainty of the Lyapunov exponent"),
-            "duration": Variable("s", "time over which exponents are taken"),
-            "separations": Variable("1", "number of separations in that time"),
-        }
-    return {
-        name: column.attributes
-        for name, column in columns.items()
-        if column.units and not column.flags
-    }
+    match kind:
+        case "FloquetResult":
+            columns = {**of_cycle, **columns}
+        case "SteadySliding":
+            columns |= {"growth_rate": of_cycle["sliding_growth_rate"], **COORDINATES}
+        case "Result":
+            columns = dict(SCALARS)
+    return {name: column.attributes for name, column in columns.items() if not column.flags}
 
 
-def _attributes_of(result: Any, name: str) -> dict[str, Any]:
+OF_PARAMETER = {
+    "value": "critical value of {}",
+    "crossings": "value of {} at which stability changes",
+    "values": "value of {} at which the motion was computed",
+    "resolution": "largest step between values of {} at which the motion was computed",
+    "not_reached": "value of {} that the branch does not reach",
+}
+"""Variables of searches along a parameter that are in its unit, and their names."""
+SEARCHES = ("Critical", "Branch")
+"""Classes of their results."""
+
+
+def _attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
     """Unit and name of a variable of a result of this package; empty if they are not known, and of a
     reader's own results, whose names need not mean the same."""
     kind = type(result).__name__
     if not is_dataclass(type(result)):
-        return {}
-    if (
-        kind == "Critical"
-        and name == "value"
-        and result.name in (*Parameters.model_fields, *RATIOS)
-    ):
-        parameter = describe(result.name)
-        return {**parameter, "long_name": f"critical value of {parameter['long_name']}"}
-    return _of_class(kind).get(name) or _common().get(name, {})
+        return _of_kind(function).get(name, {})
+    if kind in SEARCHES and name in OF_PARAMETER:
+        along = result.name if kind == "Critical" else result.parameters[0]
+        parameter = {}
+        if along in (
+            *Parameters.model_fields,
+            *RATIOS,
+        ):  # numbers of a disc's modes have no unit here
+            parameter = describe(along)
+        meaning = parameter.get("long_name", along)
+        return {**parameter, "long_name": OF_PARAMETER[name].format(meaning)}
+    return _of_kind(kind).get(name) or _common().get(name, {})
 
 
-def variables_of_result(result: Any) -> dict[str, xr.Variable]:
-    """Numbers, words and one-dimensional arrays of a result; what else it holds is left out."""
+def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variable]:
+    """Numbers, words and one-dimensional arrays of a result; what else it holds is left out.
+
+    Parameters
+    ----------
+    result : what a function has returned
+    function : its name, if it is one of this package
+    """
     if isinstance(result, xr.DataArray):
         result = result.to_dataset(name=result.name or "value")
     if isinstance(result, xr.Dataset):
@@ -101,7 +104,7 @@ def variables_of_result(result: Any) -> dict[str, xr.Variable]:
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
             variables[name] = xr.Variable(
-                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name)
+                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name, function)
             )
     return variables
 

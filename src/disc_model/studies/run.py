@@ -8,12 +8,12 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.dataset import CONVENTIONS, json_attribute
+from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters, case_of
 from disc_model.simulation.case import Start
-from disc_model.sources import BATCHES, git_commit, quantity_file, source_hash, versions
+from disc_model.sources import BATCHES, git_commit, quantity_file, source_hash, versions_text
 from disc_model.studies.batch import Batch, TileSides
 from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, tried
 from disc_model.studies.registry import quantity_of
@@ -59,7 +59,7 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
         "specification": text,
         "source_hash": source_hash(*BATCHES, quantity_file(batch.quantity)),
         "git_commit": git_commit(),
-        "versions": json_attribute(versions()),
+        "versions": versions_text(),
     }
     return xr.Dataset(variables, coords, attrs)
 

@@ -13,6 +13,7 @@ import xarray as xr
 from disc_model.errors import Fault, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import RATIOS, Parameters
+from disc_model.sources import versions_text
 from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
@@ -47,8 +48,12 @@ def sweep(
     zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
         pandas.DataFrame of cases. They are one dimension, whose name joins theirs. Columns of words under other names,
         such as names of samples, stay beside them as coordinates
-    workers : number of calls at a time; compiled code runs beside other threads
-    processes : whether they are processes instead of threads: the function must then be importable
+    workers : number of calls at a time, in threads: compiled code runs beside other threads, and other code in turn.
+        They pay for `simulate` over a minute or more. `floquet`, `outcome`, `critical` and `lyapunov_exponents` are
+        little faster so, or slower: use `processes`
+    processes : whether they are processes instead of threads: the function must then be importable. They pay where the
+        whole sweep takes half a second or more, such as 100 cycles of `floquet`; where processes are not forked (macOS,
+        Windows), each first takes some seconds to import the package
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
         as an executor of mpi4py or a client of dask.distributed, or with `map`
     progress : whether a bar on standard error shows how many calls are done
@@ -64,7 +69,8 @@ def sweep(
         (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
         words "", and a variable of True and False, such as `stable`, consists of 1, 0 and nan: select by
         ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included) and the `parameters` of the case
+        included), the `parameters` of the case and, in JSON, the
+        `versions` of disc_model and of what it uses
 
     Raises
     ------
@@ -95,7 +101,8 @@ def sweep(
     rule = f"must not be swept, because {call.title} searches along it"
     raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
     records = are_recorded(errors)
-    row = partial(_row, partial(function, **call.options), case, call, records)
+    ours = call.title if _is_ours(function) else ""
+    row = partial(_row, partial(function, **call.options), case, call, ours, records)
     rows = calls.results(row, [*enumerate(call.points())], call.title)
 
     coordinates: dict[str, Any] = {}
@@ -106,24 +113,31 @@ def sweep(
             coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
-    options = json.dumps(chosen, sort_keys=True, default=repr)
-    stated = {**case.stated, "disc": case.canonical.get("disc")}
-    for name in searched:
-        stated.pop(name, None)
-    base = canonical_json(stated)
     attrs = {
         "function": call.title,
-        "options": options,
+        "options": json.dumps(chosen, sort_keys=True, default=repr),
         "parameters": case.canonical_json,
-        "base": base,
+        "base": _base(case, searched),
+        "versions": versions_text(),
     }
     return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+
+
+def _base(case: Parameters, searched: set[str]) -> str:
+    """What the case states, in JSON, but for what the function varies by itself."""
+    stated = {**case.stated, "disc": case.canonical.get("disc")}
+    return canonical_json({name: x for name, x in stated.items() if name not in searched})
+
+
+def _is_ours(function: Any) -> bool:
+    """Whether this is a function of this package; its module is None in some shells."""
+    return str(getattr(function, "__module__", "")).startswith("disc_model.")
 
 
 def _searched(function: Any, title: str, options: Mapping[str, Any]) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
     mean nothing: of `critical` the one that it searches, of a quantity those of its scan."""
-    ours = str(getattr(function, "__module__", "")).startswith("disc_model.")  # None in some shells
+    ours = _is_ours(function)
     if ours and title == "critical":
         return {options["name"]}
     if ours and title in quantity_names():
@@ -156,10 +170,10 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, call: Call, records: bool, numbered: tuple[int, Any]
+    function: Any, case: Parameters, call: Call, ours: str, records: bool, numbered: tuple[int, Any]
 ) -> dict[str, xr.Variable]:
-    """The variables of one call; what the function is wrongly given or returns at the first point
-    is a fault of all."""
+    """The variables of one call, `ours` being the name of a function of this package; what the
+    function is wrongly given or returns at the first point is a fault of all."""
     number, point = numbered
     try:
         result = _called(function, case, point)
@@ -173,7 +187,7 @@ def _row(
             return _failure(error)
         raise
     try:
-        variables = call.checked(result, variables_of_result(result))
+        variables = call.checked(result, variables_of_result(result, ours))
     except NUMERICAL as error:
         if number == 0:
             raise

@@ -68,6 +68,13 @@ function lackOfMotion(study, place) {
   return alike ? `No motion of this kind is stored: ${fateOf(study, place)}.` : "No motion is stored that is computed as this point is.";
 }
 
+/** What the call of a motion shows. A case may hold several motions, such as those after kicks at random. */
+function saidOfCall(study, place) {
+  if (startOf(study, place)) return "The motion of this case from its start, with both as above:";
+  const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
+  return `The motion of this case from the static start${above}:`;
+}
+
 const PANEL = { gap: 34, top: 20, bottom: 44, right: 12 };
 let motionDrawn = null;
 
@@ -82,8 +89,7 @@ function drawMotion() {
   motionDrawn = null;
   element("motion-call").textContent = own ? "" : simulation(study, place);
   element("motion-by-call").hidden = !element("motion-call").textContent;
-  const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
-  element("motion-says").textContent = `The motion of this point itself, from the static start${above}:`;
+  element("motion-says").textContent = saidOfCall(study, place);
   if (!motion) {
     element("motion-note").textContent = lackOfMotion(study, place);
     return;

@@ -52,27 +52,60 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
+/** The values of what varies at a point, in SI units, as pairs of name and value. */
+const variedAt = (study, place) =>
+  study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
+
+const CONSTANTS = new Map([[null, "None"], [true, "True"], [false, "False"]]);
+
+/** A value in Python. */
+function python(value) {
+  if (CONSTANTS.has(value)) return CONSTANTS.get(value);
+  if (Array.isArray(value)) return `[${value.map(python).join(", ")}]`;
+  if (typeof value !== "object") return JSON.stringify(value);
+  const pairs = Object.entries(value).map(([name, one]) => `${python(name)}: ${python(one)}`);
+  return `{${pairs.join(", ")}}`;
+}
+
 /** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; a parameter that the
  * quantity varies by itself has the value where its range begins. */
 function caseOf(study, place) {
-  const varied = study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
   const unusual = study.fixed.filter((one) => !one.usual);
-  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(study.call.begins), ...varied];
-  const python = (name, value) => JSON.stringify(name === "disc" ? study.discs[value] ?? value : value).replaceAll("null", "None");
-  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${python(name, value)}`);
+  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(study.call.begins), ...variedAt(study, place)];
+  const given = (name, value) => python(name === "disc" ? study.discs[value] ?? value : value);
+  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${given(name, value)}`);
   return `dm.Parameters(${stated.join(", ")})`;
 }
 
-/** The call in Python for a point: its case, or that of a quantity which varies a parameter by itself. */
-const call = (study, place) => `${study.call.before}${caseOf(study, place)}${study.call.after}`;
+const PERTURBED = "perturbation_"; // before a coordinate of the start that varies
+
+/** The arguments, in Python, of the start of a point's motion; "" for the static start. */
+function startOf(study, place) {
+  const varied = variedAt(study, place);
+  const named = Object.fromEntries(varied).start;
+  const { prerun, perturbation } = study.starts[named] ?? study.start;
+  const kicks = varied.filter(([name]) => name.startsWith(PERTURBED)).map(([name, value]) => [name.slice(PERTURBED.length), value]);
+  const kick = Object.fromEntries([...Object.entries(perturbation ?? {}), ...kicks].filter(([, value]) => value !== 0));
+  const given = Object.keys(kick).length ? [python(kick)] : [];
+  if (prerun) given.push(`prerun=${python(prerun)}`);
+  return given.join(", ");
+}
+
+/** The call in Python for a point: its case, with the start of its motion, or that of a quantity which varies a parameter by itself. */
+function call(study, place) {
+  const found = `${study.call.before}${caseOf(study, place)}${study.call.after}`;
+  const start = startOf(study, place);
+  return start ? `case = ${found}\nstart = dm.initial_state(case, ${start})` : found;
+}
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
 
 const LONGEST_CASE = 300; // characters of a case that is written twice: a disc has many more
 
-/** The call in Python that shows the motion of a point from the static start; "" if the point is no one case. */
+/** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
 function simulation(study, place) {
   if (Object.keys(study.call.begins).length) return "";
+  if (startOf(study, place)) return `dm.simulate(case, ${SIMULATED_FOR}, initial_state=start).plot()`;
   const written = caseOf(study, place);
   return `dm.simulate(${written.length > LONGEST_CASE ? "case" : written}, ${SIMULATED_FOR}).plot()`;
 }

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from disc_model.display import progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import violations
+from disc_model.errors import violations, with_known_names
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.arguments import read_values
@@ -21,6 +21,7 @@ CYCLE = StepControl()
 
 
 @compiling()
+@with_known_names
 def continue_cycle(  # noqa: PLR0913
     case: Parameters,
     name: str,

@@ -12,6 +12,7 @@ from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
 from disc_model.errors import require
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.states import State
+from disc_model.sources import versions_text
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.slipping_map import SlippingMap
 
@@ -84,6 +85,7 @@ def dataset_of(branch: Branch) -> xr.Dataset:
         "ended": branch.ended,
         "parameters": branch.case.canonical_json,
         "free_parameters": ", ".join(branch.parameters),
+        "versions": versions_text(),
     }
     if len(branch.not_reached):
         attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
