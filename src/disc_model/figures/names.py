@@ -37,7 +37,7 @@ class Names(Artist):
     ----------
     ax : the panel
     lines : points of lines that no name may cover, in units of the axes, shape (n, 2)
-    stems : tops of upright lines, named or not, in units of the axes, shape (n, 2): none may stand
+    stems : tops of upright lines, named or not, in units of the axes: none may stand
         between a point and its name, and a name is nearer to none of the others
     first_needed : whether none is shown if the first finds no room
     """
@@ -47,12 +47,12 @@ class Names(Artist):
         ax: Axes,
         lines: Array | None = None,
         *,
-        stems: Array | None = None,
+        stems: Sequence[tuple[float, float]] | None = None,
         first_needed: bool = False,
     ) -> None:
         super().__init__()
         self._first_needed = first_needed
-        self._stems = stems
+        self._stems = None if stems is None else np.reshape(stems, (-1, 2))
         self._lines = np.empty((0, 2)) if lines is None else lines
         self._names: list[Annotation] = []
         self._places: list[list[Place]] = []

@@ -4,7 +4,6 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from disc_model.analysis.spectra import RESOLVED, amplitude_spectrum, highest_line, lines
@@ -144,7 +143,7 @@ def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]], resolution: float
     the nearest other line if there is room, or above, with a line to the peak. The stronger
     comes first; without room for the strongest there is none. They have no more digits than the
     resolution, Hz, and a tenth at most."""
-    names = Names(ax, stems=np.reshape(peaks, (-1, 2)), first_needed=True)
+    names = Names(ax, stems=peaks, first_needed=True)
     every = [frequency for frequency, _ in peaks]
     for frequency, height in sorted(peaks, key=lambda peak: -peak[1])[:MOST_NAMED]:
         sides = (*BESIDE, *BELOW)
