@@ -13,6 +13,8 @@ from types import FrameType
 import numpy as np
 
 from disc_model.disc.plate import mode_arrays
+from disc_model.disc.thin_plate import shortest_wave
+from disc_model.display import counted
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 
@@ -20,6 +22,7 @@ INNER = ("disc_model", "functools", "contextlib")  # modules between a reader an
 # Damping ratio of a mode from which it is doubted: discs of metal have 0.0001 to 0.01, and per cent would be numbers
 # a hundred times as large.
 MOST_DAMPED = 0.05
+TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a mode is doubted
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 
@@ -109,6 +112,20 @@ def _thick(p: Parameters) -> str:
     if p.h <= 0.2 * (p.b - p.a):
         return ""
     return f"{_value(p, 'h')} is more than a fifth of b - a = {p.b - p.a:g} m, and the disc is modelled as a thin plate"
+
+
+def _short(p: Parameters) -> str:
+    if _thick(p):  # which is told already
+        return ""
+    try:
+        shortest = shortest_wave(p)
+    except (DiscModelError, ArithmeticError):  # reported when the modes are requested
+        return ""
+    if shortest is None or not shortest.excess > TOO_HIGH:
+        return ""
+    mode = f"{counted(shortest.diameters, 'diameter')} and {counted(shortest.circles, 'circle')}"
+    waves = f"the mode of {mode} has waves of {shortest.length:.2g} thicknesses"
+    return f"{waves}, too short for a thin plate, whose frequency is {100 * shortest.excess:.0f} % too high"
 
 
 def _deflected(p: Parameters) -> str:
@@ -235,5 +252,6 @@ RULES: dict[str, Callable[[Parameters], str]] = {
     "damping_ratio": _overdamped_plate,
     **{kind: partial(_of_disc, doubt) for kind, doubt in DISC_RULES.items()},
     "radius of the slider": _elsewhere,
+    "short waves": _short,
     "static deflection": _deflected,
 }
