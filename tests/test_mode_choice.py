@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, steady_sliding
-from disc_model.errors import DiscModelError
+from disc_model.errors import DiscModelError, ParameterError
 from disc_model.mode_choice import RICH, choose_when_run, frequency_error
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.named_case import run_case
@@ -50,6 +50,19 @@ def test_the_first_model_is_taken_with_which_two_larger_ones_agree(measured: Mea
     assert choice.error == pytest.approx(change / (1 + fine))
     assert len(asked) == len(set(asked))  # nothing is simulated twice
     assert choice == choose_modes(RESIDUAL.replace(n_diameters=12), quantity="growth")
+
+
+def test_a_bar_counts_the_models(measured: Measured, capsys: pytest.CaptureFixture[str]) -> None:
+    asked = measured(lambda d, c: 1.0 + 0.1 / d**2)
+    choose_modes(RESIDUAL, 1e-2, quantity="growth")
+    assert capsys.readouterr().err == ""
+    count = len(asked)
+    choose_modes(RESIDUAL, 1e-2, quantity="growth", progress=True)
+    said = capsys.readouterr().err
+    assert "choose_modes: 26 modes" in said  # of 6 diameters and a circle, the last
+    assert f" {count} " in said
+    with pytest.raises(ParameterError, match="progress=1: must be True or False"):
+        choose_modes(RESIDUAL, progress=1)  # type: ignore[arg-type]
 
 
 def one_case(**text: Any) -> CaseSpec:

@@ -54,7 +54,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.steady_sliding, {}, {}),
     (dm.split_growth, {"case": P, "split": 0.0}, {}),
-    (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None"}),
+    (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None", "progress": "True"}),
     (
         dm.simulate,
         {"case": P, "t_end": 1.0},

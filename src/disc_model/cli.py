@@ -26,7 +26,7 @@ from rich.console import Console
 from rich.table import Column, Table
 
 from disc_model import __version__
-from disc_model.data.files import SUFFIXES, regular_file
+from disc_model.data.files import RUN_BY, SUFFIXES, regular_file
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.files.universal_sets import is_universal_file
 from disc_model.disc.given import DiscReport
@@ -433,6 +433,7 @@ def study(
     if unlock:
         options.append("--unlock")
     options += ["--configfile", *(str(file.resolve()) for file in files)]
+    os.environ[RUN_BY] = _command_of(files, directory)
     import snakemake.cli  # type: ignore[import-untyped]
 
     snakemake.cli.print = _print_without_profile
@@ -443,6 +444,14 @@ def study(
         if made and EXPLORER in (target or []):
             typer.echo(f"explorer: {directory / 'results' / chosen.name / 'explorer.html'}")
         raise
+
+
+def _command_of(files: Sequence[Path], directory: Path) -> str:
+    """The command that runs the study of some files, as a job may tell the reader."""
+    words = ["disc-model", "study", *map(str, files)]
+    if directory != Path():
+        words += ["--directory", str(directory)]
+    return shlex.join(words)
 
 
 def _print_without_profile(*texts: Any, **options: Any) -> None:

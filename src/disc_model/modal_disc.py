@@ -12,7 +12,7 @@ import pydantic
 from pydantic import Field, field_validator, model_validator
 
 from disc_model.attachable import DiscFiles
-from disc_model.display import html_table
+from disc_model.display import counted, html_table
 from disc_model.errors import Fault, raise_faults
 from disc_model.units import Count, Finite, Positive, Strict, limits_faults, within
 
@@ -25,6 +25,11 @@ FREQUENCIES = (1e-3, 1e7)
 # of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 AMPLITUDES = (1e-6, 1e6)
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
+GIVEN_ONCE = (
+    "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
+    "(Disc.from_csv averages halves with pairs='mean')"
+)
+NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
 Quantity = float | str  # a number, or a text that stands for one, with or without its unit
 Column = Iterable[float | str]  # numbers of the modes of a table
@@ -142,12 +147,8 @@ class Disc(DiscFiles, Strict):
             if counted:
                 same = apart < SAME_FREQUENCY
             if same:
-                rule = (
-                    f"modes {i + 1} and {j + 1} have as many diameters and are "
-                    f"{100 * apart:.2g} % apart: the disc must be axisymmetric, with each pair of "
-                    "modes given once, by its mean frequency "
-                    "(Disc.from_csv averages halves with pairs='mean')"
-                )
+                rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
+                rule += GIVEN_ONCE if self.diameters[i] else NO_PAIR
                 raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
 
     @field_validator("damping_ratio", "circles")
@@ -179,9 +180,10 @@ class Disc(DiscFiles, Strict):
         return disc
 
     def __repr__(self) -> str:
-        low = min(self.omega) / math.tau
-        high = max(self.omega) / math.tau
-        return f"Disc({len(self.omega)} modes, {low:.0f} to {high:.0f} Hz)"
+        low = f"{min(self.omega) / math.tau:.5g}"
+        high = f"{max(self.omega) / math.tau:.5g}"
+        extent = low if low == high else f"{low} to {high}"
+        return f"Disc({counted(len(self.omega), 'mode')}, {extent} Hz)"
 
     __str__ = __repr__
 

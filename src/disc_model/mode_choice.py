@@ -6,7 +6,6 @@ is not known.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
@@ -15,8 +14,9 @@ import numpy as np
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.plausibility import warn_of_doubts
-from disc_model.display import Summarised, counted, number_text
+from disc_model.disc.plausibility import trial_cases, warn_of_doubts
+from disc_model.disc.thin_plate import shortest_wave
+from disc_model.display import Bar, Summarised, counted, number_text, progress_bar
 from disc_model.errors import DiscModelError, require, with_known_names
 from disc_model.mode_measures import MEASURES
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
@@ -31,6 +31,7 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 MORE_MODES = "give a table with more modes, or a larger tolerance"
+NO_CIRCLE = (0, 0)  # diameters and circles of a model whose number of modes is not doubted
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
@@ -75,6 +76,13 @@ class ModeChoice(Summarised):
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
         yield "largest model compared", self._size_text(self.rich)
+        shortest = shortest_wave(p)
+        if shortest is not None:
+            waves = f"waves of {shortest.length:.3g} thicknesses"
+            yield (
+                "highest mode",
+                f"{waves}, frequency of a thin plate {100 * shortest.excess:.2g} % too high",
+            )
         for size, value in self.values.items():
             yield f"{self.quantity} with {self._size_text(size)}", f"{value:.6g}"
 
@@ -98,7 +106,7 @@ class ModeChoice(Summarised):
         else:
             values: dict[str, float | None] = {}
             for size, value in self.values.items():
-                values[",".join(map(str, size))] = value if math.isfinite(value) else None
+                values[",".join(map(str, size))] = value if np.isfinite(value) else None
             record |= {"quantity": self.quantity, "values": values}
         record["compared_with"] = list(self.rich)
         return json.dumps(record, sort_keys=True)
@@ -194,6 +202,7 @@ def choose_modes(
     tolerance: float | None = None,
     *,
     quantity: str = FREQUENCIES,
+    progress: bool = False,
 ) -> ModeChoice:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
 
@@ -210,6 +219,7 @@ def choose_modes(
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
         "sliding_growth", that of steady sliding; "first_separation", its time within 600 s.  "growth" and
         "first_separation" need simulations. Modes of a table are compared with the whole table
+    progress : whether a bar on standard error counts the models that are done, with a quantity of the motion
 
     Returns
     -------
@@ -225,6 +235,11 @@ def choose_modes(
         sliding to choose by; and if a table has too few modes to tell. Where friction acts on the surface at a
         point, motions do not converge: the message then asks for the arc of a pad.
 
+    Warns
+    -----
+    ImplausibleValue
+        If a value of the case is implausible, or the modes that were chosen have waves too short for a thin plate.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -236,12 +251,19 @@ def choose_modes(
     else:
         request = ModeRequest(quantity=quantity, tolerance=tolerance)
     known = isinstance(case, Parameters | Mapping)
-    require((known, "case", case, "must be Parameters, or a mapping of names to values"))
+    told = isinstance(progress, bool)
+    require(
+        (known, "case", case, "must be Parameters, or a mapping of names to values"),
+        (told, "progress", progress, "must be True or False"),
+    )
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
-    warn_of_doubts(case)
-    return chosen_modes(case, request)
+    warn_of_doubts(resized(case, NO_CIRCLE) if case.disc is None else case)
+    with progress_bar("choose_modes", None, progress) as bar, trial_cases():
+        choice = chosen_modes(case, request, bar)
+    warn_of_doubts(choice.parameters)
+    return choice
 
 
 def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
@@ -251,19 +273,20 @@ def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
     return choice.parameters, choice.to_json()
 
 
-def chosen_modes(p: Parameters, request: ModeRequest) -> ModeChoice:
-    """The requested choice; raises `DiscModelError` if there is none."""
+def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) -> ModeChoice:
+    """The requested choice, whose models a bar counts; raises `DiscModelError` if there is none."""
+    bar = bar or Bar(None)
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
     values: dict[tuple[int, ...], float] = {}
     for group in _compared(p, request.quantity):
         size, *others = group
-        values |= {
-            each: MEASURES[request.quantity](resized(p, each))
-            for each in group
-            if each not in values
-        }
-        if (p.disc is not None or size == GIVEN_UP) and all(map(math.isnan, values.values())):
+        for each in group:
+            if each not in values:
+                bar.describe(f"choose_modes: {counted(count_modes(p, each), 'mode')}")
+                values[each] = MEASURES[request.quantity](resized(p, each))
+                bar.advance()
+        if (p.disc is not None or size == GIVEN_UP) and all(map(np.isnan, values.values())):
             raise DiscModelError(
                 f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}"
             )
@@ -317,9 +340,9 @@ def _change(mine: float, other: float) -> float:
     both."""
     if mine == other:
         return 0.0
-    if math.isfinite(mine) and math.isfinite(other) and other:
+    if np.isfinite(mine) and np.isfinite(other) and other:
         return abs(mine / other - 1.0)
-    return math.inf
+    return np.inf
 
 
 def _listed(p: Parameters, sizes: tuple[tuple[int, ...], ...]) -> str:

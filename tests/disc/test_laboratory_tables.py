@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
+from disc_model.disc import plausibility
 
 DIAMETERS = (1, 0, 2)
 FREQUENCIES = (551.0, 929.0, 1212.5)
@@ -124,8 +125,8 @@ def test_a_report_says_how_each_column_was_understood(tmp_path: Path) -> None:
         "read: 'amplitude (kg^-1/2)' as amplitude, 0.43 to 0.54 kg^-1/2",
         "read: 'damping in %' as damping ratio, 0.001 to 0.003",
     ]
-    poles = read(tmp_path, "diameters,amplitude_per_sqrt_kg,pole (rad/s)\n2,0.5,-300+400i\n")
-    assert "'pole (rad/s)' as damping ratio, 0.6" in str(poles.report)
+    poles = read(tmp_path, "diameters,amplitude_per_sqrt_kg,pole (rad/s)\n2,0.5,-3+400i\n")
+    assert "'pole (rad/s)' as damping ratio, 0.0074998" in str(poles.report)
     case = dm.Parameters(N=8000, Omega=80, disc=disc, r_0=0.1)
     with pytest.raises(dm.ParameterError, match="does not come from a file with both halves"):
         dm.split_growth(case)
@@ -162,8 +163,8 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     """Signs follow the amplitude, and a mode without diameters has no other half."""
     heads = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio,tangential_per_sqrt_kg,"
     heads += "shape_at_0.08_m,shape_at_0.1_m\n"
-    table = "2,1215,-0.55,0.003,0.14,-0.3,-0.55\n0,929,0.43,0.001,0,0.2,0.43\n"
-    table += "2,1209,0.53,0.001,-0.12,0.2,0.53\n0,980,0.1,0.001,0,0.1,0.1\n3,1900,0.5,0.001,-0.1,0.2,0.5\n"
+    table = "2,1215,-0.55,0.0018,0.14,-0.3,-0.55\n0,929,0.43,0.001,0,0.2,0.43\n"
+    table += "2,1209,0.53,0.0012,-0.12,0.2,0.53\n0,980,0.1,0.001,0,0.1,0.1\n3,1900,0.5,0.001,-0.1,0.2,0.5\n"
     with pytest.raises(dm.ParameterError, match=r"modes 1 and 3 .* 0.49 % apart"):
         read(tmp_path, heads + table)
     with pytest.raises(dm.ParameterError, match=r"pairs='Mean': must be 'given' or 'mean'"):
@@ -175,24 +176,98 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     frequencies = np.array(disc.omega) / turn
     np.testing.assert_allclose(frequencies, [1212, 929, 1980, 1900])
     np.testing.assert_allclose(disc.amplitude, [0.54, 0.43, 0.1, 0.5])
-    np.testing.assert_allclose(disc.damping_ratio, [0.002, 0.001, 0.001, 0.001])
+    np.testing.assert_allclose(disc.damping_ratio, [0.0015, 0.001, 0.001, 0.001])
     np.testing.assert_allclose(disc.tangential, [-0.13, 0, 0, -0.1])
     np.testing.assert_allclose(disc.shapes[0], [0.25, 0.54])
     assert disc.report is not None
     np.testing.assert_allclose(disc.report.split, [6 / 1212, 0, 0, 0])
     assert [mode.shapes for mode in disc.report.modes] == [2, 1, 1, 1]
     assert disc.first(1).report is None
-    assert "1209        1215    0.49505       2" in str(disc.report)
+    first = disc.report.modes[0]
+    assert first.amplitude_split == pytest.approx(0.02 / 0.54)
+    assert first.damping_split == pytest.approx(0.0006 / 0.0015)
+    row = disc.report.table.loc[0]
+    assert row["amplitude split (%)"] == pytest.approx(2 / 0.54)
+    assert row["damping split (%)"] == pytest.approx(40)
+    assert "1209        1215    0.49505" in str(disc.report)
 
 
 def test_a_table_with_circles_has_its_pairs_by_them(tmp_path: Path) -> None:
-    text = (
-        "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n2,0,1200,1\n2,1,1210,2\n2,0,1204,3\n"
-    )
+    text = "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n2,0,1200,1.8\n2,1,1210,2\n2,0,1204,2.2\n"
     disc = read(tmp_path, text, pairs="mean")
     assert disc.diameters == (2, 2)
     assert disc.circles == (0, 1)
     assert disc.amplitude == (2, 2)
+
+
+BARE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n"
+CIRCLES = "diameters,circles,frequency_Hz,amplitude_per_sqrt_kg\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (BARE + "2,300,1\n2,301,1\n2,302,1\n", "'302': modes 1, 2 and 3 .* has two halves"),
+        (CIRCLES + "2,0,300,1\n2,0,301,1\n2,0,302,1\n", "'302': modes 1, 2 and 3 .* two halves"),
+        (
+            # rows keep their numbers behind a pair that became one mode
+            BARE + "2,300,1\n2,301,1\n0,500,1\n0,501,1\n",
+            "'501': modes 3 and 4 have 0 nodal diameters, and .* no half .* given once",
+        ),
+        (
+            CIRCLES + "2,0,300,1\n2,0,340,1\n",
+            "'340': modes 1 and 2 .* 12 % apart: .* less than 5 %",
+        ),
+    ],
+)
+def test_rows_that_are_no_pair_are_told_by_themselves(
+    text: str, words: str, tmp_path: Path
+) -> None:
+    """The advice was `pairs='mean'`, which had been given, with the distance of a mean."""
+    with pytest.raises(dm.ParameterError, match=words) as caught:
+        read(tmp_path, text, pairs="mean")
+    assert "pairs='mean'" not in str(caught.value)
+
+
+def test_a_mode_without_diameters_is_advised_no_pair(tmp_path: Path) -> None:
+    with pytest.raises(dm.ParameterError, match="no half of a pair") as caught:
+        read(tmp_path, BARE + "0,300,1\n0,301,1\n")
+    assert "pairs='mean'" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("amplitude", "damping", "words"),
+    [
+        (3.0, 0.001, "amplitudes 100 % apart"),
+        (1.0, 0.01, "damping ratios 164 % apart"),
+        (1.4, 0.0019, ""),
+    ],
+)
+def test_halves_that_differ_more_than_tests_err_are_doubted(
+    amplitude: float, damping: float, words: str, tmp_path: Path
+) -> None:
+    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio\n"
+    text += f"2,300,1,0.001\n2,301,{amplitude},{damping}\n"
+    (tmp_path / "disc.csv").write_text(text)
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        dm.Disc.from_csv(tmp_path / "disc.csv", "mean")
+    said = [str(each.message) for each in caught]
+    if words:
+        assert len(said) == 1
+        assert words in said[0]
+    else:
+        assert not said
+
+
+def test_damping_in_per_cent_is_doubted(tmp_path: Path) -> None:
+    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio\n1,300,1,0.2\n2,400,1,0.3\n"
+    (tmp_path / "disc.csv").write_text(text)
+    with pytest.warns(dm.ImplausibleValue, match="mode 2 .* damping ratio 0.3, .* not per cent"):
+        dm.Disc.from_csv(tmp_path / "disc.csv")
+    doubts = plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.2))
+    assert doubts.keys() == {"damping_ratio"}
+    assert not plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.05))
 
 
 @pytest.mark.parametrize(

@@ -81,7 +81,7 @@ def of_artist(artist: Artist) -> Iterator[str]:
 
 
 def of_text(text: Text) -> Iterator[str]:
-    if isinstance(text, Annotation) and text.arrow_patch is not None:
+    if isinstance(text, Annotation) and text.arrow_patch and text.arrow_patch.get_visible():
         yield f"arrow from {points([text.xyann])} to {points([text.xy])}"
     if not text.get_text().strip():
         return

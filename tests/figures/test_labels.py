@@ -1,7 +1,9 @@
 """Labels and titles in as few lines as their axes have room for."""
 
+import numpy as np
 import pytest
 from matplotlib import pyplot
+from matplotlib.text import Text
 
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
 from disc_model.figures.spectrum import name_lines
@@ -118,6 +120,40 @@ def test_a_name_that_would_stand_nearer_to_another_point_is_left_out() -> None:
     figure.draw_without_rendering()
     shown = {text.get_text() for text in ax.texts if text.get_visible()}
     assert shown == {"136.0 Hz", "144.4 Hz"}
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("width", [30, 40, 84, 174])
+def test_the_strongest_of_many_lines_is_named_and_none_but_the_five_strongest(width: float) -> None:
+    """In a narrow panel the eighth strongest line of a crowded spectrum was named alone, and 208
+    texts were made."""
+    figure, ax = pyplot.subplots(figsize=(width / 25.4, 1.8), layout="constrained")
+    ax.set(xlim=(0, 400), ylim=(1e-5, 30), yscale="log")
+    frequencies = 4.8 * np.arange(1, 80)
+    peaks = [(f, 3.8 / (1 + (f - 187.2) ** 2)) for f in frequencies.tolist()]
+    peaks[0] = (4.8, 0.01)
+    name_lines(ax, peaks)
+    figure.draw_without_rendering()
+    strongest = sorted(peaks, key=lambda peak: -peak[1])[:5]
+    shown = {text.get_text(): text for text in ax.texts if text.get_visible()}
+    assert "187.2 Hz" in shown
+    assert shown.keys() <= {f"{frequency:.1f} Hz" for frequency, _ in strongest}
+    assert len(ax.texts) == 5
+    own, top = ax.transData.transform((187.2, 3.8))
+    box = Text.get_window_extent(shown["187.2 Hz"])
+    assert abs(np.clip(own, box.x0, box.x1) - own) < 6
+    assert 0 < box.y0 - top < 15
+    pyplot.close(figure)
+
+
+def test_no_name_is_shown_without_that_of_the_strongest_line() -> None:
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 2.4), layout="constrained")
+    ax.set(xlim=(0, 400), ylim=(1e-5, 1), yscale="log")
+    name_lines(ax, [(140.2, 1.0), (300.0, 0.1)])  # the first has its peak at the frame
+    ax.set_xlim(140, 400)
+    ax.set_ylim(1e-5, 0.5)
+    figure.draw_without_rendering()
+    assert not [text for text in ax.texts if text.get_visible()]
     pyplot.close(figure)
 
 

@@ -341,7 +341,8 @@ def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     disc = dm.Disc(
         diameters=[0, 1], omega=[1e3, 2e3], amplitude=[1.0, 4.0], radii=[0.05, 0.12], shapes=shapes
     )
-    assert repr(disc) == "Disc(2 modes, 159 to 318 Hz)"
+    assert repr(disc) == "Disc(2 modes, 159.15 to 318.31 Hz)"
+    assert repr(disc.first(1)) == "Disc(1 mode, 159.15 Hz)"
     assert "318.31" in disc._repr_html_()
     assert len(dm.plot_modes(P.replace(disc=disc))) == 2
     with pytest.raises(dm.ParameterError, match="no eigenvalues: The disc is not driven"):

@@ -102,12 +102,23 @@ SAMPLED = {"distributions": {"mu_s": {"mean": 0.4, "deviation": 0.01}}, "samples
         ({"axes": {"Omega": [10, 20], "mus": [0.4, 0.5]}}, 1),
         ({"base": {"N": 200, "mu_k": -1}, "quantity": "outcom"}, 2),
         ({"figures": {"f": {"kind": "heat", "x": "k"}}}, 1),
+        ({"study": "b 6"}, 1),
         ({"quantity": "sensitivity", "options": SAMPLED}, 1),  # not also empty distributions
     ],
 )
 def test_a_fault_makes_no_other_ones(change: dict[str, Any], count: int) -> None:
     faults = faults_of(parse_study, GRID | change)
     assert len(faults) == count, faults
+
+
+def test_the_name_of_a_study_hides_no_other_fault() -> None:
+    """With a wrong name the rules between values were not checked."""
+    faults = faults_of(
+        parse_study, GRID | {"study": "b 6", "axes": {"Omega": [10, 20], "mu_k": [1.0]}}
+    )
+    assert_named(faults, "study 'b pattern")
+    assert_named(faults, "axes.mu_k 1 <= mu_s")
+    assert len(faults) == 2
 
 
 def test_cases_with_wrong_names_are_not_missed_elsewhere() -> None:

@@ -5,7 +5,7 @@ import logging
 import sys
 from pathlib import Path
 
-from disc_model.data.dataset import load
+from disc_model.data.dataset import load_result
 from disc_model.errors import script
 from disc_model.explorer import Picture, Stated, page, study_contents
 
@@ -16,7 +16,8 @@ def main(output: str) -> None:
     studies = []
     for study in plan["studies"]:
         data, motions = (
-            load(study[role]).to_dataset() if study[role] else None for role in ("data", "motions")
+            load_result(study[role]).to_dataset() if study[role] else None
+            for role in ("data", "motions")
         )
         stated = Stated(**study["stated"])
         studies.append(study_contents(study["name"], data, motions, stated))

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from disc_model.data.dataset import MissingFile, UnreadableFile, load
+from disc_model.data.files import run_command
 from disc_model.errors import script
 
 
@@ -47,4 +48,4 @@ def main(folder: str = "results") -> None:
     if early:
         print(f"{len(early)} files had times in the future and now have the present one")
     if damaged or early:
-        print("Run snakemake again: it makes anew what is needed.")
+        print(f"Run `{run_command()}` again: it makes anew what is needed.")

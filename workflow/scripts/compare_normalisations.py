@@ -1,7 +1,7 @@
 """Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as
 HTML."""
 
-from disc_model.data.dataset import load
+from disc_model.data.dataset import load_result
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from disc_model.paper.ledger import TEXTS, compare
@@ -10,7 +10,7 @@ from disc_model.paper.measures import views
 
 @script
 def main(csv: str, md: str, html: str, published: str, orthonormal: str) -> None:
-    parts = compare(*(views({"cases": load(path)}) for path in (published, orthonormal)))
+    parts = compare(*(views({"cases": load_result(path)}) for path in (published, orthonormal)))
     parts["cases"][2].to_csv(csv, index=False)
     write_page(md, TEXTS["title"], parts["brief"], parts["modes"])
     write_page(html, TEXTS["title"], *parts.values())

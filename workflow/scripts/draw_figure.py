@@ -3,7 +3,7 @@ as name=file."""
 
 import json
 
-from disc_model.data.dataset import load
+from disc_model.data.dataset import load_result
 from disc_model.errors import script
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
@@ -14,7 +14,7 @@ from disc_model.figures.style import save
 def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     options = json.loads(plot)
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
-    shown = dict(zip(names, map(load, files), strict=True))
+    shown = dict(zip(names, map(load_result, files), strict=True))
     figure = render(kind_of(options["kind"]).model_validate(options), shown)
     for path in (png, pdf):
         save(figure, path, title=json.loads(title))

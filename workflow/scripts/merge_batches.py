@@ -6,7 +6,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from disc_model.data.dataset import load, save
+from disc_model.data.dataset import load_result, save
 from disc_model.errors import script
 from disc_model.studies.batch import MergePlan
 from disc_model.studies.merge import failures, merge_batches
@@ -15,7 +15,7 @@ from disc_model.studies.merge import failures, merge_batches
 @script
 def main(output: str, report: str, folder: str) -> None:
     plan = MergePlan.model_validate_json(sys.stdin.read())
-    batches = [load(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
+    batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
     Path(report).write_text("".join(f"{line}\n" for line in failures(study)), encoding="utf-8")
     save(xr.DataTree(study), output)

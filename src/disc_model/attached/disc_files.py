@@ -25,7 +25,7 @@ def from_csv(
         give a name and its unit, such as "frequency (kHz)", "damping [%]" or "pole (rad/s)". Lines that begin
         with # are comments; one may give ``static_compliance_m_per_N: ...``
     pairs : "given" if each pair of modes is given once; "mean" if both halves of a pair may be given: two modes of
-        equal diameters within 5 % in frequency become their mean, and `report` has the split
+        equal diameters within 5 % in frequency become their mean, and `report` has the splits
 
     Raises
     ------
@@ -35,7 +35,8 @@ def from_csv(
     Warns
     -----
     ImplausibleValue
-        If frequencies or amplitudes are implausible, such as one frequency in kHz among others in Hz.
+        If frequencies, amplitudes or damping are implausible, such as one frequency in kHz among others in Hz, or if
+        halves of a pair differ by more than a test errs.
 
     Returns
     -------

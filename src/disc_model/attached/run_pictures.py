@@ -124,6 +124,10 @@ def plot_spectrum(
     """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
     its lines fall below a hundredth of the strongest.
 
+    Up to five lines have their frequency beside the peak, or above it with a line to the peak: the
+    strongest, and of the next four those that find room beside the names of stronger ones. A weaker
+    line has none.
+
     Without a named window it is that of the last 8 s, or of the second half of a shorter run,
     with 16 samples in a period of the highest mode. What vibrates faster than half a window's
     rate appears at wrong frequencies. The resolution is 1 over the length of the window: frequencies

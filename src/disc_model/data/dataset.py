@@ -18,6 +18,7 @@ from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
     WriteError,
+    check_command,
     check_netcdf,
     regular_file,
     seal_netcdf,
@@ -134,10 +135,17 @@ def _encode(variable: xr.Variable, compressed: bool) -> dict[str, Any]:
 def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
     """Trees by the names of their files, such as those of cases or studies; raises `UnreadableFile`
     with a remedy."""
+    return {Path(path).stem: load_result(path) for path in paths}
+
+
+def load_result(path: str | Path) -> xr.DataTree:
+    """As `load`, of a file of a study's results: `UnreadableFile` has a remedy."""
     try:
-        return {Path(path).stem: load(path) for path in paths}
+        return load(path)
     except UnreadableFile as error:
-        remedy = "Delete this file and run the same command again, which computes it anew"
+        remedy = (
+            f"Run `{check_command()}`, which deletes damaged files, and then the same command again"
+        )
         raise UnreadableFile(f"{error}\n{remedy}") from None
 
 

@@ -31,8 +31,25 @@ class MissingFile(DiscModelError, FileNotFoundError):
     """A file that is to be read does not exist."""
 
 
+RUN_BY = "DISC_MODEL_RUN_BY"
+"""Variable of the environment with the command by which a reader runs a study, if it is not
+snakemake."""
+
+
 class UnreadableFile(DiscModelError):
     """A file that is damaged, or that `save` has not written."""
+
+
+def run_command() -> str:
+    """The command by which the reader runs a study."""
+    return os.environ.get(RUN_BY, "snakemake")
+
+
+def check_command() -> str:
+    """The command that deletes damaged results."""
+    if RUN_BY in os.environ:
+        return f"{run_command()} --target check"
+    return "snakemake check"
 
 
 def unreadable(path: str | Path, reason: object) -> UnreadableFile:

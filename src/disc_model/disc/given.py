@@ -8,7 +8,7 @@ hold the same mode several times.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 SAME_PAIR = 0.05  # greatest relative difference of the frequencies of the two halves of a pair
+# Relative differences of halves above which their mean is doubted: amplitudes by a factor of 1.5, and damping ratios by
+# one of 2. A test knows amplitudes to 20 % and damping ratios to 30 %, and halves of a disc are alike but for that.
+DOUBTED_AMPLITUDES = 0.4
+DOUBTED_DAMPING = 0.7
 
 
 @dataclass(frozen=True)
@@ -33,6 +37,8 @@ class ModeOrigin:
     followed : share of the normal motion along the slider's circle that has these nodal diameters;
         nan for a table
     in_phase : share of the motion that is in phase, 1 for a real mode; nan for a table
+    amplitude_split, damping_split : difference of the greatest and the least amplitude and damping
+        ratio of the shapes over their mean; nan if they are not known
     """
 
     diameters: int
@@ -41,6 +47,8 @@ class ModeOrigin:
     shapes: int
     followed: float = math.nan
     in_phase: float = math.nan
+    amplitude_split: float = math.nan
+    damping_split: float = math.nan
 
     @property
     def omega(self) -> float:
@@ -74,8 +82,8 @@ class DiscReport(Summarised):
     >>> disc = dm.Disc.from_csv("split.csv", pairs="mean")
     >>> print(disc.report)
     split.csv: 1 mode
-     diameters  lower (Hz)  upper (Hz)  split (%)  shapes
-         2        1209        1215    0.49505       2
+     diameters  lower (Hz)  upper (Hz)  split (%)  amplitude split (%)  shapes
+         2        1209        1215    0.49505               1.8349       2
     read: 'diameters' as nodal diameters, 2
     read: 'f (Hz)' as frequency, 1212 Hz
     read: 'amplitude (kg^-1/2)' as amplitude, 0.545 kg^-1/2
@@ -102,7 +110,8 @@ class DiscReport(Summarised):
 
     @property
     def table(self) -> pd.DataFrame:
-        """A row for each mode: diameters, frequencies (Hz), split (%), shapes, and of a universal
+        """A row for each mode: diameters, frequencies (Hz), their split and those of amplitude and
+        damping (%), shapes, and of a universal
         file the shares (%) of its motion that follow its nodal diameters and are in phase."""
         import pandas as pd
 
@@ -111,6 +120,8 @@ class DiscReport(Summarised):
             "lower (Hz)": [mode.lower / math.tau for mode in self.modes],
             "upper (Hz)": [mode.upper / math.tau for mode in self.modes],
             "split (%)": [100 * mode.split for mode in self.modes],
+            "amplitude split (%)": [100 * mode.amplitude_split for mode in self.modes],
+            "damping split (%)": [100 * mode.damping_split for mode in self.modes],
             "shapes": [mode.shapes for mode in self.modes],
             "followed (%)": [100 * mode.followed for mode in self.modes],
             "in phase (%)": [100 * mode.in_phase for mode in self.modes],
@@ -133,3 +144,22 @@ class DiscReport(Summarised):
             texts += self.table.to_string(index=False, float_format="{:.5g}".format).splitlines()
         texts += [f"{name}: {text}" for name, text in lines]
         return "\n".join(text.rstrip() for text in texts)
+
+
+def relative_difference(values: Sequence[float]) -> float:
+    """Difference of the greatest and the least of some values over their mean; 0 if all are zero."""
+    mean = sum(values) / len(values)
+    return (max(values) - min(values)) / mean if mean else 0.0
+
+
+def doubts_of_halves(origins: Sequence[ModeOrigin]) -> Iterator[str]:
+    """Yield doubts whether halves of pairs, of which a disc has the mean, are one mode."""
+    for i, origin in enumerate(origins, 1):
+        for name, split, doubted in (
+            ("amplitudes", origin.amplitude_split, DOUBTED_AMPLITUDES),
+            ("damping ratios", origin.damping_split, DOUBTED_DAMPING),
+        ):
+            if split > doubted:
+                head = f"the halves of mode {i}, {counted(origin.diameters, 'nodal diameter')} at "
+                head += f"{origin.lower / math.tau:.5g} and {origin.upper / math.tau:.5g} Hz"
+                yield f"{head}, have {name} {100 * split:.0f} % apart, and the disc has their mean"

@@ -13,10 +13,16 @@ from types import FrameType
 import numpy as np
 
 from disc_model.disc.plate import mode_arrays
+from disc_model.disc.thin_plate import shortest_wave
+from disc_model.display import counted
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 
 INNER = ("disc_model", "functools", "contextlib")  # modules between a reader and a warning
+# Damping ratio of a mode from which it is doubted: discs of metal have 0.0001 to 0.01, and per cent would be numbers
+# a hundred times as large.
+MOST_DAMPED = 0.05
+TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a mode is doubted
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 
@@ -108,6 +114,20 @@ def _thick(p: Parameters) -> str:
     return f"{_value(p, 'h')} is more than a fifth of b - a = {p.b - p.a:g} m, and the disc is modelled as a thin plate"
 
 
+def _short(p: Parameters) -> str:
+    if _thick(p):  # which is told already
+        return ""
+    try:
+        shortest = shortest_wave(p)
+    except (DiscModelError, ArithmeticError):  # reported when the modes are requested
+        return ""
+    if shortest is None or not shortest.excess > TOO_HIGH:
+        return ""
+    mode = f"{counted(shortest.diameters, 'diameter')} and {counted(shortest.circles, 'circle')}"
+    waves = f"the mode of {mode} has waves of {shortest.length:.2g} thicknesses"
+    return f"{waves}, too short for a thin plate, whose frequency is {100 * shortest.excess:.0f} % too high"
+
+
 def _deflected(p: Parameters) -> str:
     if p.disc is not None:  # its thickness is unknown
         return ""
@@ -155,6 +175,26 @@ def _modal_mass(disc: Disc) -> str:
     return f"the largest amplitude of the disc, {largest:.3g} kg^-1/2, is that of a modal mass of {largest**-2:.2g} kg"
 
 
+def _overdamped(disc: Disc) -> str:
+    most = max(disc.damping_ratio)
+    if most <= MOST_DAMPED:
+        return ""
+    mode = disc.damping_ratio.index(most) + 1
+    return f"mode {mode} of the disc has the {_damped(most)}"
+
+
+def _damped(ratio: float) -> str:
+    """What is implausible of a damping ratio."""
+    return f"damping ratio {ratio:.3g}, more than {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
+
+
+def _overdamped_plate(p: Parameters) -> str:
+    ratio = p.damping_ratio
+    if p.disc is not None or ratio is None or ratio <= MOST_DAMPED:
+        return ""
+    return f"the disc has the {_damped(ratio)}"
+
+
 def _elsewhere(p: Parameters) -> str:
     if p.disc is None and not {"a", "b"} & p.model_fields_set:
         return ""
@@ -200,6 +240,7 @@ DISC_RULES: dict[str, Callable[[Disc], str]] = {
     "frequencies of the disc": _pitch,
     "a frequency of the disc": _alone,
     "amplitudes of the disc": _modal_mass,
+    "damping of the disc": _overdamped,
 }
 
 _MEASURED = ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
@@ -208,7 +249,9 @@ RULES: dict[str, Callable[[Parameters], str]] = {
     **{name: partial(_far, name, DEFAULTS[name]) for name in _MEASURED},
     "thickness": _thick,
     "modes and damping": _unstated,
+    "damping_ratio": _overdamped_plate,
     **{kind: partial(_of_disc, doubt) for kind, doubt in DISC_RULES.items()},
     "radius of the slider": _elsewhere,
+    "short waves": _short,
     "static deflection": _deflected,
 }

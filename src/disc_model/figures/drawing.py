@@ -279,10 +279,17 @@ def say(
 ) -> Any:
     """Write a few words beside a point, on the side to which an offset in points leads; returns the
     text."""
+    ha, va = side_of(offset)
+    return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+
+
+def side_of(offset: tuple[float, float]) -> tuple[Any, Any]:
+    """The horizontal and vertical alignment of a text on the side of a point to which an offset
+    leads."""
     across, up = np.sign(offset)
     ha = {-1: "right", 0: "center", 1: "left"}[across]
     va = {-1: "top", 0: "center", 1: "bottom"}[up]
-    return ax.annotate(text, point, xytext=offset, textcoords="offset points", ha=ha, va=va, **look)
+    return ha, va
 
 
 def say_beside(ax: Axes, height: float, text: str, gap: float = 2, **look: Any) -> None:

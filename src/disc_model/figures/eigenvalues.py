@@ -53,7 +53,7 @@ def plot_eigenvalues(
                     rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
                 )
         names = Names(axes)
-        for x, y in zip(rate[grows], frequency[grows], strict=True):
+        for x, y in sorted(zip(rate[grows], frequency[grows], strict=True), reverse=True):
             names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
         span = max(map(abs, axes.get_xlim())) * ROOM
         axes.set_xlabel("Growth rate (1/s)")

@@ -5,13 +5,25 @@ from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
-from matplotlib.text import Annotation
+from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
-from disc_model.figures.drawing import say
+from disc_model.figures.drawing import GREY, say, side_of, wide
 from disc_model.figures.types import Array, Artist, Axes, Indices
 
 GAP = 1  # points around a name that no other one covers
+LEADER = {"arrowstyle": "-", "relpos": (0.5, 0), "shrinkA": 0, "shrinkB": 1, "color": GREY}
+"""Look of the line from a name to its point: from the middle of its lower side."""
+LEADER_APART = 3  # points, least distance of this line from a higher upright one
+
+
+class Place(NamedTuple):
+    """Where a name may stand: the point beside which it does, the offset from it in points, and
+    whether a line leads from the name to the point."""
+
+    point: tuple[float, float]
+    offset: tuple[float, float]
+    led: bool = False
 
 
 class Names(Artist):
@@ -24,26 +36,26 @@ class Names(Artist):
     Parameters
     ----------
     ax : the panel
-    most : greatest number of names
     lines : points of lines that no name may cover, in units of the axes, shape (n, 2)
-    on_stems : whether the points are tops of upright lines, none of which may stand between another
-        point and its name
+    stems : tops of upright lines, named or not, in units of the axes: none may stand
+        between a point and its name, and a name is nearer to none of the others
+    first_needed : whether none is shown if the first finds no room
     """
 
     def __init__(
         self,
         ax: Axes,
-        most: int | None = None,
         lines: Array | None = None,
         *,
-        on_stems: bool = False,
+        stems: Sequence[tuple[float, float]] | None = None,
+        first_needed: bool = False,
     ) -> None:
         super().__init__()
-        self._most = most
-        self._on_stems = on_stems
+        self._first_needed = first_needed
+        self._stems = None if stems is None else np.reshape(stems, (-1, 2))
         self._lines = np.empty((0, 2)) if lines is None else lines
-        self._candidates: list[list[Annotation]] = []
-        self._points: list[tuple[float, float]] = []
+        self._names: list[Annotation] = []
+        self._places: list[list[Place]] = []
         self.set_zorder(-1)  # chosen before they are drawn
         self.set_in_layout(False)
         ax.add_artist(self)
@@ -53,10 +65,14 @@ class Names(Artist):
         text: str,
         point: tuple[float, float],
         offsets: Iterable[tuple[float, float]],
+        led: Iterable[tuple[float, float]] = (),
         **look: Any,
     ) -> None:
-        """Add the name of a point, by the offsets in points at which it may stand, best first."""
-        self.add_along(text, [point], offsets, **look)
+        """Add the name of a point, by the offsets in points at which it may stand, best first, and
+        those further ones at which a line leads to the point."""
+        places = [Place(point, offset) for offset in offsets]
+        places += [Place(point, offset, led=True) for offset in led]
+        self._add(text, places, **look)
 
     def add_along(
         self,
@@ -67,44 +83,76 @@ class Names(Artist):
     ) -> None:
         """Add the name of a line, by the points of it beside which it may stand, and the offsets
         from these, best first."""
+        self._add(text, [Place(*place) for place in product(points, offsets)], **look)
+
+    def _add(self, text: str, places: list[Place], **look: Any) -> None:
+        """Add a name with its places."""
         ax: Any = self.axes
-        names = [say(ax, text, *place, **look) for place in product(points, offsets)]
-        for name in names:
-            name.set_in_layout(False)
-        self._candidates.append(names)
-        self._points.append(points[0])
+        if any(place.led for place in places):
+            look["arrowprops"] = {**LEADER, "linewidth": wide(0.5)}
+        name = say(ax, text, places[0].point, places[0].offset, **look)
+        name.set_in_layout(False)
+        self._names.append(name)
+        self._places.append(places)
 
     def draw(self, renderer: Any) -> None:
         """Choose the places of all names, which are drawn after it."""
         taken: list[Any] = []
-        panel: Any = self.axes
-        points = panel.transData.transform(np.reshape(self._points, (-1, 2)))
-        for i, names in enumerate(self._candidates):
-            for name in names:
-                name.set_visible(False)
-            if self._most is None or len(taken) < self._most:
-                self._place(names, np.delete(points, i, axis=0), taken, renderer)
+        for i, name in enumerate(self._names):
+            wanted = i == 0 or bool(taken) or not self._first_needed
+            name.set_visible(wanted and self._place(i, taken, renderer))
         self.stale = False
 
-    def _place(
-        self, names: Sequence[Annotation], others: Array, taken: list[Any], renderer: Any
-    ) -> None:
-        """Show the first of a point's names that finds room, nearer to it than to other ones, in
-        pixels; its box is added to those taken."""
+    def _place(self, i: int, taken: list[Any], renderer: Any) -> bool:
+        """Move a name to the first of its places with room, nearer to its point than to other ones;
+        its box, in pixels, is added to those taken. Whether there is such a place."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
         lines = panel.transData.transform(self._lines)
-        for name in names:
-            name.set_visible(True)  # an invisible one has no extent
-            box = name.get_window_extent(renderer).padded(GAP)
+        others = panel.transData.transform(self._others(i))
+        name = self._names[i]
+        name.set_visible(True)  # an invisible one has no extent
+        for place in self._places[i]:
+            _move(name, place, renderer)
+            box = Text.get_window_extent(name, renderer).padded(GAP)  # without its leader
+            nearness = Nearness(panel.transData.transform(place.point), others)
             inside = frame.count_contains(box.corners()) == len(box.corners())
             covers = box.count_contains(lines) or box.count_overlaps(taken)
-            nearness = Nearness(panel.transData.transform(name.xy), others)
-            beyond = self._on_stems and nearness.is_beyond_a_stem(box)
-            if inside and not covers and not beyond and nearness.is_clear(box):
+            if inside and not covers and self._is_plain(place, nearness, box, taken):
                 taken.append(box)
-                return
-            name.set_visible(False)
+                return True
+        return False
+
+    def _is_plain(self, place: Place, nearness: "Nearness", box: Bbox, taken: list[Any]) -> bool:
+        """Whether nobody takes a name in a box for that of another point."""
+        if place.led:
+            figure: Any = self.get_figure(root=True)
+            apart = LEADER_APART * figure.dpi / 72
+            free = nearness.has_free_way(box, apart)
+            return free and not nearness.way_to(box).count_overlaps(taken)
+        if self._stems is not None and nearness.is_beyond_a_stem(box):
+            return False
+        return nearness.is_clear(box)
+
+    def _others(self, i: int) -> Array:
+        """The points of other names than the i-th, and other stems, in units of the axes."""
+        points = np.reshape([places[0].point for places in self._places], (-1, 2))
+        others = np.delete(points, i, axis=0)
+        if self._stems is None:
+            return others
+        return np.vstack([others, self._stems[(self._stems != points[i]).any(axis=1)]])
+
+
+def _move(name: Annotation, place: Place, renderer: Any) -> None:
+    """Move a name to a place, on the side to which its offset leads."""
+    name.xy = place.point
+    name.set_position(place.offset)
+    across, up = side_of(place.offset)
+    name.set_horizontalalignment(across)
+    name.set_verticalalignment(up)
+    if name.arrow_patch is not None:
+        name.arrow_patch.set_visible(place.led)
+    name.update_positions(renderer)
 
 
 class Nearness(NamedTuple):
@@ -124,10 +172,25 @@ class Nearness(NamedTuple):
     def is_beyond_a_stem(self, box: Bbox) -> bool:
         """Whether an upright line up to another point lies between a box and the point itself, or
         under the box."""
-        reach = Bbox.union([box, Bbox([self.own, self.own])])
+        return self.has_a_stem(Bbox.union([box, Bbox([self.own, self.own])]))
+
+    def has_free_way(self, box: Bbox, apart: float) -> bool:
+        """Whether no upright line is in a box above the point, and no higher one up to so far beside
+        the point."""
+        around = Bbox([self.own, self.own]).padded(apart)
+        around.y0 = self.own[1]
+        return not (self.has_a_stem(box) or self.has_a_stem(around))
+
+    def way_to(self, box: Bbox) -> Bbox:
+        """The box of a line from the middle of the lower side of a box to the point."""
+        middle = (box.x0 + box.x1) / 2
+        return Bbox(np.array([self.own, (middle, box.y0)]))
+
+    def has_a_stem(self, box: Bbox) -> bool:
+        """Whether an upright line up to another point is in a box, or ends above it."""
         across, up = self.others.T
-        between = (reach.x0 <= across) & (across <= reach.x1)
-        return bool((between & (up >= reach.y0)).any())
+        between = (box.x0 <= across) & (across <= box.x1)
+        return bool((between & (up >= box.y0)).any())
 
 
 # ---- Modes

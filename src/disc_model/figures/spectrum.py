@@ -21,10 +21,13 @@ from disc_model.units import is_number
 FLOOR = -100.0  # least amplitude shown, dB below the greatest
 WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have to be on the axis
 ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
-HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name
+HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name,
+NAME_HEIGHT = 15.0  # points, which has a low panel too,
+MOST_HEADROOM = 0.4  # and at most as a share of the panel's height
 MOST_NAMED = 5  # lines whose frequencies are written
 BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks,
-BELOW = ((3, -3), (-3, -3))  # and where there is no room, beside their lines
+BELOW = ((3, -3), (-3, -3))  # where there is no room, beside their lines,
+ABOVE = tuple((across, up) for up in (5, 13, 21, 29, 37) for across in (0, -2, 2))  # and else above
 ROUNDING = 1e-9  # relative, of half the rate of a window; and of the decade of a resolution
 SAID_FROM = 1.0  # Hz, resolution from which the axis states it
 MOST_DECIMALS = 1  # of the frequency beside a peak
@@ -121,25 +124,33 @@ def draw_spectrum(
     ax.set_xlim((0, frequency[-1]))
     greatest = amplitude.max()
     lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)
-    ax.set_ylim(lowest / 2, HEADROOM * greatest)
+    ax.set_ylim(lowest / 2, _headroom(ax, 2 * greatest / lowest) * greatest)
     found = lines(time, values, above=RESOLVED * resolution, below=highest)
     peaks = [(line.frequency, factor * line.amplitude) for line in found]
     name_lines(ax, peaks, resolution)
 
 
+def _headroom(ax: Axes, below: float) -> float:
+    """Upper end of the axis over the greatest amplitude, which is so many times the lower end."""
+    figure: Any = ax.get_figure(root=True)
+    height = 72 * ax.get_window_extent().height / figure.dpi
+    share = min(NAME_HEIGHT / height, MOST_HEADROOM)
+    return max(HEADROOM, below ** (share / (1 - share)))
+
+
 def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]], resolution: float = 0.1) -> None:
     """Write the frequencies, Hz, of the strongest lines beside their peaks, on the side away from
-    the nearest other line if there is room; a name that would stand beyond another line is left
-    out. They have no more digits than the resolution, Hz, and a tenth at most."""
-    names = Names(ax, MOST_NAMED, on_stems=True)
+    the nearest other line if there is room, or above, with a line to the peak. The stronger
+    comes first; without room for the strongest there is none. They have no more digits than the
+    resolution, Hz, and a tenth at most."""
+    names = Names(ax, stems=peaks, first_needed=True)
     every = [frequency for frequency, _ in peaks]
-    for frequency, height in sorted(peaks, key=lambda peak: -peak[1]):
+    for frequency, height in sorted(peaks, key=lambda peak: -peak[1])[:MOST_NAMED]:
         sides = (*BESIDE, *BELOW)
         if _nearest(frequency, every) > frequency:
             sides = (*BESIDE[::-1], *BELOW[::-1])
-        names.add(
-            frequency_text(frequency, resolution), (frequency, height), sides, fontsize=large(7)
-        )
+        text = frequency_text(frequency, resolution)
+        names.add(text, (frequency, height), sides, ABOVE, fontsize=large(7))
 
 
 def frequency_text(frequency: float, resolution: float) -> str:

@@ -11,7 +11,8 @@ from disc_model.errors import Fault, ParameterError, as_text
 
 ROUNDS = 10  # greatest number of times that the rest is checked
 MEANT = re.compile(r"did you mean ([^?]+)\?")
-ANY = 1.0  # value of a required number
+ANY = 1.0  # value of a required number,
+ANY_NAMES = {"study": "study"}  # and required texts
 REQUIRED = "is required"  # what a value that was left out leaves behind,
 EMPTY = "must not be empty"  # and what the only one does
 
@@ -97,11 +98,11 @@ def _meant(fault: Fault) -> str:
 
 
 def _fill(content: Any, place: Sequence[str]) -> bool:
-    """Give a required number some value; returns whether there is a place for it."""
+    """Give a required number or text some value; returns whether there is a place for it."""
     parent = _within(content, place[:-1])
     if not place or not isinstance(parent, dict) or place[-1] in parent:
         return False
-    parent[place[-1]] = ANY
+    parent[place[-1]] = ANY_NAMES.get(place[-1], ANY)
     return True
 
 

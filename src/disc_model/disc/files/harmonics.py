@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.disc.files.circle import SAME_RADIUS, Circle
-from disc_model.disc.given import SAME_PAIR, ModeOrigin
+from disc_model.disc.given import SAME_PAIR, ModeOrigin, relative_difference
 from disc_model.disc.plate import Array
 
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
@@ -249,4 +249,6 @@ def origin_of(group: Sequence[Wave]) -> ModeOrigin:
         shapes=len(group),
         followed=min(wave.followed for wave in group),
         in_phase=min(wave.in_phase for wave in group),
+        amplitude_split=relative_difference([abs(wave.amplitude) for wave in group]),
+        damping_split=relative_difference([wave.damping_ratio for wave in group]),
     )

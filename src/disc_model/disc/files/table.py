@@ -8,12 +8,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
-import numpy as np
-
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
 from disc_model.disc.files.heads import COLUMNS, Head, read_head
+from disc_model.disc.files.pairs import Halves, check_halves, halves_in, mean_of, origins_of
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
-from disc_model.disc.given import SAME_PAIR, DiscReport, ModeOrigin
+from disc_model.disc.given import DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import Disc
 
@@ -104,21 +103,22 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     columns = _columns(rows_of([line for line in lines if not line.lstrip().startswith("#")]))
     values = _values(columns)
     values["static_compliance"] = static
-    origins: list[ModeOrigin] = []
-    if pairs == "mean" and _all_numbers(values):
-        values, origins = _mean_of_pairs(values)
+    halves: Halves = [[i] for i in range(len(columns[0].cells))]
+    fields = values
     try:
-        disc = Disc(**values)
+        if pairs == "mean" and _all_numbers(values):
+            halves = halves_in(values)
+            check_halves(halves, values)
+            fields = mean_of(halves, values)
+        disc = Disc(**fields)
     except ParameterError as error:
-        raise ParameterError(*(_of_table(fault, columns) for fault in error.faults)) from None
+        faults = (_of_table(fault, columns, halves) for fault in error.faults)
+        raise ParameterError(*faults) from None
     check_compliance(disc)
-    if not origins:
-        origins = [
-            ModeOrigin(l, omega, omega, 1)
-            for l, omega in zip(disc.diameters, disc.omega, strict=True)
-        ]
+    origins = origins_of(halves, values)
     notes = tuple(_notes(columns, disc))
-    return disc.with_report(DiscReport(source, tuple(origins), notes=notes))
+    doubts = tuple(doubts_of_halves(origins))
+    return disc.with_report(DiscReport(source, origins, notes=notes, doubts=doubts))
 
 
 # ---- Report
@@ -288,49 +288,6 @@ def _complex(cell: str) -> complex:
         return complex(math.nan, math.nan)
 
 
-# ---- Pairs
-
-
-def _mean_of_pairs(values: dict[str, Any]) -> tuple[dict[str, Any], list[ModeOrigin]]:
-    """The fields of a disc with both halves of each pair in one mode, and what each was made of."""
-    groups = _groups(values)
-    sign = np.where(np.array(values["amplitude"]) < 0, -1.0, 1.0)
-    means = dict(values)
-    for name in ("diameters", "circles", "omega", "damping_ratio"):
-        if name in values:
-            column = np.array(values[name])
-            means[name] = [float(column[group].mean()) for group in groups]
-    for name in ("amplitude", "tangential", "shapes"):
-        if name in values:
-            turned = (np.array(values[name]).T * sign).T
-            means[name] = [turned[group].mean(axis=0).tolist() for group in groups]
-    origins = []
-    for group in groups:
-        frequencies = [values["omega"][i] for i in group]
-        diameters = int(values["diameters"][group[0]])
-        origins.append(ModeOrigin(diameters, min(frequencies), max(frequencies), len(group)))
-    return means, origins
-
-
-def _groups(values: dict[str, Any]) -> list[list[int]]:
-    """Numbers of the modes that are one mode of the disc: two of equal diameters, and circles if
-    these are given, whose frequencies are close."""
-    circles = values.get("circles", [0.0] * len(values["omega"]))
-    kinds = [*zip(values["diameters"], circles, strict=True)]
-    omega = values["omega"]
-    groups: list[list[int]] = []
-    for i in sorted(range(len(omega)), key=omega.__getitem__):
-        single = [group for group in groups if len(group) == 1]
-        halves = [group for group in single if kinds[group[0]] == kinds[i]]
-        widest = SAME_PAIR * omega[i]
-        close = [group for group in halves if omega[i] - omega[group[0]] < widest]
-        if close and kinds[i][0] > 0:
-            close[0].append(i)
-        else:
-            groups.append([i])
-    return sorted(groups, key=min)
-
-
 # ---- Cells
 
 
@@ -347,12 +304,13 @@ def _all_numbers(values: Mapping[str, Any]) -> bool:
     return True
 
 
-def _of_table(fault: Fault, columns: list[Column]) -> Fault:
-    """A fault in a number of a `Disc` with the column, cell and mode of the table."""
+def _of_table(fault: Fault, columns: list[Column], halves: Halves) -> Fault:
+    """A fault in a number of a `Disc` with the column, cell and mode of the table, the first of its
+    halves."""
     column = next((one for one in columns if one.head.quantity == fault.path[0]), None)
     if column is None or len(fault.path) != 2:
         return fault
-    i = int(fault.path[1])
+    i = halves[int(fault.path[1])][0]
     converted = column.head.factor != 1.0
     unit = " rad/s" if converted and "within" in fault.rule else ""
     rule = f"{fault.rule}{unit} (mode {i + 1})"

@@ -26,7 +26,7 @@ from disc_model.disc.files.universal_waves import (
     placed_towards_slider,
     waves_of,
 )
-from disc_model.disc.given import DiscReport
+from disc_model.disc.given import DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc
 
@@ -65,10 +65,13 @@ def _disc(sets: list[DataSet], place: Place, name: str) -> Disc:
     doubts += single_halves(groups)
     doubts += far_face(waves, placed.circle)
 
+    origins = tuple(origin_of(group) for group in groups)
+    doubts += doubts_of_halves(origins)
+
     tangential = have_motion_in_plane(waves)
     report = DiscReport(
         source=name,
-        modes=tuple(origin_of(group) for group in groups),
+        modes=origins,
         left_out=dict(left_out),
         notes=tuple(notes_on(placed, units, modes, tangential)),
         doubts=tuple(doubts),
