@@ -34,9 +34,9 @@ DOUBLED = "period_doubling"
 # Arclengths beyond the last cycle, which is within the shortest step of a discontinuity; events of
 # a motion without one move by about as much, over the period.
 BEYOND = (1e-6, 1e-5, 1e-4)
-# Such arclengths for motions: beside a grazing release a leading multiplier of a million leaves it to
-# chance on which side a motion goes.
-TRIED = (*BEYOND, 2e-6, 5e-6, 2e-5, 5e-5, 2e-4, 5e-4, 1e-3)
+# Such arclengths for motions, at last back along the branch: beside a grazing release a leading
+# multiplier of a million leaves it to chance on which side a motion goes.
+TRIED = (*BEYOND, 2e-6, 5e-6, 2e-5, 5e-5, 2e-4, 5e-4, 1e-3, -1e-6, -1e-5, -1e-4)
 SAME_TIME = 5e-3  # largest difference of two times of one event, over the period
 # A stiff contact's vibration makes a motion farther away differ without a grazing, and may graze
 # friction's limit within a vibration of the release.
