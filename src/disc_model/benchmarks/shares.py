@@ -1,6 +1,7 @@
 """Where the time of quantities goes: simulation, Newton's method, return maps, and the rest."""
 
 import cProfile
+import inspect
 import pstats
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
@@ -177,6 +178,6 @@ def _time_in(
 
 
 def _key(function: Callable[..., Any]) -> tuple[str, int, str]:
-    """Return the name of a function in a profile."""
-    code = function.__code__
+    """Return the name of a function in a profile, without what wraps it."""
+    code = inspect.unwrap(function).__code__
     return code.co_filename, code.co_firstlineno, code.co_name

@@ -34,7 +34,8 @@ def excess_of_thin_plate(squared: Array, nu: float) -> Array:
     times thickness, by Poisson's ratio."""
     shear = 1 / (6 * SHEAR_COEFFICIENT * (1 - nu))
     total = 1 + (shear + ROTARY) * squared
-    root = np.sqrt(total**2 - 4 * shear * ROTARY * squared**2)
+    # of total^2 - 4 shear rotary q^2, as a sum of squares, which may be infinite
+    root = np.hypot(np.sqrt(1 + 2 * (shear + ROTARY) * squared), (shear - ROTARY) * squared)
     # the lower root of the quadratic equation for y, 2 / (total + root)
     return np.asarray(np.sqrt((total + root) / 2) - 1)
 
