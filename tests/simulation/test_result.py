@@ -11,6 +11,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
+from scipy.io import loadmat
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
 from disc_model.attached.shown import simulated_again
@@ -99,6 +101,18 @@ def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
     simulate(P, 0.01).save(result_path)
     with pytest.raises(ParameterError, match=r"must be a file written by State\.save"):
         State.load(result_path)
+
+
+def test_what_files_of_states_hold_has_units_and_meanings(tmp_path: Path) -> None:
+    simulate(P, 0.05).save(tmp_path / "run.nc")
+    run = xr.open_datatree(tmp_path / "run.nc")
+    columns = [*run["final_state"].data_vars.values(), *run["events"].data_vars.values()]
+    assert {"a", "mode_amplitudes", "direction"} < {str(column.name) for column in columns}
+    assert [x.name for x in columns if "long_name" not in x.attrs] == []
+    assert run["final_state"]["alpha"].attrs["units"] == "kg0.5 m s-1"
+    simulate(P, 0.05).final_state.save(tmp_path / "state.mat")
+    units = loadmat(tmp_path / "state.mat", simplify_cells=True)["units"]
+    assert units["alpha"] == "kg0.5 m s-1"
 
 
 def test_a_height_that_contradicts_contact_is_refused() -> None:

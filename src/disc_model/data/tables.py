@@ -23,7 +23,7 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import SERIES, flag_names
+from disc_model.data.variables import COORDINATES, OF_STATES, SERIES, flag_names
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 
 # columns of numbers, shape (n,), by the names of tables and their own
@@ -51,13 +51,19 @@ def save_tables(
         tree = xr.DataTree() if tree is None else tree
         for name, table in tables.items():
             known = tree[name].to_dataset() if name in tree.children else xr.Dataset()
-            along = next(iter(known.dims), "mode")
-            new = {key: (along, x) for key, x in table.items() if key not in known}
+            along = str(next(iter(known.dims), "mode"))
+            new = {key: _column(key, along, x) for key, x in table.items() if key not in known}
             tree[name] = known.assign(new)
         tree.attrs["result"] = described
         save(tree, file)
     else:
         _save_mat(tables, described, file)
+
+
+def _column(name: str, along: str, values: NDArray[Any]) -> xr.Variable:
+    """A column that only files hold, with its unit and meaning."""
+    known = COORDINATES | OF_STATES
+    return xr.Variable(along, values, known[name].attributes if name in known else {})
 
 
 def _save_mat(tables: Tables, described: str, file: Path) -> None:
@@ -72,11 +78,12 @@ def _save_mat(tables: Tables, described: str, file: Path) -> None:
             if name in BESIDE or not _MATLAB_NAME.fullmatch(name)
         ]
     )
-    columns = sorted({name for table in tables.values() for name in table} & SERIES.keys())
-    units = {name: SERIES[name].units for name in columns}
+    known = SERIES | COORDINATES | OF_STATES
+    columns = sorted({name for table in tables.values() for name in table} & known.keys())
+    units = {name: known[name].units for name in columns}
     # words of the numbers 0, 1, ...: meanings.kind{events.kind + 1}
     meanings = {
-        name: np.array(SERIES[name].flags, dtype=object) for name in columns if SERIES[name].flags
+        name: np.array(known[name].flags, dtype=object) for name in columns if known[name].flags
     }
     content = {"result": described, "units": units, "meanings": meanings, **tables}
 

@@ -137,8 +137,8 @@ def _variables(section: str) -> dict[str, Variable]:
 
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, _OF_GRIDS = map(
-    _variables, ("series", "scalars", "perturbations", "modal", "of_grids")
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS = map(
+    _variables, ("series", "scalars", "perturbations", "modal", "of_states", "of_grids")
 )
 OF_RESULTS = {
     kind: {name: Variable(*entry) for name, entry in table.items()}

@@ -36,6 +36,7 @@ from disc_model.engine.series import Series, build_series
 from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
 from disc_model.parameters import Parameters, foreign_case
+from disc_model.sources import versions_text
 from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 
 if TYPE_CHECKING:
@@ -194,11 +195,15 @@ class State(EqualByValue):
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """
+        import xarray as xr
+
         from disc_model.data import tables
 
         require_finite(self)
         values, arrays = self.parts
-        tables.save_tables({"state": arrays}, StateValues(**values).model_dump_json(), path)
+        described = StateFile(**values, versions=versions_text())
+        tree = xr.DataTree(xr.Dataset(attrs={"versions": described.versions}))
+        tables.save_tables({"state": arrays}, described.model_dump_json(), path, tree)
 
     @classmethod
     def load(cls, path: str | Path) -> State:
@@ -219,7 +224,8 @@ class State(EqualByValue):
         holds_state = text and [*found] == ["state"]
         require((holds_state, "path", str(path), "must be a file written by State.save"))
         try:
-            state = stored_state(StateValues.model_validate_json(text), found["state"])
+            values = StateFile.model_validate_json(text).without_versions()
+            state = stored_state(values, found["state"])
             require_finite(state)
         except ParameterError as error:
             raise unreadable(path, error) from None
@@ -241,6 +247,16 @@ class StateValues(Strict):
     drive_angle: Real | None
     case_key: str
     roots: tuple[Annotated[Count, Field(ge=0, le=3)], Annotated[Count, Field(ge=0, le=3)]]
+
+
+class StateFile(StateValues):
+    """What the file of a state holds beside its arrays: also the versions of the packages that
+    wrote it, as JSON, "" before these were kept."""
+
+    versions: str = ""
+
+    def without_versions(self) -> StateValues:
+        return StateValues(**self.model_dump(exclude={"versions"}))
 
 
 def stored_state(values: StateValues, arrays: Mapping[str, Array]) -> State:
