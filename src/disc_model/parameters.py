@@ -352,11 +352,13 @@ class Parameters(Strict):
         fields = type(self).model_fields
         rows = []
         for name, value in self:
-            if value is None:
+            if value is None or (self.disc is not None and name in PLATE):
                 continue
             text = str(value)
             if is_number(value):
                 text = f"{value:.15g}"
+            if isinstance(value, Disc):
+                text = f"{len(value.omega)} modes"
             unit = self.unit(name).removeprefix("1")
             rows.append((name, text, unit, fields[name].description))
         return html_table(("symbol", "value", "unit", "meaning"), rows)
@@ -368,8 +370,9 @@ class Parameters(Strict):
 
     @property
     def canonical(self) -> dict[str, Any]:
-        """The values that identify a case: all of them."""
-        return self.model_dump()
+        """The values that identify a case: all of them, but for those of the plate if the disc is
+        given by its modes."""
+        return self.model_dump(exclude={*PLATE} if self.disc is not None else None)
 
     @property
     def canonical_json(self) -> str:

@@ -1,7 +1,12 @@
 """Lines, their names, and spectra in time, for signals made of known lines."""
 
+from collections.abc import Callable
+from typing import Any
+
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 
 from disc_model.analysis import spectra
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
@@ -32,6 +37,23 @@ def test_lines_are_found_with_frequency_and_amplitude() -> None:
     found = spectra.lines(TIME, signal(KNOWN), floor=1e-3)
     assert [line.frequency for line in found] == pytest.approx(list(KNOWN), abs=0.005)
     assert [line.amplitude for line in found] == pytest.approx(list(KNOWN.values()), rel=0.02)
+
+
+@pytest.mark.parametrize("kind", [pd.Series, xr.DataArray, list])
+def test_samples_may_be_of_any_kind(kind: Callable[[np.ndarray], Any]) -> None:
+    """Columns of a run, DataArrays, and of a table, Series, failed within numpy."""
+    time = kind(TIME[1000:])
+    values = kind(signal(KNOWN)[1000:])
+    if kind is pd.Series:  # the rows of a part of a table do not begin at 0
+        time.index += 1000
+        values.index += 1000
+    plain = (np.asarray(time), np.asarray(values))
+    assert spectra.lines(time, values) == spectra.lines(*plain)
+    assert spectra.main_vibration(time, values) == spectra.main_vibration(*plain)
+    for found, expected in zip(
+        spectra.time_frequency(time, values), spectra.time_frequency(*plain), strict=True
+    ):
+        assert np.array_equal(found, expected)
 
 
 def test_a_line_is_weak_beside_the_strongest_of_its_band() -> None:

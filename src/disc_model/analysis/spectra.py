@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from disc_model.arrays import Array, Indices
 from disc_model.disc.flexibility import contact_compliance
@@ -69,10 +70,12 @@ class TimeFrequency(NamedTuple):
     power: Array
 
 
-def rate_of(time: Array, values: Array) -> float:
+def rate_of(time: ArrayLike, values: ArrayLike) -> float:
     """Sampling rate (Hz) of uniform samples, both of shape (n,); raises ParameterError if they are
     not uniform."""
-    if np.ndim(time) != 1 or np.shape(values) != np.shape(time) or np.size(time) < 2:
+    time = np.asarray(time, dtype=float)
+    values = np.asarray(values, dtype=float)
+    if time.ndim != 1 or values.shape != time.shape or time.size < 2:
         raise ParameterError("values: must be two or more, one for each time")
     if not np.all(np.isfinite(values)):
         raise ParameterError("values: must be finite")
@@ -84,7 +87,7 @@ def rate_of(time: Array, values: Array) -> float:
     return float(1 / step)
 
 
-def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
+def amplitude_spectrum(time: ArrayLike, values: ArrayLike) -> tuple[Array, Array]:
     """One-sided amplitude spectrum with a Blackman-Harris window (side lobes below -92 dB), mean
     removed.
 
@@ -97,15 +100,16 @@ def amplitude_spectrum(time: Array, values: Array) -> tuple[Array, Array]:
     from scipy.signal.windows import blackmanharris
 
     rate = rate_of(time, values)
-    window = blackmanharris(len(time), sym=False)
+    values = np.asarray(values, dtype=float)
+    window = blackmanharris(len(values), sym=False)
     transform = np.fft.rfft((values - np.mean(values)) * window)
-    frequency = np.asarray(np.fft.rfftfreq(len(time), 1 / rate), dtype=np.float64)
+    frequency = np.asarray(np.fft.rfftfreq(len(values), 1 / rate), dtype=np.float64)
     return frequency, 2 * np.abs(transform) / window.sum()
 
 
 def lines(
-    time: Array,
-    values: Array,
+    time: ArrayLike,
+    values: ArrayLike,
     *,
     above: float = 0.0,
     below: float = np.inf,
@@ -152,7 +156,7 @@ def lines(
     return [Line(*line) for line in found]
 
 
-def highest_line(time: Array, values: Array, floor: float) -> float:
+def highest_line(time: ArrayLike, values: ArrayLike, floor: float) -> float:
     """Frequency of the highest line, Hz, whose amplitude is at least `floor` times that of the
     strongest; half the sampling rate if there is no line."""
     found = lines(time, values, floor=floor)
@@ -161,7 +165,7 @@ def highest_line(time: Array, values: Array, floor: float) -> float:
     return found[-1].frequency
 
 
-def strongest(time: Array, values: Array, near: float, within: float) -> Line:
+def strongest(time: ArrayLike, values: ArrayLike, near: float, within: float) -> Line:
     """Find the strongest line within `within` Hz of the frequency `near`; raises ValueError if
     there is none."""
     peaks = lines(time, values, above=near - within, below=near + within, floor=0.0)
@@ -179,7 +183,7 @@ class MainVibration(NamedTuple):
     share: float
 
 
-def main_vibration(time: Array, values: Array) -> MainVibration:
+def main_vibration(time: ArrayLike, values: ArrayLike) -> MainVibration:
     """Find the vibration at one frequency that explains most of a signal.
 
     Its frequency is that of the strongest line, its amplitude and share are those of a least-squares
@@ -201,14 +205,16 @@ def main_vibration(time: Array, values: Array) -> MainVibration:
     return MainVibration(frequency, amplitude, share)
 
 
-def share_at(time: Array, values: Array, frequency: float) -> float:
+def share_at(time: ArrayLike, values: ArrayLike, frequency: float) -> float:
     """Share of a signal's variance that one sine at a frequency in Hz explains."""
     return _fit_sine(time, values, frequency)[1]
 
 
-def _fit_sine(time: Array, values: Array, frequency: float) -> tuple[float, float]:
+def _fit_sine(time: ArrayLike, values: ArrayLike, frequency: float) -> tuple[float, float]:
     """Amplitude of the sine at a frequency (Hz) that fits a signal best, and the share of the
     signal's variance that it explains."""
+    time = np.asarray(time, dtype=float)
+    values = np.asarray(values, dtype=float)
     angle = 2 * np.pi * frequency * (time - time[0])
     waves = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle)])
     coefficients = np.linalg.lstsq(waves, values, rcond=None)[0]
@@ -217,7 +223,7 @@ def _fit_sine(time: Array, values: Array, frequency: float) -> tuple[float, floa
     return float(np.hypot(*coefficients[1:])), share
 
 
-def chance(time: Array, values: Array, line: Line, searched: float) -> float:
+def chance(time: ArrayLike, values: ArrayLike, line: Line, searched: float) -> float:
     """Probability that noise at the level of a line's neighbourhood has as strong a line in the
     searched band.
 
@@ -282,7 +288,7 @@ def identify(frequency: float, f_s: float, f_drive: float) -> Combination:
 
 
 def time_frequency(
-    time: Array, values: Array, *, window: float = 1.0, hop: float = 0.05
+    time: ArrayLike, values: ArrayLike, *, window: float = 1.0, hop: float = 0.05
 ) -> TimeFrequency:
     """Short-time Fourier transform: power in a Hann window that slides over the samples, mean
     removed.
@@ -301,6 +307,7 @@ def time_frequency(
     from scipy.signal.windows import hann
 
     rate = rate_of(time, values)
+    values = np.asarray(values, dtype=float)
     length = round(window * rate)
     step = max(1, round(hop * rate))
     if len(values) < length + 2 * step:
@@ -311,17 +318,17 @@ def time_frequency(
     transform = ShortTimeFFT(
         hann(length, sym=False), step, rate, fft_mode="onesided2X", scale_to="magnitude"
     )
-    centred = np.asarray(values, dtype=float) - np.mean(values)
+    centred = values - np.mean(values)
 
     # only windows within the samples
     first = transform.lower_border_end[1]
     last = transform.upper_border_begin(len(centred))[1]
     amplitude = np.abs(transform.stft(centred, p0=first, p1=last))
-    middles = time[0] + transform.delta_t * np.arange(first, last)
+    middles = np.asarray(time, dtype=float)[0] + transform.delta_t * np.arange(first, last)
     return TimeFrequency(middles, transform.f, amplitude**2 / 2)
 
 
-def power_share(time: Array, values: Array, above: float, reference: float) -> float:
+def power_share(time: ArrayLike, values: ArrayLike, above: float, reference: float) -> float:
     """Power above the frequency `above` over the power above a lower frequency `reference` (both
     Hz)."""
     frequency, amplitude = amplitude_spectrum(time, values)
@@ -329,7 +336,9 @@ def power_share(time: Array, values: Array, above: float, reference: float) -> f
     return float(power[frequency > above].sum() / power[frequency > reference].sum())
 
 
-def coverage(time: Array, values: Array, low: float, high: float, floor: float = 1e-3) -> float:
+def coverage(
+    time: ArrayLike, values: ArrayLike, low: float, high: float, floor: float = 1e-3
+) -> float:
     """Share of the band `low` to `high`, Hz, where the amplitude exceeds `floor` of its strongest
     line (0 without)."""
     frequency, amplitude = amplitude_spectrum(time, values)

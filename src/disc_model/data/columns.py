@@ -70,6 +70,10 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
         values["friction_offset"] = p.h / 2
         if p.disc is not None:  # it follows from the table
             values["friction_offset"] = math.nan
+    if p.disc is not None:
+        values["n_diameters"] = max(p.disc.diameters)
+        values["n_circles"] = max(p.disc.circles)
+        values["normalization"] = "orthonormal"  # as amplitudes per root of mass are
 
     unused = [name for name, value in values.items() if value is None]
     if p.disc is not None:

@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.errors import Fault, raise_faults
 from disc_model.hashing import canonical_json
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
 from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
@@ -126,7 +126,8 @@ def sweep(
 def _base(case: Parameters, searched: set[str]) -> str:
     """What the case states, in JSON, but for what the function varies by itself."""
     stated = {**case.stated, "disc": case.canonical.get("disc")}
-    return canonical_json({name: x for name, x in stated.items() if name not in searched})
+    without = {*searched, *(PLATE if case.disc is not None else ())}
+    return canonical_json({name: x for name, x in stated.items() if name not in without})
 
 
 def _is_ours(function: Any) -> bool:

@@ -136,6 +136,18 @@ def test_a_branch_stops_at_its_first_fold(monkeypatch):
     assert branch.special_points["label"].tolist() == ["EP", "TR", "LP"]
 
 
+def test_kinds_at_which_a_branch_stops_may_be_several_and_labels(monkeypatch):
+    use(monkeypatch, FoldMap)
+    for stop_at in ("LP", ["fold"], ("PD", "LP")):
+        branch = continue_cycle(P, "Omega", (12.0, 17.0), stop_at=stop_at)
+        assert branch.special_points["label"].tolist() == ["EP", "TR", "LP"]
+    branch = continue_cycle(P, "Omega", (12.0, 17.0), stop_at=["LP", "TR"])
+    assert branch.special_points["label"].tolist() == ["TR", "LP"]
+    for wrong in ("GR", ["LP", "HB"], ["LP", 3], 3):
+        with pytest.raises(ParameterError, match=r"stop_at=.*must be None, or one or several of"):
+            continue_cycle(P, "Omega", (12.0, 17.0), stop_at=wrong)
+
+
 def test_neimark_sacker_points_are_those_of_the_ellipse(monkeypatch):
     use(monkeypatch, FoldMap)
     branch = continue_cycle(Parameters(N=300, Omega=10), "Omega", (4.0, 15.0))
@@ -258,7 +270,12 @@ def test_arguments_are_checked(monkeypatch):
     wrong = {"values": ["5 kg"], "stop_at": "hopf", "steps": 0.1, "direction": 2}
     with pytest.raises(ParameterError) as error:
         continue_cycle(P, "Omega", (17.0, 12.0), **wrong)
-    for text in ("bounds=", "values=", "stop_at='hopf': must be None or one of fold, ", "steps="):
+    for text in (
+        "bounds=",
+        "values=",
+        "stop_at='hopf': must be None, or one or several of fold, ",
+        "steps=",
+    ):
         assert text in str(error.value)
     for values in (3.0, None, [math.nan]):
         with pytest.raises(ParameterError, match="values="):

@@ -312,7 +312,8 @@ class Branch:
         faults = list[Fault]()
         [wanted] = values_in_si(name, [value], faults, "value")
         raise_faults(faults)
-        require((is_finite(wanted), "value", value, "must be a finite number"))
+        rule = "must be one finite number, such as branch.values[0, 0]"
+        require((is_finite(wanted), "value", value, rule))
         apart = np.abs(self.values[:, 0] - wanted)
         return np.flatnonzero(apart <= ROUNDING * abs(wanted)).tolist()
 

@@ -59,7 +59,7 @@ def _say_nothing(point: CurvePoint) -> None:
 
 class Search:
     """The search for a branch of a problem in one parameter, between the bounds of a span, up to
-    the first special point of the kind `stop_at` if there is one. It tells of each point that is
+    the first special point of one of the kinds `stop_at` if there is one. It tells of each point that is
     found along the branch."""
 
     def __init__(
@@ -67,7 +67,7 @@ class Search:
         problem: CycleProblem,
         steps: StepControl,
         span: tuple[float, float],
-        stop_at: str | None = None,
+        stop_at: frozenset[str] = frozenset(),
         tell: Callable[[CurvePoint], None] = _say_nothing,
     ) -> None:
         self.problem = problem
@@ -133,7 +133,7 @@ class Search:
 
     def _located(self, points: list[CurvePoint], end: End) -> Course:
         """A course with its special points; it ends before a fold that cannot be located, and at
-        the first special point of the kind at which it shall stop."""
+        the first special point of a kind at which it shall stop."""
         found = list[Located]()
         last = len(points) - 1
         if end.kind == ends.DOUBLED:  # where the equations are singular
@@ -148,7 +148,7 @@ class Search:
                 if end.kind == ends.HOPF and _is_beside(place, points[-1]):
                     continue
                 found.append(place)
-                if place.kind == self.stop_at:
+                if place.kind in self.stop_at:
                     where = self.problem.words(place.point)
                     end = End(ends.STOPPED, f"the first {KIND_WORDS[place.kind]}, at {where}")
                     return Course([*points[: i + 1], place.point], found, None, end)
@@ -310,13 +310,13 @@ class _Watch:
 
     def _stops(self, before: CurvePoint, new: CurvePoint) -> bool:
         """Whether a special point at which the branch shall stop is between two neighbours."""
-        if self.search.stop_at is None:
+        if not self.search.stop_at:
             return False
         try:
             found = special.locate_between(self.search.tracer, before, new)
         except Unlocated:
             return True
-        return any(place.kind == self.search.stop_at for place in found)
+        return any(place.kind in self.search.stop_at for place in found)
 
 
 class _Trace:

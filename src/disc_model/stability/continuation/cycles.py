@@ -8,7 +8,7 @@ from disc_model.errors import violations, with_known_names
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.arguments import read_values
-from disc_model.stability.continuation.branch import CHANGES, Branch
+from disc_model.stability.continuation.branch import CHANGES, LABELS, Branch
 from disc_model.stability.continuation.course import Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
@@ -33,7 +33,7 @@ def continue_cycle(  # noqa: PLR0913
     tol: float = 1e-12,
     steps: StepControl = CYCLE,
     values: Sequence[Quantity] = (),
-    stop_at: str | None = None,
+    stop_at: str | Sequence[str] | None = None,
     kind: str = STICK_SLIP,
     progress: bool = False,
 ) -> Branch:
@@ -55,7 +55,8 @@ def continue_cycle(  # noqa: PLR0913
     steps : length and number of the steps
     values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
         those that it never passes are its `not_reached`
-    stop_at : "fold", "period_doubling" or "neimark_sacker" to end at the first such point, in each direction
+    stop_at : "fold", "period_doubling" or "neimark_sacker", or the label "LP", "PD" or "TR", to end at the first such
+        point, in each direction; several of them to end at the first of any
     kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
         the Hopf point of steady sliding to where it touches zero slip speed
     progress : whether standard error shows how many cycles are found, and at which value of the parameter; how many
@@ -86,11 +87,12 @@ def continue_cycle(  # noqa: PLR0913
     [-0.1055, 0.5751]
     """
     ways = is_number(direction) and direction in (-1, 0, 1)
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at in CHANGES)
+    stops = _kinds_of(stop_at)
+    rule = f"must be None, or one or several of {', '.join(CHANGES)}, or of their labels"
     wrong = violations(
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
-        (stops, "stop_at", stop_at, f"must be None or one of {', '.join(CHANGES)}"),
+        (stops is not None, "stop_at", stop_at, rule),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
@@ -106,10 +108,24 @@ def continue_cycle(  # noqa: PLR0913
             bar.describe(f"continue_cycle at {problem.words(point)}")
             bar.advance()
 
-        search = Search(problem, steps, span, stop_at, tell)
+        search = Search(problem, steps, span, stops or frozenset(), tell)
         course = search.follow_cycle(cycle, int(direction))
         course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
+
+
+def _kinds_of(stop_at: object) -> frozenset[str] | None:
+    """The kinds of special points, given by kinds or labels, at which a branch shall stop; None if
+    there is another one among them."""
+    if stop_at is None:
+        return frozenset()
+    known = {kind: kind for kind in CHANGES} | {LABELS[kind]: kind for kind in CHANGES}
+    given = [stop_at] if isinstance(stop_at, str) else stop_at
+    if not isinstance(given, Sequence) or not all(isinstance(x, str) for x in given):
+        return None
+    if not known.keys() >= set(given):
+        return None
+    return frozenset(known[x] for x in given)
 
 
 def _scaled(
