@@ -10,27 +10,29 @@ All keys under `options` of a study file, by [quantity](study_quantities.md). *R
 may have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step` or `count`.
 [Starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
 `distributions`. `disc-model study my.yaml -n` shows the options of a study with their values.
-
-| quantity | option | given as | unit | default | meaning |
-| --- | --- | --- | --- | --- | --- |
+"""
+TABLE = """\
+| option | given as | default | meaning |
+| --- | --- | --- | --- |
 """
 
 
 def page_text() -> str:
-    """The page: a table of all options, as Markdown."""
-    rows = []
+    """The page: a table of the options of each quantity, as Markdown."""
+    sections = []
     for name in quantity_names():
-        options = options_of(quantity_of(name))
-        heads = [f"`{name}`", *[""] * (len(options) - 1)]
-        rows += [_row(head, option) for head, option in zip(heads, options, strict=True)]
-    return HEAD + "".join(rows)
+        rows = map(_row, options_of(quantity_of(name)))
+        sections.append(f"\n## {name}\n\n{TABLE}{''.join(rows)}")
+    return HEAD + "".join(sections)
 
 
-def _row(head: str, option: Option) -> str:
+def _row(option: Option) -> str:
+    form = option.form
+    if option.unit:
+        form += f" in {option.unit.replace('that of', 'the unit of')}"
     default = f"`{option.default}`" if option.default else ""
     default = "*required*" if option.default == "required" else default
-    cells = (head, f"`{option.name}`", option.form, option.unit, default, option.meaning)
-    return f"| {' | '.join(cells)} |\n"
+    return f"| {' | '.join((f'`{option.name}`', form, default, option.meaning))} |\n"
 
 
 if __name__ == "__main__":

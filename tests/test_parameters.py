@@ -15,6 +15,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from disc_model import Disc, ParameterError, Parameters
+from disc_model.data.columns import scalars_dataset
+from disc_model.parameters import PLATE
 from tests.processes import python
 
 
@@ -179,6 +181,36 @@ def test_a_ratio_stays_a_ratio_in_a_copy(copied: Callable[[Parameters], Paramete
     changed = again.replace(mu_s=0.4, b=0.13)
     assert changed.mu_k == 0.24
     assert changed.r_0 == pytest.approx(0.104)
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "fault"),
+    [
+        ("friction_offset", "none", "friction_offset='none': must be a number or 'surface'"),
+        (
+            "contact_compliance",
+            -1,
+            "contact_compliance=-1: must be a finite number >= 0 or 'residual'",
+        ),
+    ],
+)
+def test_a_value_of_no_kind_is_one_fault(name: str, value: object, fault: str) -> None:
+    with pytest.raises(ParameterError) as error:
+        Parameters(N=1, Omega=2, **{name: value})  # type: ignore[arg-type]
+    assert [str(each) for each in error.value.faults] == [fault]
+
+
+def test_a_disc_of_ones_own_shows_and_stores_nothing_of_the_plate() -> None:
+    disc = Disc(diameters=[0, 3], omega=[1490, 1515], amplitude=[1.53, 2.16])
+    case = Parameters(N=385, Omega=15.1, disc=disc, r_0=0.1)
+    rows = re.findall(r"<tr><td>(\w+)</td><td>([^<]*)", case._repr_html_())
+    assert dict(rows)["disc"] == "2 modes"
+    assert not {*PLATE} & {*dict(rows)}
+    assert not {*PLATE} & {*json.loads(case.canonical_json)}
+    assert Parameters.model_validate_json(case.canonical_json) == case
+    values = scalars_dataset(case, {}, "ok", "")
+    assert values["n_diameters"] == 3
+    assert values["E"].isnull()
 
 
 @pytest.mark.parametrize(

@@ -167,6 +167,7 @@ class NonFinite(SimulationError):
 def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
     """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is
     the word for names, and its ``_unknown`` replaces the rule."""
+    rules: dict[tuple[tuple[str, ...], str], list[str]] = {}
     for item in error.errors(include_url=False):
         path = _path(item, raw)
         kind = item["type"]
@@ -182,7 +183,16 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         elif kind == "extra_forbidden":
             yield _unknown_name(path, value, model)
         else:
-            yield Fault.of(path, value, _rule(kind, value, context, item["msg"]))
+            rule = _rule(kind, value, context, item["msg"])
+            rules.setdefault((path, as_text(value)), []).append(rule)
+
+    # a value that may be of several kinds breaks a rule of each
+    for (path, text), of_kinds in rules.items():
+        yield Fault(path, text, " or ".join([of_kinds[0], *map(_without_must, of_kinds[1:])]))
+
+
+def _without_must(rule: str) -> str:
+    return rule.removeprefix("must be ")
 
 
 def _unknown_name(path: tuple[str, ...], value: Any, model: type[BaseModel]) -> Fault:

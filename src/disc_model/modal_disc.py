@@ -27,7 +27,7 @@ AMPLITUDES = (1e-6, 1e6)
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
     "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
-    "(Disc.from_csv averages halves with pairs='mean')"
+    "(Disc.from_csv averages halves with pairs='mean', disc-model modes with --pairs mean)"
 )
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
