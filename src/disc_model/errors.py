@@ -164,10 +164,12 @@ class NonFinite(SimulationError):
 # ---- Wording of faults
 
 
-def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Iterator[Fault]:
+def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> list[Fault]:
     """The faults that pydantic found in an input. Where a name is unknown, the model's ``_word`` is
-    the word for names, and its ``_unknown`` replaces the rule."""
-    rules: dict[tuple[tuple[str, ...], str], list[str]] = {}
+    the word for names, and its ``_unknown`` replaces the rule. A value that may be of several kinds
+    breaks a rule of each: one fault names them all."""
+    faults: list[Fault] = []
+    places: dict[tuple[tuple[str, ...], str], int] = {}  # of faults by path and value
     for item in error.errors(include_url=False):
         path = _path(item, raw)
         kind = item["type"]
@@ -175,24 +177,22 @@ def faults_of(error: ValidationError, raw: Any, model: type[BaseModel]) -> Itera
         context = item.get("ctx", {})
         reason = context.get("error")
         if isinstance(reason, ParameterError):  # raised by a part that is a model of its own
-            yield from (fault.inside(path) for fault in reason.faults)
+            faults += [fault.inside(path) for fault in reason.faults]
         elif kind == "missing":
-            yield Fault(path, "", "is required")
+            faults.append(Fault(path, "", "is required"))
         elif kind == "too_short" and len(value) >= context["min_length"]:
             continue  # only valid items were counted, and the others are faults by themselves
         elif kind == "extra_forbidden":
-            yield _unknown_name(path, value, model)
+            faults.append(_unknown_name(path, value, model))
         else:
-            rule = _rule(kind, value, context, item["msg"])
-            rules.setdefault((path, as_text(value)), []).append(rule)
-
-    # a value that may be of several kinds breaks a rule of each
-    for (path, text), of_kinds in rules.items():
-        yield Fault(path, text, " or ".join([of_kinds[0], *map(_without_must, of_kinds[1:])]))
-
-
-def _without_must(rule: str) -> str:
-    return rule.removeprefix("must be ")
+            fault = Fault.of(path, value, _rule(kind, value, context, item["msg"]))
+            place = places.setdefault((path, fault.value), len(faults))
+            if place < len(faults):
+                other = fault.rule.removeprefix("must be ")
+                faults[place] = Fault(path, fault.value, f"{faults[place].rule} or {other}")
+            else:
+                faults.append(fault)
+    return faults
 
 
 def _unknown_name(path: tuple[str, ...], value: Any, model: type[BaseModel]) -> Fault:

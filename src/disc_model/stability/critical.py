@@ -134,8 +134,10 @@ def critical(
     The motion near the static start is the stick-slip cycle that `floquet` finds, or steady sliding
     or rest if there is no cycle. Beside a fold that search may find no cycle, or the unstable one:
     a stable cycle is followed from neighbouring values to its fold. Where an unstable one was found,
-    the motion from the static start must settle on the stable one within 10,000 releases. Where no
-    cycle is found and stick-slip goes on, the motion counts as unstable.
+    the motion from the static start must settle on the stable one within 10,000 releases. Where a
+    stable one was found, it counts, though between two folds the start may lead to another cycle:
+    `outcome` simulates the motion. Where no cycle is found and stick-slip goes on, the motion counts
+    as unstable.
 
     It is computed at equal steps, which alone limit what can be overlooked. Instability often lies
     in much narrower tongues, where multipliers meet on the unit circle. Their angles change
