@@ -116,14 +116,14 @@ def continue_cycle(  # noqa: PLR0913
 
 def _kinds_of(stop_at: object) -> frozenset[str] | None:
     """The kinds of special points, given by kinds or labels, at which a branch shall stop; None if
-    there is another one among them."""
+    there is another one among them, or none."""
     if stop_at is None:
         return frozenset()
     known = {kind: kind for kind in CHANGES} | {LABELS[kind]: kind for kind in CHANGES}
     given = [stop_at] if isinstance(stop_at, str) else stop_at
     if not isinstance(given, Sequence) or not all(isinstance(x, str) for x in given):
         return None
-    if not known.keys() >= set(given):
+    if not given or not known.keys() >= set(given):
         return None
     return frozenset(known[x] for x in given)
 
