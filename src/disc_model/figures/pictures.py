@@ -36,8 +36,10 @@ def plot_sweep(  # noqa: PLR0913
     may be that of their names. A second
     dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
     starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
-    cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
-    scale or more, so that the grid misses what lies between. An axis is logarithmic if three or more
+    cell is "unresolved": its value is right, but the grid misses what lies between. In a map of growth
+    rates, all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its
+    neighbours at the left and right or above and below have one other outcome, or none of the eight
+    around it has its own. An undecided cell is never hatched. An axis is logarithmic if three or more
     positive values span a decade or more and have equal ratios within 1e-6, as those of
     `numpy.geomspace`.
 
