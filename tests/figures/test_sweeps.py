@@ -115,7 +115,7 @@ UNASKED = {
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations",
     dm.critical: "Critical value of coefficient of static friction",
-    dm.continue_cycle: "Status",
+    dm.continue_cycle: "What became of the computation",
     own: "Range of my slider (mm)",
 }
 """Labels of what is drawn if no variable is asked for."""
@@ -157,7 +157,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         entries = {text.get_text() for text in legend.get_texts()}
     else:
         entries = set()
-    if study[name].dtype.kind == "f":
+    if study[name].dtype.kind in "fi":
         values = study[name].values
         expected = Shown(1, "bar", words_of(study[name]), values, unit_of(study[name]))
         assert_shows(figure, expected)

@@ -338,7 +338,10 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
         ({"N": [1, "1 s"]}, r"^zip.N\[1\]='1 s': must be a number in N"),
         ({"N": [1, "much"], "mu_k": [0.1, 0.2]}, r"^zip.N\[1\]='much': must be a number$"),
         ({"N": [1, True]}, r"^zip.N\[1\]=True: must be a number$"),
-        ({"contact": ["rigid"]}, r"^zip.contact\[0\]='rigid': must be 'unilateral' or 'bilateral'$"),
+        (
+            {"contact": ["rigid"]},
+            r"^zip.contact\[0\]='rigid': must be 'unilateral' or 'bilateral'$",
+        ),
         ({"N": []}, r"^zip.N=\[\]: must have one value or more"),
         ({"Omega": [1, 2]}, r"^zip.Omega: must not be an axis as well"),
         ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),

@@ -101,11 +101,12 @@ def unresolved(words: Words) -> Mask:
 
 
 def alone(words: Words) -> Mask:
-    """Cells whose word none of the cells around them has, at their corners neither."""
+    """Cells whose word none of the eight cells around them has; those at an edge may go on beyond
+    it."""
     around = np.pad(words, 1, constant_values="")
     neighbours = np.lib.stride_tricks.sliding_window_view(around, (3, 3))
     like = (neighbours == words[..., None, None]).sum((2, 3))  # a cell is like itself
-    return np.asarray((like == 1) & ((neighbours != "").sum((2, 3)) > 1))
+    return np.asarray((like == 1) & (neighbours != "").all((2, 3)))
 
 
 def unresolved_motions(words: Words) -> Mask:

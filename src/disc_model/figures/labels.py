@@ -50,7 +50,7 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     """Break labels and titles of axes, all those of a figure unless some are given, into lines where
     they are longer than the axes; those that have been broken before, anew."""
     found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
-    words = [_words_of(each.text) for each in found]
+    words = [words_of(each.text) for each in found]
     # the layout makes axes narrow under a long title, so that it is set with short ones
     for each in found:
         each.text.set_text("x")
@@ -61,7 +61,7 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
         _BROKEN[each.text] = Broken(said, each.text.get_text())
 
 
-def _words_of(text: Text) -> str:
+def words_of(text: Text) -> str:
     """The words of a text, as they were before it was broken, unless it has been replaced since."""
     shown = text.get_text()
     broken = _BROKEN.get(text)

@@ -68,9 +68,9 @@ def sweep(
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
         (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
         words "", whole numbers are real ones, and a variable of True and False, such as `stable`, consists of 1, 0 and
-        nan: select by ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included), the `parameters` of the case and, in JSON, the
-        `versions` of disc_model and of what it uses
+        nan: select by ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in
+        JSON, defaults included), the `parameters` of the case and, in JSON, the `versions` of disc_model and of what it
+        uses
 
     Raises
     ------
@@ -189,7 +189,12 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, call: Call, ours: str, records: bool, numbered: tuple[bool, Any]
+    function: Any,
+    case: Parameters,
+    call: Call,
+    ours: str,
+    records: bool,
+    numbered: tuple[bool, Any],
 ) -> dict[str, xr.Variable]:
     """The variables of one call, `ours` being the name of a function of this package; what the
     function is wrongly given or returns at the first point that is a case, which is said with the
