@@ -22,6 +22,8 @@ CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
+KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
+KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
 
 
@@ -111,7 +113,7 @@ UNASKED = {
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed (rad/s)",
     dm.basins: "Share of the starts",
-    dm.hysteresis: "Speed at which separation first is found on the way up (rad/s)",
+    dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations",
     dm.critical: "Critical value of coefficient of static friction",
