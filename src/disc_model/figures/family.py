@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 from weakref import WeakKeyDictionary
 
+from disc_model.data.variables import typeset
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
@@ -135,7 +136,7 @@ def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
     a period of its cycles has; "" if nothing does."""
     common = _common_values(family)
     differing = {name: value for name, value in branch.values.items() if name not in common}
-    said = [stated_value(name, value) for name, value in differing.items()]
+    said = [typeset(stated_value(name, value)) for name, value in differing.items()]
     if len({each.releases for each in family}) > 1:
         said.append(f"{counted(branch.releases, 'release')} per period")
     return ", ".join(filter(None, said))
