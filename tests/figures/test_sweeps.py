@@ -730,6 +730,22 @@ def test_values_that_do_not_ascend_are_drawn_in_their_order() -> None:
     pyplot.close("all")
 
 
+def test_points_at_numbers_that_are_not_finite_have_no_place() -> None:
+    """An empty cell of a table is nan, along which nothing can be drawn."""
+    loads = [300.0, np.nan, 385.0, np.inf]
+    line = dm.plot_sweep(dm.sweep(dm.steady_sliding, CASE, N=loads), "growth_rate")
+    assert [list(each.get_xdata()) for each in line.lines if len(each.get_xdata()) == 2][0] == [
+        300,
+        385,
+    ]
+    plane = dm.sweep(dm.steady_sliding, CASE, N=loads, Omega=[10.0, 12.0])
+    mesh = dm.plot_sweep(plane, "growth_rate").collections[0]
+    assert mesh.get_array().size == 4
+    pairs = dm.sweep(dm.steady_sliding, CASE, zip={"N": loads, "Omega": [9.0, 10, 11, 12]})
+    dm.plot_sweep(pairs, "growth_rate").figure.draw_without_rendering()
+    pyplot.close("all")
+
+
 def test_what_cannot_be_drawn_says_how_it_can() -> None:
     with pytest.raises(dm.ParameterError, match="study='a single point': must have two points"):
         dm.plot_sweep(dm.sweep(rate, CASE))

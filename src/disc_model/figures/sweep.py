@@ -154,9 +154,11 @@ def _with_first_values(study: xr.Dataset) -> xr.Dataset:
 
 def _ascending(study: xr.Dataset) -> xr.Dataset:
     """The study with the numbers along its dimensions in their order: lines would go back and
-    forth, and cells of a map lie on each other."""
-    numbers = [name for name in study.dims if name in study.coords]
-    return study.sortby([name for name in numbers if study[name].dtype.kind in "fi"])
+    forth, and cells of a map lie on each other. Those that are not finite have no place."""
+    named = [name for name in study.dims if name in study.coords]
+    numbers = [name for name in named if study[name].dtype.kind in "fi"]
+    placed = {name: np.isfinite(study[name].values) for name in numbers}
+    return study.isel(placed).sortby(numbers)
 
 
 def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
