@@ -15,6 +15,7 @@ from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
+from disc_model.studies.grid import VARIED
 from disc_model.studies.quantity import (
     STATUS,
     STATUSES,
@@ -25,7 +26,6 @@ from disc_model.studies.quantity import (
     units_of,
     with_ends,
 )
-from disc_model.studies.grid import VARIED
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from tests.studies.conftest import compute, computed

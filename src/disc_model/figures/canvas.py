@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib import pyplot
 
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import break_labels
+from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.legends import keep_height
 from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
@@ -52,6 +52,8 @@ def page_for(
                 page.keep_labels()
                 _finish(page, wishes)
             page.remember()
+            if figure.get_gid() == OWN:
+                set_upright(figure)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -72,6 +74,7 @@ def page_for(
             page.remember()
             if page.is_map:
                 keep_height(figure, page.axes)
+            set_upright(figure)
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise

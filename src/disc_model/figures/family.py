@@ -21,6 +21,7 @@ from disc_model.figures.drawing import (
     large,
     sample,
 )
+from disc_model.figures.labels import without_font
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
@@ -146,7 +147,7 @@ def retitle(figure: Any, family: Sequence[Shown]) -> None:
     """Let the title say what all branches have in common, unless the reader has given another."""
     width = float(figure.get_size_inches()[0])
     former = head_text(width, "", what_case(_common_values(family[:-1])), MOST_LINES)
-    if figure.get_gid() == OWN and figure.get_suptitle() == former:
+    if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
         said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
         figure.suptitle(said, fontsize=large(8))
 

@@ -10,6 +10,7 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
+from disc_model.figures.labels import without_font
 from disc_model.figures.legends import figure_legend, legend_below, legend_inside
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
 from disc_model.figures.types import Artist, Axes
@@ -153,6 +154,7 @@ def restate(page: Page, wishes: Wishes) -> None:
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:
     """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
     that a label replaces."""
+    labels = {without_font(name): text for name, text in labels.items()}
     replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
     if page.bars:
         replaced.append("bar")
@@ -184,7 +186,7 @@ def _joined(ax: Axes, handles: Sequence[Artist], replaced: Collection[str]) -> l
     entries: dict[str, Artist] = {}
     for legend in former:
         for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
-            words = text.get_text().replace("\n", " ")  # long ones stand in lines
+            words = without_font(text.get_text()).replace("\n", " ")  # long ones stand in lines
             if words in replaced:
                 continue
             handle.set_label(words)
