@@ -5,6 +5,7 @@ import pytest
 from matplotlib import pyplot
 from matplotlib.text import Text
 
+import disc_model as dm
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
 from disc_model.figures.spectrum import name_lines
 from disc_model.figures.words import head_text, what_case
@@ -200,3 +201,21 @@ def test_the_label_of_a_colour_bar_is_no_longer_than_the_bar() -> None:
     figure.draw_without_rendering()
     assert bar.ax.yaxis.label.get_window_extent().height <= bar.ax.get_window_extent().height
     pyplot.close(figure)
+
+
+def test_symbols_are_upright_in_new_figures_and_keep_their_words() -> None:
+    """With an index they were slanted beside N, k and Ω, if the figure was saved with another number
+    of dots per inch."""
+    case = dm.Parameters(N=385, Omega=15, c_p=4, k_p=8000)
+    study = dm.sweep(dm.steady_sliding, case, mu_k=[0.1, 0.2])
+    ax = dm.plot_sweep(study, "growth_rate")
+    symbols = r"$\mathrm{c_p}$ = 4 N s/m, $\mathrm{k_p}$ = 8 kN/m"
+    assert " ".join(ax.figure.get_suptitle().split()).endswith(symbols)
+    other = dm.sweep(dm.steady_sliding, case.replace(k_p=9000), mu_k=[0.1, 0.2])
+    dm.plot_sweep(other, "growth_rate", ax=ax)
+    assert ax.figure.get_suptitle().endswith(r"$\mathrm{c_p}$ = 4 N s/m"), "what is common"
+    [legend] = ax.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == [
+        rf"$\mathrm{{k_p}}$ = {value} kN/m" for value in (8, 9)
+    ]
+    pyplot.close("all")

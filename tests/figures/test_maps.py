@@ -18,6 +18,7 @@ from disc_model.figures.cells import (
     lay_over,
     scale_of,
     unresolved,
+    unresolved_motions,
 )
 from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.style import save
@@ -273,6 +274,17 @@ def test_ticks_of_decades_begin_and_end_at_the_values() -> None:
     assert len(ticks) == 7
     from_zero = np.array([0.0, 0.01, 0.1])
     assert decades_between(from_zero)[0] == pytest.approx(0.01)
+
+
+def test_a_cell_that_none_around_is_like_is_unresolved_unless_it_is_undecided() -> None:
+    """A single separation beside two outcomes counted as resolved; a diagonal band is one."""
+    q, g, s, u = "quiet", "growing", "separation", "undecided"
+    alone = np.array([[q, q, q, q], [q, q, s, g], [g, g, g, g], [g, u, g, g], [s, g, g, g]])
+    assert np.argwhere(unresolved_motions(alone)).tolist() == [[1, 2]]
+    band = np.array([[q, q, q, s], [q, q, s, g], [g, g, g, g]])
+    assert not unresolved_motions(band).any()
+    between = np.array([[q, u, q], [q, s, q]])  # and an edge, beyond which a class may go on
+    assert np.argwhere(unresolved_motions(between)).tolist() == [[1, 1]]
 
 
 @pytest.mark.parametrize(

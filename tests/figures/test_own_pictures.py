@@ -535,7 +535,7 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
         resolution=5e3,
     )
     ax = figure_of(made.plot()).axes[0]
-    assert ax.get_xlabel() == "In-plane spring $k_p$ (kN/m)"
+    assert ax.get_xlabel() == r"In-plane spring $\mathrm{k_p}$ (kN/m)"
     spans = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in ax.patches]
     assert spans == [pytest.approx((21, 23)), pytest.approx((26, 30))]
     assert ax.get_xlim() == (20, 30)

@@ -22,6 +22,8 @@ CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
+KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
+KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
 
 
@@ -111,11 +113,11 @@ UNASKED = {
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed (rad/s)",
     dm.basins: "Share of the starts",
-    dm.hysteresis: "Speed at which separation first is found on the way up (rad/s)",
+    dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations",
     dm.critical: "Critical value of coefficient of static friction",
-    dm.continue_cycle: "Status",
+    dm.continue_cycle: "What became of the computation",
     own: "Range of my slider (mm)",
 }
 """Labels of what is drawn if no variable is asked for."""
@@ -157,7 +159,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         entries = {text.get_text() for text in legend.get_texts()}
     else:
         entries = set()
-    if study[name].dtype.kind == "f":
+    if study[name].dtype.kind in "fi":
         values = study[name].values
         expected = Shown(1, "bar", words_of(study[name]), values, unit_of(study[name]))
         assert_shows(figure, expected)
@@ -725,6 +727,19 @@ def test_values_that_do_not_ascend_are_drawn_in_their_order() -> None:
     plane = dm.plot_sweep(dm.sweep(rate, CASE, N=loads, Omega=[10, 12]), "rate")
     [mesh] = plane.collections
     np.testing.assert_allclose(mesh.get_array()[0], 10 * np.sort(loads))
+    pyplot.close("all")
+
+
+def test_points_at_numbers_that_are_not_finite_have_no_place() -> None:
+    """An empty cell of a table is nan, along which nothing can be drawn."""
+    loads = [300.0, np.nan, 385.0, np.inf]
+    ax = dm.plot_sweep(dm.sweep(dm.steady_sliding, CASE, N=loads), "growth_rate")
+    np.testing.assert_array_equal(ax.lines[0].get_xdata(), [300.0, 385.0])
+    plane = dm.sweep(dm.steady_sliding, CASE, N=loads, Omega=[10.0, 12.0])
+    mesh = dm.plot_sweep(plane, "growth_rate").collections[0]
+    assert mesh.get_array().size == 4
+    pairs = dm.sweep(dm.steady_sliding, CASE, zip={"N": loads, "Omega": [9.0, 10, 11, 12]})
+    dm.plot_sweep(pairs, "growth_rate").figure.draw_without_rendering()
     pyplot.close("all")
 
 

@@ -334,6 +334,25 @@ def test_a_run_says_in_the_end_what_has_no_result(
     ]
 
 
+def test_no_cycle_is_an_answer_and_no_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """500 points of a Campbell diagram had "no result" though frequencies were there."""
+    monkeypatch.chdir(tmp_path)
+    grids = parse_study(GRID).grids()[0]
+    file = Path("results/s/s.failed.txt")
+    file.parent.mkdir(parents=True)
+    file.write_text(
+        "Omega = 10: no cycle found: The slider moves on\nOmega = 15: no cycle found\n"
+        "Omega = 20: steady sliding: it does not stick\nOmega = 25: failed: no cycle found\n"
+    )
+    assert list(closing_lines(grids)) == [
+        f"s: 1 of 4 points have no result, see {file}",
+        "s: 3 of 4 points have no stick-slip cycle (2 no cycle found, 1 steady sliding), see"
+        f" {file}",
+    ]
+
+
 def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     grids = parse_study(GRID).grids()[0]

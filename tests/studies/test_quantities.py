@@ -15,6 +15,7 @@ from disc_model.errors import ParameterError, Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
+from disc_model.studies.grid import VARIED
 from disc_model.studies.quantity import (
     STATUS,
     STATUSES,
@@ -26,6 +27,7 @@ from disc_model.studies.quantity import (
     with_ends,
 )
 from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.run import describe
 from tests.studies.conftest import compute, computed
 
 SCAN = {"start": 10, "stop": 20, "count": 2}
@@ -120,6 +122,24 @@ def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     """A quantity of one number."""
     columns = {"status": STATUS, "value": Variable("1", "a number")}
     return SimpleNamespace(COLUMNS=columns, COORDINATES={}, compute_point=compute_point)
+
+
+@pytest.mark.parametrize("name", quantity_names())
+def test_all_that_a_quantity_gives_has_a_name_and_a_unit_or_classes(name: str) -> None:
+    quantity = quantity_of(name)
+    columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
+    for key, column in columns.items():
+        attributes = column.attributes
+        assert attributes.get("long_name"), key
+        by_row = "SI units" in attributes["long_name"]  # of another parameter in each row
+        assert attributes.get("units") or column.flags or by_row, key
+    for key, dimension in {**quantity.COORDINATES, **quantity.SUMMARY_COORDINATES}.items():
+        assert dimension.long_name, key
+
+
+@pytest.mark.parametrize("name", [*VARIED, "sample"])
+def test_all_that_varies_has_a_name(name: str) -> None:
+    assert describe(name)["long_name"]
 
 
 def test_a_numerical_failure_is_the_status_of_its_point() -> None:

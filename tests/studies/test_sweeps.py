@@ -218,8 +218,6 @@ def test_all_that_a_sweep_gathers_has_a_unit_and_a_name(name: str) -> None:
     swept = sweep(getattr(dm, name), P.replace(n_diameters=1), N=[300], **SWEPT[name])
     assert swept["status"].item() != "failed", swept["message"].item()
     for key, variable in swept.variables.items():
-        if key in ("status", "message"):
-            continue
         assert variable.attrs.get("long_name"), key
         assert variable.dtype.kind in "UO" or variable.attrs.get("units"), key
 
@@ -335,8 +333,15 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
             r"^zip={'N': 2, 'mu_k': 1}: must have columns of one length",
         ),
         ({"N": [1, 2], "mu_q": [0.1, 0.2]}, r"^zip.mu_q: is no number .*did you mean"),
-        ({"N": [1, float("nan")]}, r"^zip.N=nan: "),
-        ({"N": ["1 s"]}, r"^zip.N='1 s': must be a number in N"),
+        ({"N": [float("nan")]}, r"^zip.N\[0\]=nan: must be a finite number$"),
+        ({"N": [-1, None]}, r"^zip.N\[0\]=-1: must be >= 0; zip.N\[1\]=None: must be a number$"),
+        ({"N": [1, "1 s"]}, r"^zip.N\[1\]='1 s': must be a number in N"),
+        ({"N": [1, "much"], "mu_k": [0.1, 0.2]}, r"^zip.N\[1\]='much': must be a number$"),
+        ({"N": [1, True]}, r"^zip.N\[1\]=True: must be a number$"),
+        (
+            {"contact": ["rigid"]},
+            r"^zip.contact\[0\]='rigid': must be 'unilateral' or 'bilateral'$",
+        ),
         ({"N": []}, r"^zip.N=\[\]: must have one value or more"),
         ({"Omega": [1, 2]}, r"^zip.Omega: must not be an axis as well"),
         ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),
@@ -351,6 +356,51 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
 def test_pairs_that_do_not_fit_are_refused(table: Any, message: str) -> None:
     with pytest.raises(dm.ParameterError, match=message):
         sweep(products, P, zip=table, Omega=[10.0])
+
+
+@pytest.mark.parametrize("errors", ["raise", "record"])
+@pytest.mark.parametrize(
+    ("wrong", "number", "rule"),
+    [
+        (-1, -1.0, "N=-1: must be >= 0"),
+        ("-1 N", -1.0, "N=-1: must be >= 0"),
+        (np.nan, np.nan, "N=nan: must be a finite number"),
+        (None, np.nan, "N=nan: must be a finite number"),
+        (np.inf, np.inf, "N=inf: must be a finite number"),
+    ],
+)
+def test_a_number_that_cannot_be_fails_its_own_row(
+    errors: str, wrong: Any, number: float, rule: str
+) -> None:
+    """It ended the sweep, and columns were said to differ in length, too."""
+    table = {"N": [wrong, 300, 385], "mu_k": [0.2, 0.2, 0.24]}
+    swept = sweep(products, P, zip=table, errors=errors)
+    assert swept["status"].values.tolist() == ["failed", "ok", "ok"]
+    assert swept["message"].values[0] == f"ParameterError: {rule}"
+    np.testing.assert_allclose(swept["load"], [np.nan, 60.0, 92.4])
+    np.testing.assert_array_equal(swept["N"], [number, 300.0, 385.0])
+    along = sweep(products, P, N=table["N"], errors=errors)
+    assert along["status"].values.tolist() == ["failed", "ok", "ok"]
+
+
+def test_a_wrong_argument_is_told_at_the_first_point_that_is_a_case() -> None:
+    with pytest.raises(dm.ParameterError, match=r"^tol=-1: must be within"):
+        sweep(dm.floquet, P, zip={"N": [-1, 300], "mu_k": [0.2, 0.2]}, tol=-1)
+
+
+@pytest.mark.parametrize("values", [[15, 14, 14], [15, 14, "14 rad/s"], [14.0, 15, 14]])
+def test_a_value_twice_along_an_axis_is_refused(values: list[Any]) -> None:
+    """The same points were computed twice without a word; rows of a table may be alike."""
+    with pytest.raises(dm.ParameterError, match=r"^Omega\[2\]=14: must not be given twice"):
+        sweep(products, P, Omega=values)
+    assert sweep(products, P, zip={"Omega": values, "N": [1, 1, 1]}).sizes == {"Omega_N": 3}
+
+
+def test_counts_are_whole_numbers_where_none_is_missing() -> None:
+    swept = sweep(dm.simulate, P, t_end=0.1, N=[200, 300])
+    assert swept["steps"].dtype.kind == "i"
+    failed = sweep(dm.simulate, P, t_end=0.1, N=[200, -1])
+    np.testing.assert_array_equal(failed["steps"], [swept["steps"].values[0], np.nan])
 
 
 @pytest.mark.parametrize("values", [np.ones((2, 2)), [[1.0, 2.0], [3.0]]])

@@ -46,7 +46,8 @@ def plot(
     variables : of P, u, w, w_point, psi, psi_velocity; a window without an envelope has u_velocity and
         w_point_velocity too
     ax : axes to draw on, one for each variable and column; settings of matplotlib (rcParams)
-        hold there, and in a new figure those that are not the usual ones
+        hold there, and in a new figure those that are not the usual ones. Axes with another quantity
+        or unit of a picture of this package are refused; labels that you have set yourself stay
     legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
     labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
         the usual ones

@@ -71,6 +71,9 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         ax.margins(x=0.04)
         ax.set_xlabel(across.label)
         mark_failed(ax, across.values[failed(study).values])
+    ends = np.transpose([ax.get_xlim() for ax in axes])
+    for ax in axes:
+        ax.set_xlim(ends[0].min(), ends[1].max())
     horizon = stated_in(study, "options")["horizon"]
     handles = entries_of(classes, f"undecided after {horizon:g} s")
     figure_legend(figure, handles, loc="outside lower center")

@@ -24,6 +24,7 @@ from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
 from disc_model.figures.family import SPECIAL_MARKS, Shown, join_family, name_and_labels, next_look
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Axes
 from disc_model.figures.words import label_of
@@ -53,6 +54,7 @@ def plot_branch(
     case = stated(branch.case, *branch.parameters)
     name, labels = name_and_labels(labels)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
+        page.show(Quantities(across, label))
         axes = page.ax
         look = next_look(axes)
         # the stability changes at special points, which lie between the others

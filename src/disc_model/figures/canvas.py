@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib import pyplot
 
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import break_labels
+from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.legends import keep_height
 from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
@@ -38,7 +38,8 @@ def page_for(
     """
     wishes.check()
     if wishes.ax is not None:
-        page = Page(given_axes(wishes.ax, rows * columns), own=False)
+        asked = wishes.labels or {}
+        page = Page(given_axes(wishes.ax, rows * columns), own=False, asked=asked)
         figure: Any = page.ax.get_figure(root=True)
         before = set(figure.axes)
         # what is added to a figure of this package has its style
@@ -48,12 +49,17 @@ def page_for(
             page.bars = [ax for ax in figure.axes if ax not in before]
             with warnings.catch_warnings():  # of sizes before everything has its place
                 warnings.filterwarnings("ignore", message="constrained_layout not applied")
+                page.keep_labels()
                 _finish(page, wishes)
+            page.remember()
+            if figure.get_gid() == OWN:
+                set_upright(figure)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
         figure.set_gid(OWN)
-        page = Page(list(figure.subplots(rows, columns, squeeze=False, **shared).flat), own=True)
+        panels = list(figure.subplots(rows, columns, squeeze=False, **shared).flat)
+        page = Page(panels, own=True, asked=wishes.labels or {})
         try:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in page.axes]
@@ -65,8 +71,10 @@ def page_for(
             restate(page, wishes)
             write_legend(page, wishes)
             break_labels(figure)
+            page.remember()
             if page.is_map:
                 keep_height(figure, page.axes)
+            set_upright(figure)
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise

@@ -100,11 +100,23 @@ def unresolved(words: Words) -> Mask:
     return found
 
 
+def alone(words: Words) -> Mask:
+    """Cells whose word none of the eight cells around them has; those at an edge may go on beyond
+    it."""
+    around = np.pad(words, 1, constant_values="")
+    neighbours = np.lib.stride_tricks.sliding_window_view(around, (3, 3))
+    like = (neighbours == words[..., None, None]).sum((2, 3))  # a cell is like itself
+    return np.asarray((like == 1) & (neighbours != "").all((2, 3)))
+
+
 def unresolved_motions(words: Words) -> Mask:
-    """Unresolved cells of a map of what becomes of motions; none if the words say anything else."""
+    """Unresolved cells of a map of what becomes of motions, whose classes are right but narrower than
+    the grid can show; none if the words say anything else. Where a motion is undecided, or there is
+    none, nothing is right."""
     if not {*words.flat} & {*Outcome}:
         return np.zeros(words.shape, dtype=bool)
-    return unresolved(words)
+    known = ~np.isin(words, ["", Outcome.UNDECIDED, "failed"])
+    return known & (unresolved(words) | alone(words))
 
 
 def paint(ax: Axes, edges: Edges, words: Words, looks: Mapping[str, Look]) -> Colours:

@@ -11,6 +11,7 @@ from disc_model.figures.branch_lines import Look, above_floor, draw_at_floor, se
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
@@ -60,6 +61,7 @@ def plot_critical(
     x = critical.values * factor
     case = stated(critical.parameters, critical.name)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
+        page.show(Quantities(label, words.rate))
         axes = page.ax
         entry = words.shaded
         for ends in critical.unstable * factor:

@@ -1,13 +1,14 @@
 """Curves: any variable against one dimension."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
 from disc_model.figures.arrows import draw_arrows
+from disc_model.figures.branch_lines import THIN, Look
 from disc_model.figures.classes import AT_BOUND, name_of
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import (
@@ -54,6 +55,8 @@ STEP = np.arcsinh(1.0)
 large rates."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
+PLAIN = Look(BLACK)
+"""Look of a single line."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
@@ -127,7 +130,15 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
 # ---- Lines
 
 
-def draw_lines(
+class DrawnLines(NamedTuple):
+    """What was drawn: each line with its name, and the height up to which marks stand above the
+    panel, as a share of it."""
+
+    lines: list[tuple[str, Any]]
+    top: float
+
+
+def draw_lines(  # noqa: PLR0913
     ax: Axes,
     study: xr.Dataset,
     variable: str,
@@ -136,12 +147,17 @@ def draw_lines(
     marks: dict[str, str] | None = None,
     *,
     joined: bool = True,
-) -> None:
+    single: Look = PLAIN,
+    top: float = ABOVE,
+) -> DrawnLines:
     """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
     marks above the panel stand for missing values.
 
     Panels of a figure share `marks`, by the names of lines, so that a line has the same mark and
     colour in all of them.
+
+    single : colour of a single line, and dashes of all
+    top : height of the first row of missing values, as a share of the panel
     """
     if marks is None:
         marks = {}
@@ -156,11 +172,16 @@ def draw_lines(
     # lines, in the colours of their order
     parts = parts_along(array, by)
     _choose_marks(marks, parts)
+    colours = dict(zip((part.name for part in parts), _colours(parts, marks, single), strict=True))
     gapless = joined and not (names or rates or array.isnull().any())
     jumps = joined and _are_of_cycles(array, rates)
-    line = "" if names or not joined else "-"
-    for colour, part, title in zip(_colours(parts, marks), parts, titles_of(parts), strict=True):
+    line: Any = ""
+    if joined and not names:
+        line = single.line(THIN).get("linestyle", "-")
+    drawn = []
+    for part, title in zip(parts, titles_of(parts), strict=True):
         heights = part.data.values
+        colour = colours[part.name]
         look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
         look["marker"] = marks[part.name]
         if gapless:
@@ -168,7 +189,8 @@ def draw_lines(
         elif heights.size > CROWDED:
             alone = len(marks) == 1
             look |= _draw_dots(ax, along, heights, colour, joined=bool(line), alone=alone)
-        ax.plot(*_pieces(along, heights, jumps), **look)
+        [first, *_] = ax.plot(*_pieces(along, heights, jumps), **look)
+        drawn.append((title, first))
 
     # scales and labels
     _scale_heights(ax, array, log)
@@ -184,8 +206,8 @@ def draw_lines(
     ax.margins(0.03)
 
     # what is no value, or none that was found
-    _point_down(ax, study, array, x, marks)
-    _mark_gaps(ax, study, array, x, marks)
+    _point_down(ax, study, array, x, colours)
+    return DrawnLines(drawn, _mark_gaps(ax, study, array, x, marks, colours, top))
 
 
 def _are_rates(array: xr.DataArray, log: bool) -> bool:
@@ -283,10 +305,10 @@ def _choose_marks(marks: dict[str, str], parts: Sequence[Part[Any]]) -> None:
         marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
 
 
-def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str]) -> list[Any]:
-    """Colours of lines by the order of all that have marks; a single one is black."""
+def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look) -> list[Any]:
+    """Colours of lines by the order of all that have marks; a single one has its own."""
     if len(parts) == 1:
-        return [BLACK]
+        return [single.colour]
     order = [*marks]
     return [cm.batlow(order.index(part.name) / len(order)) for part in parts]
 
@@ -302,7 +324,7 @@ def _look() -> dict[str, Any]:
 
 
 def _point_down(
-    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
+    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, colours: Mapping[str, Any]
 ) -> None:
     """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
     bound = at_lower_bound(study, str(array.name))
@@ -313,24 +335,30 @@ def _point_down(
     ax.margins(y=ROOM)
     parts = parts_along(array, by)
     masks = parts_along(bound, by)
-    for colour, part, mask in zip(_colours(parts, marks), parts, masks, strict=True):
+    for part, mask in zip(parts, masks, strict=True):
         here = mask.data.values
         if here.any():
-            draw_arrows(ax, along[here], part.data.values[here], colour, "down", ARROW)
+            heights = part.data.values[here]
+            draw_arrows(ax, along[here], heights, colours[part.name], "down", ARROW)
 
 
 def _mark_gaps(
-    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, marks: Mapping[str, str]
-) -> None:
+    ax: Axes,
+    study: xr.Dataset,
+    array: xr.DataArray,
+    x: str,
+    marks: Mapping[str, str],
+    colours: Mapping[str, Any],
+    top: float,
+) -> float:
     """Mark points without a value above the panel, a row for each line and each reason, which is
-    named on the left of its rows."""
+    named on the left of its rows; returns the height above the last row."""
     by = remaining(array, [x])
     across = _along(array[x]).values
-    top = ABOVE
     for name, gone in gaps(study, array).items():
         first = top
         parts = parts_along(gone, by)
-        for colour, part in zip(_colours(parts, marks), parts, strict=True):
+        for part in parts:
             mask = part.data.values
             if not mask.any():
                 continue
@@ -342,7 +370,7 @@ def _mark_gaps(
                 across[mask],
                 row,
                 shape,
-                color=colour,
+                color=colours[part.name],
                 transform=ax.get_xaxis_transform(),
                 clip_on=False,
                 **_look(),
@@ -353,6 +381,7 @@ def _mark_gaps(
         middle = 0.5 * (first + top - ROW)
         say(ax, name, (0, middle), (-3, 0), xycoords="axes fraction", fontsize=large(7))
         top += ROW
+    return top
 
 
 def scale_rates(ax: Axes) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
@@ -41,6 +42,7 @@ def plot_eigenvalues(
     rests = np.isin(values, sliding.neutral)
     case = "" if sliding.parameters is None else stated(sliding.parameters)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
+        page.show(Quantities("Growth rate (1/s)", "Frequency (Hz)"))
         axes = page.ax
         axes.axvline(0, color=BLACK, linewidth=wide(0.6))
         for mask, shape, colour, name in (

@@ -9,6 +9,7 @@ import numpy as np
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
@@ -30,6 +31,7 @@ def plot_exponents(
     finite = np.isfinite(lyapunov.exponents)
     case = "" if lyapunov.parameters is None else stated(lyapunov.parameters)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=case) as page:
+        page.show(Quantities("Number", "Lyapunov exponent (1/s)"))
         axes = page.ax
         for mask, face, name in (
             (lyapunov.converged & finite, BLUE, "converged"),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 from weakref import WeakKeyDictionary
 
+from disc_model.data.variables import typeset
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
@@ -20,6 +21,8 @@ from disc_model.figures.drawing import (
     large,
     sample,
 )
+from disc_model.figures.labels import without_font
+from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text, stated_value, what_case
@@ -70,31 +73,36 @@ def name_and_labels(labels: Any) -> tuple[str, Any]:
     return name, {word: text for word, text in labels.items() if word != "branch"}
 
 
+def _branches_on(ax: Axes) -> list[Shown]:
+    """The branches on axes from which they were not removed, as by ``ax.clear()``."""
+    return _SHOWN.get(ax, []) if shown_on(ax).labels else []
+
+
 def next_look(ax: Axes) -> Look:
     """The look of the next branch on axes."""
-    return LOOKS[len(_SHOWN.get(ax, [])) % len(LOOKS)]
+    return LOOKS[len(_branches_on(ax)) % len(LOOKS)]
 
 
 def join_family(page: Page, new: Shown) -> None:
     """Add a branch to those on its axes. Of several, the legend names each by what differs between
     their cases and between their periods, and each kind of special points once; the title of a
     figure of this package says what all have in common."""
-    family = _SHOWN.setdefault(page.ax, [])
-    family.append(new)
+    family = [*_branches_on(page.ax), new]
+    _SHOWN[page.ax] = family
     if len(family) > 1 or new.name:
         _explain(page, family)
     if len(family) > 1:
-        _retitle(page.figure, family)
+        retitle(page.figure, family)
 
 
 def _explain(page: Page, family: Sequence[Shown]) -> None:
     """Set the entries of the legend, which replace those of each branch alone."""
     alone = [handle for each in family for handle in (*each.looks, *each.special)]
     replaced = {str(handle.get_label()) for handle in alone}
-    replaced |= {*_names(family[:-1])}  # a further branch may differ in something else
+    replaced |= {*names_of(family[:-1])}  # a further branch may differ in something else
 
     handles: list[Any] = []
-    for number, text in enumerate(_names(family)):
+    for number, text in enumerate(names_of(family)):
         look = LOOKS[number % len(LOOKS)]
         handles.append(sample(label=text, **look.line(WIDTH)))
     looks: dict[str, Any] = {}
@@ -111,15 +119,16 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     page.explain(handles)
 
 
-def _names(family: Sequence[Shown]) -> list[str]:
-    """Names of branches: those that a reader gives, or what differs between them, or numbers."""
+def names_of(family: Sequence[Shown], word: str = "branch") -> list[str]:
+    """Names of branches, or of what else a word says: those that a reader gives, or what differs
+    between them, or numbers."""
     names = []
     for number, each in enumerate(family):
-        names.append(each.name or _what_differs(each, family) or f"branch {number + 1}")
+        names.append(each.name or _what_differs(each, family) or f"{word} {number + 1}")
     distinct = []
     for number, name in enumerate(names):
         alike = names.count(name) > 1 and not family[number].name
-        distinct.append(f"{name}, branch {number + 1}" if alike else name)
+        distinct.append(f"{name}, {word} {number + 1}" if alike else name)
     return distinct
 
 
@@ -128,17 +137,17 @@ def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
     a period of its cycles has; "" if nothing does."""
     common = _common_values(family)
     differing = {name: value for name, value in branch.values.items() if name not in common}
-    said = [stated_value(name, value) for name, value in differing.items()]
+    said = [typeset(stated_value(name, value)) for name, value in differing.items()]
     if len({each.releases for each in family}) > 1:
         said.append(f"{counted(branch.releases, 'release')} per period")
     return ", ".join(filter(None, said))
 
 
-def _retitle(figure: Any, family: Sequence[Shown]) -> None:
+def retitle(figure: Any, family: Sequence[Shown]) -> None:
     """Let the title say what all branches have in common, unless the reader has given another."""
     width = float(figure.get_size_inches()[0])
     former = head_text(width, "", what_case(_common_values(family[:-1])), MOST_LINES)
-    if figure.get_gid() == OWN and figure.get_suptitle() == former:
+    if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
         said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
         figure.suptitle(said, fontsize=large(8))
 

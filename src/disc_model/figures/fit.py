@@ -9,11 +9,15 @@ import numpy as np
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, large, mark, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
     from disc_model.fitting.fit import Fit
 
+DIFFERENCE = "Difference from the measured value (%)"
+DEVIATION = "Deviation (standard deviations)"
+ROWS = "Measurements"
 EXPECTED = 2.0  # standard deviations, within which most deviations are if the model is right
 LEAST_SPAN = 3.0  # standard deviations that are shown at least, on both sides
 ROW = 0.18  # inch, height of a measurement
@@ -27,6 +31,7 @@ def plot_fit(
     wishes = Wishes(ax, legend, labels, title)
     height = 1.2 + ROW * len(fit.measurements)
     with page_for(wishes, PAGE, height, 1, 2, sharey=True) as page:
+        page.show(Quantities(DIFFERENCE, ROWS), Quantities(DEVIATION, ROWS))
         left, right = page.axes
         _draw_differences(left, fit)
         _draw_deviations(right, fit)
@@ -54,7 +59,7 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
     )
     shift = 100 * (fit.computed - value) / size
     ax.plot(shift, rows, label="computed", **_computed())
-    ax.set_xlabel("Difference from the measured value (%)")
+    ax.set_xlabel(DIFFERENCE)
     ax.set_yticks(rows)
     ax.set_yticklabels([each.name for each in fit.measurements], fontsize=large(7))
     ax.set_ylim(-0.7, rows.size - 0.3)
@@ -67,7 +72,7 @@ def _draw_deviations(ax: Axes, fit: Fit) -> None:
     ax.axvline(0, color=GREY, linewidth=wide(0.6))
     ax.plot(fit.deviations, _rows(fit), **_computed())
     span = max(LEAST_SPAN, 1.1 * float(np.abs(fit.deviations).max()))
-    ax.set_xlabel("Deviation (standard deviations)")
+    ax.set_xlabel(DEVIATION)
     ax.set_xlim(-span, span)
     freedom = counted(fit.freedom, "degree")
     ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom")

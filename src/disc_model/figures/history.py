@@ -13,7 +13,8 @@ from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, letters, panels
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import ramps_of, show, spans_in, stated, window_of
+from disc_model.figures.named_axes import Quantities
+from disc_model.figures.runs import TIME, ramps_of, sampled, show, spans_in, stated, window_of
 from disc_model.figures.shades import shade_phases, shade_ramps
 from disc_model.figures.types import Artist, Axes, Figure
 
@@ -68,6 +69,7 @@ def plot_run(
         sharex="col",
         sharey="row" if columns > 1 else False,
     ) as page:
+        page.show(*_quantities(shown, variables))
         entries: dict[str, Artist] = {}
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
@@ -81,6 +83,14 @@ def plot_run(
         else:
             _share_heights(grid)
     return grid.squeeze()[()]
+
+
+def _quantities(windows: Sequence[xr.Dataset], variables: Sequence[str]) -> list[Quantities]:
+    """What the panels show, row by row: a variable each, in all windows."""
+    found = []
+    for name in variables:
+        found += [Quantities(TIME, sampled(name, window)[0]) for window in windows]
+    return found
 
 
 def _leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:

@@ -50,7 +50,7 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     """Break labels and titles of axes, all those of a figure unless some are given, into lines where
     they are longer than the axes; those that have been broken before, anew."""
     found = [each for ax in (figure.axes if axes is None else axes) for each in _texts_of(ax)]
-    words = [_words_of(each.text) for each in found]
+    words = [words_of(each.text) for each in found]
     # the layout makes axes narrow under a long title, so that it is set with short ones
     for each in found:
         each.text.set_text("x")
@@ -61,9 +61,9 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
         _BROKEN[each.text] = Broken(said, each.text.get_text())
 
 
-def _words_of(text: Text) -> str:
+def words_of(text: Text) -> str:
     """The words of a text, as they were before it was broken, unless it has been replaced since."""
-    shown = text.get_text()
+    shown = without_font(text.get_text())
     broken = _BROKEN.get(text)
     return broken.words if broken is not None and broken.lines == shown else shown
 
@@ -154,6 +154,23 @@ def _filled(words: Sequence[str], length: int) -> list[str]:
 def seen(word: str) -> int:
     """Number of characters of a word that are seen, and the blank after it."""
     return len(MARKUP.sub(lambda found: "x" if found[0].startswith("\\") else "", word)) + 1
+
+
+# ---- Symbols
+
+
+def set_upright(figure: Figure) -> None:
+    """Set symbols with an index, such as c_p, in upright letters, as all others are, whatever the
+    setting of matplotlib when the figure is drawn."""
+    for text in figure.findobj(Text):
+        said = text.get_text()
+        if "$" in said:
+            text.set_text(re.sub(r"\$([^$]+)\$", r"$\\mathrm{\1}$", without_font(said)))
+
+
+def without_font(text: str) -> str:
+    """A text with symbols in the letters that matplotlib's setting gives them."""
+    return re.sub(r"\$\\mathrm\{([^$]+)\}\$", r"$\1$", text)
 
 
 # ---- Numbers along axes

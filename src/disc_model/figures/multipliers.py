@@ -8,6 +8,7 @@ import numpy as np
 
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
@@ -29,6 +30,7 @@ def plot_multipliers(
     outside = np.abs(values) > 1
     wishes = Wishes(ax, legend, labels, title)
     with page_for(wishes, COLUMN, 3.2, title=stated(cycle.parameters)) as page:
+        page.show(Quantities("Re κ", "Im κ"))
         axes = page.ax
         axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=wide(0.8))
         axes.axhline(0, color=GREY, linewidth=wide(0.4), zorder=0)

@@ -12,6 +12,7 @@ from disc_model.errors import require
 from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, wide
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Array, Axes
@@ -45,6 +46,7 @@ def plot_neutral_curves(
     low, high = np.transpose([*curves.bounds.values()]) * factors
     case = stated(curves.parameters, *curves.bounds)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
+        page.show(Quantities(across, up))
         axes = page.ax
         axes.set_xlabel(across)
         axes.set_ylabel(up)

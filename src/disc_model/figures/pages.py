@@ -10,7 +10,9 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
+from disc_model.figures.labels import without_font
 from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
 from disc_model.figures.types import Artist, Axes
 
 Place = Literal["inside", "below"]
@@ -64,6 +66,8 @@ class Page:
 
     axes : one for each panel, row by row
     own : whether the figure is a new one
+    asked : labels that the reader asks for
+    shown : what each panel shows along its axes
     handles : entries of the legend; none if there is none
     beside : where the legend stands on a reader's axes; below them if it would cover something
     heading : title of the legend
@@ -78,6 +82,8 @@ class Page:
 
     axes: list[Axes]
     own: bool
+    asked: Mapping[str, str] = field(default_factory=dict)
+    shown: Sequence[Quantities] = ()
     handles: Sequence[Artist] = field(default_factory=list)
     beside: Place = "inside"
     heading: str = ""
@@ -89,6 +95,10 @@ class Page:
     spare: float = 0.0
     is_map: bool = False
 
+    def __post_init__(self) -> None:
+        self._before = [ax.get_children() for ax in self.axes]
+        self._labelled = [own_labels(ax) for ax in self.axes]
+
     @property
     def ax(self) -> Axes:
         """The first panel."""
@@ -97,6 +107,24 @@ class Page:
     @property
     def figure(self) -> Any:
         return self.ax.get_figure()
+
+    def show(self, *panels: Quantities) -> None:
+        """Say what the panels show, before anything is drawn; raises `ParameterError` if a reader's
+        axes show something else."""
+        check_axes(self.axes, panels, self.asked)
+        self.shown = panels
+
+    def keep_labels(self) -> None:
+        """Give axes the labels of their reader back."""
+        for ax, labels in zip(self.axes, self._labelled, strict=True):
+            ax.set(**{f"{along}label": words for along, words in labels.items()})
+
+    def remember(self) -> None:
+        """Remember what the panels show, for further pictures on them."""
+        for ax, shown, before, labelled in zip(
+            self.axes, self.shown, self._before, self._labelled, strict=True
+        ):
+            remember(ax, shown, before, {**labelled, **self.asked})
 
     def explain(self, handles: Sequence[Artist], beside: Place = "inside", title: str = "") -> None:
         """Set the entries of the legend, its title, and where it stands on a reader's axes."""
@@ -126,6 +154,7 @@ def restate(page: Page, wishes: Wishes) -> None:
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:
     """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
     that a label replaces."""
+    labels = {without_font(name): text for name, text in labels.items()}
     replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
     if page.bars:
         replaced.append("bar")
@@ -157,10 +186,11 @@ def _joined(ax: Axes, handles: Sequence[Artist], replaced: Collection[str]) -> l
     entries: dict[str, Artist] = {}
     for legend in former:
         for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
-            if text.get_text() in replaced:
+            words = without_font(text.get_text()).replace("\n", " ")  # long ones stand in lines
+            if words in replaced:
                 continue
-            handle.set_label(text.get_text())
-            entries.setdefault(text.get_text(), handle)
+            handle.set_label(words)
+            entries.setdefault(words, handle)
         legend.remove()
     for handle in handles:
         entries.setdefault(str(handle.get_label()), handle)

@@ -3,7 +3,7 @@ drawn."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from disc_model.display import draw
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
-    variable: str = "",
+    variable: str | Sequence[str] = "",
     x: str = "",
     *,
     log: bool = False,
@@ -36,8 +36,10 @@ def plot_sweep(  # noqa: PLR0913
     may be that of their names. A second
     dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
     starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
-    cell is "unresolved": its value is right, but all neighbours differ from it by a tenth of the
-    scale or more, so that the grid misses what lies between. An axis is logarithmic if three or more
+    cell is "unresolved": its value is right, but the grid misses what lies between. In a map of growth
+    rates, all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its
+    neighbours at the left and right or above and below have one other outcome, or none of the eight
+    around it has its own. An undecided cell is never hatched. An axis is logarithmic if three or more
     positive values span a decade or more and have equal ratios within 1e-6, as those of
     `numpy.geomspace`.
 
@@ -45,8 +47,9 @@ def plot_sweep(  # noqa: PLR0913
     ----------
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
         several values
-    variable : if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent, the
-        number of separations of `simulate`, the lowest coupled frequency, or the first number there is
+    variable : one, or a list of variables that are lines of one unit, such as ``["onset_speed", "offset_speed"]`` of
+        `hysteresis`; if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent,
+        the number of separations of `simulate`, the lowest coupled frequency, or the first number there is
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
         given
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
@@ -55,7 +58,9 @@ def plot_sweep(  # noqa: PLR0913
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures
-    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar".
+    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar",
+        and names of lines, by their variable. On axes that have lines of a sweep, those of another case, or of another
+        variable of the same unit, get a colour and dashes of their own, and the legend names all by what differs.
         Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set. In a figure
         without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as by
         ``figure.subplots_adjust``, until labels, bar and legend lie on the page
@@ -67,7 +72,7 @@ def plot_sweep(  # noqa: PLR0913
     Raises
     ------
     ParameterError
-        If an argument breaks a rule, or more than two dimensions vary.
+        If an argument breaks a rule, more than two dimensions vary, or axes show another quantity already.
 
     Examples
     --------

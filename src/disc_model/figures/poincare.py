@@ -14,6 +14,7 @@ from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, letters, new_figure
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import sampled, show_thickness, stated
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
 from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
@@ -76,8 +77,15 @@ def plot_poincare(
     wishes = Wishes(ax, legend, labels, title)
     with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case)) as page:
         samples = dataset.group(case, name)
+        page.show(*_quantities(samples))
         page.explain(draw_sections(page.axes, case, samples))
     return np.array(page.axes)
+
+
+def _quantities(samples: xr.Dataset) -> list[Quantities]:
+    """What the two panels of sections show."""
+    names = [(name, f"{name}_velocity") for name in SECTIONS]
+    return [Quantities(*(sampled(each, samples)[0] for each in pair)) for pair in names]
 
 
 # ---- Drawing

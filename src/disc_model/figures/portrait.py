@@ -11,6 +11,7 @@ from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, panels, sample, wide
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import sampled, stated, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
@@ -46,6 +47,7 @@ def plot_phase_portrait(
     """Draw a portrait of a run; returns the axes."""
     samples = window_of(case, window, ("x", x), ("y", y), samples=True)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=stated(case)) as page:
+        page.show(Quantities(*(sampled(name, samples)[0] for name in (x, y))))
         page.explain(draw_portrait(page.ax, samples, x, y))
     return page.ax
 

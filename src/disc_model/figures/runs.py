@@ -22,6 +22,7 @@ from disc_model.parameters import Parameters
 Span = tuple[float, float]  # s, begin and end
 Spans = Mapping[str, Sequence[Span]]  # by phase
 
+TIME = "Time (s)"
 ABOVE = 1.04  # height of a bar above a panel, as a share of it,
 RIGHT = 1.02  # and place of one beside it
 
@@ -204,7 +205,7 @@ def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: b
         values = window[name].values * factor
         ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
         ax.set_xlim(*window["time"].values[[0, -1]])
-    ax.set_xlabel("Time (s)")
+    ax.set_xlabel(TIME)
     ax.set_ylabel(label)
     mark_first_separation(ax, case, named=named)
 

@@ -13,11 +13,13 @@ from disc_model.errors import Fault, ParameterError, require
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN, large, panels, wide
 from disc_model.figures.kinds.cases import Spectrum
+from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
 from disc_model.figures.runs import sampled, span_of, stated, window_of
 from disc_model.figures.types import Axes, Figure
 from disc_model.units import is_number
 
+FREQUENCY = "Frequency (Hz)"
 FLOOR = -100.0  # least amplitude shown, dB below the greatest
 WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have to be on the axis
 ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
@@ -59,10 +61,18 @@ def plot_spectrum(
     try:
         wishes = Wishes(ax, legend, labels, title)
         with page_for(wishes, COLUMN, 2.6, title=stated(case)) as page:
+            page.show(Quantities(FREQUENCY, _amplitude(samples, variable)))
             draw_spectrum(page.ax, samples, variable, highest)
     except Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return page.ax
+
+
+def _amplitude(samples: xr.Dataset, variable: str) -> str:
+    """The label of the amplitude of a variable."""
+    label = sampled(variable, samples)[0]
+    name, _, unit = label.rpartition(" (")
+    return f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
 
 
 def _check_range(samples: xr.Dataset, highest: float | None) -> None:
@@ -95,7 +105,7 @@ def draw_spectrum(
         )
 
     # what is shown
-    label, factor, colour = sampled(variable, samples)
+    _, factor, colour = sampled(variable, samples)
     frequency, amplitude = amplitude_spectrum(time, values)
     resolution = 1 / span_of(samples)
     if highest is None:
@@ -114,13 +124,11 @@ def draw_spectrum(
 
     # its drawing
     ax.semilogy(frequency, amplitude, color=colour, linewidth=wide(0.7))
-    name, _, unit = label.rpartition(" (")
-    ylabel = f"{name}, amplitude ({unit}" if name else f"{label}, amplitude"
-    xlabel = "Frequency (Hz)"
+    xlabel = FREQUENCY
     if resolution >= SAID_FROM:
         xlabel = f"{xlabel}, resolution {resolution:.2g} Hz"
     ax.set_xlabel(xlabel)
-    ax.set_ylabel(ylabel)
+    ax.set_ylabel(_amplitude(samples, variable))
     ax.set_xlim((0, frequency[-1]))
     greatest = amplitude.max()
     lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)

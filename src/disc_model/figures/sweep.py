@@ -1,8 +1,10 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
+from weakref import ref
 
 import numpy as np
 import xarray as xr
@@ -11,11 +13,20 @@ from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
-from disc_model.figures.curve import draw_lines
+from disc_model.figures.curve import ABOVE, MARKS, draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
+from disc_model.figures.named_axes import Quantities
+from disc_model.figures.sweep_lines import (
+    join_lines,
+    lines_of,
+    lines_on,
+    names_asked,
+    next_look,
+    quantities_of,
+)
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import horizon_text, label_of, measured, what_case
+from disc_model.figures.words import horizon_text, label_in, label_of, measured, what_case
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -48,7 +59,7 @@ COUNTED = ("branch", "branch_point")
 
 def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
-    variable: str = "",
+    variable: str | Sequence[str] = "",
     x: str = "",
     *,
     log: bool = False,
@@ -59,24 +70,33 @@ def plot_sweep(  # noqa: PLR0913
     title: str | None = None,
 ) -> Axes:
     """Draw a sweep or a grid study, as `disc_model.plot_sweep` describes."""
+    listed = isinstance(variable, list | tuple)
+    first, *others = variable if listed and variable else [variable]
+    names = all(isinstance(each, str | None) for each in (first, *others))
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
-        (isinstance(variable, str | None), "variable", variable, "must be a name"),
+        (names, "variable", variable, "must be a name, or a list of names"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
-    if not variable:
+    if not first:
         study = _with_first_values(study)  # type: ignore[arg-type]  # checked
     whole = _varying(_with_names_of_discs(study))  # type: ignore[arg-type]  # checked
     varying, column = _along_pairs(whole, x)
     if not column:
         varying = _ascending(varying)
-    drawn = _chosen_axes(varying, _chosen_variable(varying, variable), column or x)
-    if column:
-        drawn = replace(drawn, mapped=False, joined=False)
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=_case_of(varying)) as page:
-        _draw(page, varying, drawn, ColourWishes(log, cmap))
+    drawn = [_drawn(varying, each, column, x) for each in (first, *others)]
+    for each in drawn[1:]:
+        alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
+        rule = "must be lines over the same dimension to be drawn together"
+        require((alike, "variable", each.variable, rule))
+    called, labels = names_asked(labels, [each.variable for each in drawn])
+    wishes = Wishes(ax, legend, labels, title)
+    with page_for(wishes, COLUMN, 2.9, title=_case_of(varying)) as page:
+        for each in drawn:
+            _draw(page, varying, each, ColourWishes(log, cmap), called.get(each.variable, ""))
+            page.remember()  # the next variable joins this one
     return page.ax
 
 
@@ -96,6 +116,17 @@ class Drawn:
     second: str | None
     mapped: bool
     joined: bool = True
+
+    @property
+    def is_line(self) -> bool:
+        """Whether lines or points are drawn, and no bars or map."""
+        return not (self.mapped or self.variable in SHARES)
+
+
+def _drawn(study: xr.Dataset, variable: str, column: str, x: str) -> Drawn:
+    """What is drawn of a variable, over a column of paired values, if there is one."""
+    drawn = _chosen_axes(study, _chosen_variable(study, variable), column or x)
+    return replace(drawn, mapped=False, joined=False) if column else drawn
 
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
@@ -123,9 +154,11 @@ def _with_first_values(study: xr.Dataset) -> xr.Dataset:
 
 def _ascending(study: xr.Dataset) -> xr.Dataset:
     """The study with the numbers along its dimensions in their order: lines would go back and
-    forth, and cells of a map lie on each other."""
-    numbers = [name for name in study.dims if name in study.coords]
-    return study.sortby([name for name in numbers if study[name].dtype.kind in "fi"])
+    forth, and cells of a map lie on each other. Those that are not finite have no place."""
+    named = [name for name in study.dims if name in study.coords]
+    numbers = [name for name in named if study[name].dtype.kind in "fi"]
+    placed = {name: np.isfinite(study[name].values) for name in numbers}
+    return study.isel(placed).sortby(numbers)
 
 
 def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
@@ -199,7 +232,7 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     return Drawn(variable, across, second, mapped=plane)
 
 
-def _case_of(study: xr.Dataset) -> str:
+def _values_of(study: xr.Dataset) -> dict[str, Any]:
     """The values of the case that do not vary in a study."""
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
@@ -207,23 +240,30 @@ def _case_of(study: xr.Dataset) -> str:
     for name, values in study.coords.items():
         if not values.ndim or values.size == 1:
             fixed[str(name)] = values.item()
-    return what_case(fixed)
+    return fixed
+
+
+def _case_of(study: xr.Dataset) -> str:
+    """The text of these values."""
+    return what_case(_values_of(study))
 
 
 # ---- Drawing
 
 
-def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes) -> None:
-    """Draw bars of shares, lines, or a map."""
-    log = wishes.log
-    if drawn.variable in SHARES and not log:
+def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, name: str) -> None:
+    """Draw bars of shares, lines, which have a name if the reader gives one, or a map."""
+    label = label_in(study, drawn.variable)
+    across = label_of(study[drawn.across])[0]
+    if drawn.variable in SHARES and not wishes.log:
         wishes.refuse()
+        page.show(Quantities(across, label_of(study[drawn.variable])[0]))
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
         wishes.refuse()
-        draw_lines(page.ax, study, drawn.variable, drawn.across, log, joined=drawn.joined)
-        page.explain(page.ax.get_legend_handles_labels()[0])
+        _draw_lines(page, study, drawn, wishes.log, name)
     else:
+        page.show(Quantities(across, label_of(study[drawn.second])[0], label))
         plane = study.transpose(drawn.second, drawn.across, ...)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, wishes)
         page.explain(key.handles, beside="below", title=key.title)
@@ -231,6 +271,33 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes) -> 
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
             page.ax.locator_params(axis="y", integer=True)
+
+
+def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: str) -> None:
+    """Draw lines beside those of other variables of the same unit, and of other cases."""
+    others = lines_on(page.ax)
+    labels = (label_of(study[drawn.across])[0], label_in(study, drawn.variable))
+    lines = lines_of(study, drawn.variable, labels, name, _values_of(study))
+    quantities = quantities_of(lines, others)
+    page.show(quantities)
+    marks = {}
+    if drawn.second is None:
+        marks[""] = MARKS[len(others) % len(MARKS)]
+    found = draw_lines(
+        page.ax,
+        study,
+        drawn.variable,
+        drawn.across,
+        log,
+        marks,
+        joined=drawn.joined,
+        single=next_look(page.ax),
+        top=max((each.top for each in others), default=ABOVE),
+    )
+    page.ax.set_ylabel(quantities.y)
+    lines.parts = [(part, ref(line)) for part, line in found.lines]
+    lines.top = found.top
+    join_lines(page, lines)
 
 
 def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:

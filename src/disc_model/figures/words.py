@@ -64,6 +64,8 @@ SHORT = {
     "scan_outcome": "outcome",
     "critical_speed": "critical speed",
     "horizon": "horizon",
+    "onset_speed": "speed at which separation begins on the way up",
+    "offset_speed": "speed at which separation ends on the way down",
 }
 """What labels call variables whose long names explain them."""
 WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")

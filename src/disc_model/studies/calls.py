@@ -25,10 +25,11 @@ from disc_model.errors import (
 )
 from disc_model.parameters import RATIOS, Disc, Parameters, foreign_case
 from disc_model.simulation.case import SomeParameters
-from disc_model.units import Finite, Strict
+from disc_model.studies.quantity import STATUS
+from disc_model.units import Finite, Strict, in_si, number
 
-OF_SWEEPS = ("status", "message")
-"""Variables that every sweep has."""
+OF_SWEEPS = {"status": STATUS.long_name, "message": "what became of it, in words"}
+"""Variables that every sweep has, and their names."""
 RETURNED = (
     "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
     "xarray.Dataset"
@@ -151,7 +152,9 @@ def checked_call(
     options = {}
     for name, value in named.items():
         if name in names and name not in parameters:
-            dimensions.append(Dimension({name: _values(name, value, faults)}))
+            column = _values(name, value, faults)
+            faults += _faults_of_repeated(name, column)
+            dimensions.append(Dimension({name: column}))
         else:
             options[name] = value
     if zipped is not None:
@@ -282,7 +285,11 @@ def _zipped_dimension(
 
 def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:
     """The values of an axis in SI units; what is wrong with them, each by itself, is added to the
-    faults, whose path begins with the names `within` which the axis stands."""
+    faults, whose path begins with the names `within` which the axis stands.
+
+    A number that breaks a rule, nan among them, stays: it makes its points fail, unless no value of
+    the axis can be.
+    """
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
     raw = list(values) if several else [values]
     if not raw:
@@ -292,14 +299,49 @@ def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any
         return raw
     model: type[Strict] = SomeParameters
     if name not in Parameters.model_fields:  # a ratio, or a number of a disc's mode
-        number: dict[str, Any] = {name: Finite}
-        model = create_model("Number", __base__=Strict, **number)
-    checked = []
-    for value in raw:
+        only: dict[str, Any] = {name: Finite}
+        model = create_model("Number", __base__=Strict, **only)
+
+    checked: list[Any] = []
+    impossible: list[list[Fault]] = []
+    for row, value in enumerate(raw):
         plain = value.item() if isinstance(value, np.generic) else value
         try:
             checked.append(getattr(model(**{name: plain}), name))
         except ParameterError as error:
-            for fault in error.faults:
-                faults.append(Fault((*within, name), fault.value, fault.rule))
+            place = (*within, f"{name}[{row}]" if several else name)
+            told = [Fault(place, fault.value, fault.rule) for fault in error.faults]
+            meant = _number_of(name, plain)
+            checked.append(meant)
+            if meant is None:
+                faults += told
+            else:
+                impossible.append(told)
+    if impossible and len(impossible) == len(raw):
+        faults += [fault for told in impossible for fault in told]
     return checked
+
+
+def _number_of(name: str, value: Any) -> float | None:
+    """The number in SI units that is given for a number of the case, whatever its size, nan for what
+    a table has for a missing one; None for all else, and where the case takes a word."""
+    unit = "1"
+    if name in Parameters.model_fields:
+        unit = Parameters.unit(name)
+    if not unit:
+        return None
+    try:
+        return math.nan if _is_missing(value) else float(number(in_si(value, unit, [], ())))
+    except ValueError:
+        return None
+
+
+def _faults_of_repeated(name: str, values: Sequence[Any]) -> Iterator[Fault]:
+    """Yield a fault for each number or word that stands along an axis once more."""
+    known = set()
+    for row, value in enumerate(values):
+        if not isinstance(value, float | int | str):
+            continue
+        if value in known:
+            yield Fault.of((f"{name}[{row}]",), value, "must not be given twice along an axis")
+        known.add(value)

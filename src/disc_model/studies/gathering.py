@@ -168,6 +168,9 @@ def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
     elif kinds <= {"b"} and complete:
         missing = False
         dtype = bool
+    elif kinds <= {"i", "u"} and complete:
+        missing = 0
+        dtype = int
     array = np.full((len(rows), *shape), missing, dtype)
     for i, row in enumerate(rows):
         if row is not None:

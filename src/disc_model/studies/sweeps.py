@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
@@ -14,7 +14,7 @@ from disc_model.errors import Fault, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
-from disc_model.studies.calls import Call, are_recorded, checked_call
+from disc_model.studies.calls import OF_SWEEPS, Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -67,18 +67,21 @@ def sweep(
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
         (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
-        words "", and a variable of True and False, such as `stable`, consists of 1, 0 and nan: select by
-        ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in JSON, defaults
-        included), the `parameters` of the case and, in JSON, the
-        `versions` of disc_model and of what it uses
+        words "", whole numbers are real ones, and a variable of True and False, such as `stable`, consists of 1, 0 and
+        nan: select by ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in
+        JSON, defaults included), the `parameters` of the case and, in JSON, the `versions` of disc_model and of what it
+        uses
 
     Raises
     ------
     ParameterError
-        If `case` is no case, a name is neither a number of it nor an argument of the function, or a value breaks a rule
-        by itself; and if an argument of the function is missing, or refused at the first point, or the function
-        returns nothing there. Where values of the case break a rule together, the point has failed. Any other error of
-        the function ends the sweep, with a note of what varies at the point, unless `errors` is "record".
+        If `case` is no case, a name is neither a number of it nor an argument of the function, a value is no number, an
+        axis has a value twice, columns differ in length, or no value of an axis or column can be; the message names the
+        row, counted from 0, as in ``zip.N[1]=-1``. And if an argument of the function is missing, or refused at the
+        first point that is a case, or the function returns nothing there. Where a number of the case breaks a rule,
+        such as a load below zero or nan for an empty cell of a table, or several do so together, the point has failed.
+        Any other error of the function ends the sweep, with a note of what varies at the point, unless `errors` is
+        "record".
 
     Examples
     --------
@@ -102,8 +105,11 @@ def sweep(
     raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
     records = are_recorded(errors)
     ours = call.title if _is_ours(function) else ""
+    points = [*call.points()]
+    first = _first_possible(case, points)
     row = partial(_row, partial(function, **call.options), case, call, ours, records)
-    rows = calls.results(row, [*enumerate(call.points())], call.title)
+    numbered = [(number == first, point) for number, point in enumerate(points)]
+    rows = calls.results(row, numbered, call.title)
 
     coordinates: dict[str, Any] = {}
     for dimension in call.dimensions:
@@ -113,6 +119,8 @@ def sweep(
             coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
+    for name, meaning in OF_SWEEPS.items():
+        variables[name].attrs.setdefault("long_name", meaning)
     attrs = {
         "function": call.title,
         "options": json.dumps(chosen, sort_keys=True, default=repr),
@@ -158,6 +166,17 @@ def _described(name: str) -> dict[str, Any]:
     return {}
 
 
+def _first_possible(case: Parameters, points: Sequence[Mapping[str, Any]]) -> int:
+    """The number of the first point whose values make a case; 0 if none does."""
+    for number, point in enumerate(points):
+        try:
+            case.replace(**point)
+        except NUMERICAL:
+            continue
+        return number
+    return 0
+
+
 def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
     """The result of a function for one point; an error that ends the sweep has a note of the point."""
     try:
@@ -171,16 +190,22 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
 
 
 def _row(
-    function: Any, case: Parameters, call: Call, ours: str, records: bool, numbered: tuple[int, Any]
+    function: Any,
+    case: Parameters,
+    call: Call,
+    ours: str,
+    records: bool,
+    numbered: tuple[bool, Any],
 ) -> dict[str, xr.Variable]:
     """The variables of one call, `ours` being the name of a function of this package; what the
-    function is wrongly given or returns at the first point is a fault of all."""
-    number, point = numbered
+    function is wrongly given or returns at the first point that is a case, which is said with the
+    point, is a fault of all."""
+    is_first, point = numbered
     try:
         result = _called(function, case, point)
     except NUMERICAL as error:
         refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
-        if number == 0 and call.arguments & refused:
+        if is_first and call.arguments & refused:
             raise
         return _failure(error)
     except Exception as error:
@@ -190,7 +215,7 @@ def _row(
     try:
         variables = call.checked(result, variables_of_result(result, ours))
     except NUMERICAL as error:
-        if number == 0:
+        if is_first:
             raise
         return _failure(error)
     if isinstance(result, xr.Dataset):  # whose attributes are also those of the object

@@ -1,0 +1,134 @@
+"""Lines of several sweeps, or of several variables of one, on the same axes: their looks, and what axis
+and legend call them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+from weakref import WeakKeyDictionary, ref
+
+import xarray as xr
+
+from disc_model.errors import require
+from disc_model.figures.branch_lines import Look
+from disc_model.figures.family import LOOKS, Shown, names_of, retitle
+from disc_model.figures.named_axes import Quantities, shown_on, unit_in
+from disc_model.figures.pages import Page
+from disc_model.figures.types import Axes
+from disc_model.figures.words import named
+
+LOOSE = {"a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "over", "the", "to", "with"}
+LOOSE |= {"that", "which", "whose"}
+"""Words at which what a name is of begins."""
+
+
+@dataclass
+class Lines:
+    """Lines of a variable on axes.
+
+    Attributes
+    ----------
+    across, label : labels of both axes if the lines are alone
+    phrase : name of the variable
+    shown : what tells the lines from others
+    parts : name along a second dimension, "" without one, of each line, and the line
+    top : height above the panel up to which its missing values stand, as a share of it
+    """
+
+    across: str
+    label: str
+    phrase: str
+    shown: Shown
+    parts: Sequence[tuple[str, ref[Any]]] = ()
+    top: float = 0.0
+
+
+_LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
+"""The lines of sweeps that axes have."""
+
+
+def lines_on(ax: Axes) -> list[Lines]:
+    """The lines of sweeps on axes from which they were not removed."""
+    return _LINES.get(ax, []) if shown_on(ax).labels else []
+
+
+def names_asked(labels: Any, variables: Sequence[str]) -> tuple[dict[str, str], Any]:
+    """The names that a reader gives lines, by variables, and the other labels."""
+    if not isinstance(labels, Mapping):
+        return {}, labels
+    names = {name: text for name, text in labels.items() if name in variables}
+    for name, text in names.items():
+        require((isinstance(text, str), f"labels.{name}", text, "must be a text"))
+    return names, {name: text for name, text in labels.items() if name not in variables}
+
+
+def lines_of(
+    study: xr.Dataset, variable: str, labels: tuple[str, str], name: str, case: Mapping[str, Any]
+) -> Lines:
+    """Lines that are not drawn yet.
+
+    labels : of both axes
+    name : the one that a reader gives them, "" for none
+    case : values of the case that do not vary
+    """
+    phrase = named(study[variable]).name
+    return Lines(*labels, phrase, Shown(name, {"variable": phrase, **case}, 0, [], []))
+
+
+def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:
+    """What axes show with lines beside others: variables of one unit have a common name."""
+    labels = {each.label for each in others}
+    label = lines.label
+    unit = unit_in(label)
+    if labels - {label} and {*map(unit_in, labels)} == {unit} != {""}:
+        phrases = [each.phrase for each in (*others, lines)]
+        label = f"{common_words(phrases) or 'Value'} ({unit})"
+        labels |= {f"{common_words(phrases[:-1]) or 'Value'} ({unit})"}
+        return Quantities(lines.across, label, alike=labels)
+    return Quantities(lines.across, label)
+
+
+def common_words(phrases: Sequence[str]) -> str:
+    """The words in a row that all phrases have, those that come first in the first of them, without
+    what they are of; "" if there are none."""
+    words = phrases[0].lower().split()
+    others = [f" {phrase.lower()} " for phrase in phrases[1:]]
+    for start in range(len(words)):
+        for end in range(len(words), start, -1):
+            row = words[start:end]
+            if LOOSE & {*row}:
+                continue
+            said = " ".join(row)
+            if all(f" {said} " in other for other in others):
+                return said[0].upper() + said[1:]
+    return ""
+
+
+def next_look(ax: Axes) -> Look:
+    """The look of the next lines on axes."""
+    return LOOKS[len(lines_on(ax)) % len(LOOKS)]
+
+
+def join_lines(page: Page, new: Lines) -> None:
+    """Add lines to those on their axes. Of several, the legend names each by what differs between
+    their variables and cases, or as its reader does."""
+    family = [*lines_on(page.ax), new]
+    _LINES[page.ax] = family
+    shown = [each.shown for each in family]
+    names = [new.shown.name]
+    if len(family) > 1:
+        names = names_of(shown, "sweep")
+        retitle(page.figure, shown)
+
+    page.joins = True
+    replaced = []
+    for each, name in zip(family, names, strict=True):
+        for part, reference in each.parts:
+            line = reference()
+            text = ", ".join(filter(None, (part, name)))
+            if line is not None and text:
+                replaced += [str(line.get_label()), text]
+                line.set_label(text)
+    page.replaced = replaced
+    page.explain(page.ax.get_legend_handles_labels()[0])

@@ -1,0 +1,201 @@
+"""Several pictures on the same axes: what they may have in common, and what they are called."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from disc_model.figures.sweep_lines import common_words
+from tests.figures.test_wishes import CASE, DRAWN, branch, legend_texts, run
+
+SPEED = {"units": "rad s-1"}
+ANOTHER = {
+    "portrait": ("run", "along x"),
+    "run": ("portrait", "along x"),
+    "spectrum": ("run", "along x"),
+    "multipliers": ("eigenvalues", "along x"),
+    "eigenvalues": ("multipliers", "along x"),
+    "exponents": ("branch", "along x"),
+    "branch": ("line", "along y"),
+    "line": ("branch", "along y"),
+    "map": ("words", "by colour"),
+    "words": ("map", "by colour"),
+}
+"""For each picture, one of something else, and the axis along which it is."""
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+@functools.cache
+def by_load() -> Any:
+    return dm.continue_cycle(CASE.replace(Omega=14.9), "N", (380, 390))
+
+
+def speeds() -> xr.Dataset:
+    """Speeds of a hysteresis over the load."""
+    onset = ("N", [14.0, 15.0, 16.0], {**SPEED, "long_name": "speed at which it begins"})
+    offset = ("N", [11.0, 12.0, np.nan], {**SPEED, "long_name": "lowest speed to which it lasts"})
+    period = ("N", [0.01, 0.02, 0.03], {"units": "s", "long_name": "period"})
+    return xr.Dataset(
+        {"begin": onset, "end": offset, "time": period},
+        {"N": [300.0, 350.0, 400.0]},
+        {"base": '{"Omega": 14}'},
+    )
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_a_picture_of_something_else_is_refused_and_leaves_axes_as_they_are(name: str) -> None:
+    """The label of the second picture stood beside the values of the first."""
+    figure, ax = pyplot.subplots(layout="constrained")
+    other, along = ANOTHER[name]
+    DRAWN[other](ax=ax)
+    before = (ax.get_xlabel(), ax.get_ylabel(), len(ax.get_children()), len(figure.axes))
+    with pytest.raises(dm.ParameterError, match=rf"^ax: shows “.*” {along}, and “.*” is something"):
+        DRAWN[name](ax=ax)
+    assert (ax.get_xlabel(), ax.get_ylabel(), len(ax.get_children()), len(figure.axes)) == before
+    DRAWN[other](ax=ax)  # the same again
+    ax.clear()
+    DRAWN[name](ax=ax)
+
+
+def test_another_parameter_is_refused_on_axes_beside_it_and_on_its_twin() -> None:
+    _, ax = pyplot.subplots()
+    branch().plot("range", ax=ax)
+    twin = ax.twinx()
+    branch().plot("growth_rate", ax=twin)
+    assert ax.get_ylabel().startswith("Range")
+    assert twin.get_ylabel().startswith("Growth rate")
+    for each in (ax, twin):
+        with pytest.raises(dm.ParameterError, match=r"shows “Speed Ω \(rad/s\)” along x.*twiny"):
+            by_load().plot("range", ax=each, labels={"y": "both"})
+    below = pyplot.figure().subplots(2, 1, sharex=True)
+    branch().plot("range", ax=below[0])
+    by_load().plot("range", ax=below[1])
+
+
+def test_a_reader_answers_for_own_labels() -> None:
+    _, ax = pyplot.subplots()
+    branch().plot("range", ax=ax)
+    both = "Range (mm), growth rate (1/s)"
+    branch().plot("growth_rate", ax=ax, labels={"y": both})
+    assert ax.get_ylabel() == both
+    branch().plot("growth_rate", ax=ax)
+    assert ax.get_ylabel() == both, "it stays"
+    with pytest.raises(dm.ParameterError, match="is something else"):
+        branch().plot("period", ax=ax)
+
+
+@pytest.mark.parametrize(
+    ("own", "refused"), [("ω (rpm)", True), ("ω (rad/s)", False), ("ω", False)]
+)
+def test_a_label_that_a_reader_has_written_stays_in_its_unit(own: str, refused: bool) -> None:
+    _, ax = pyplot.subplots()
+    ax.plot([14.6, 15.0], [1.0, 2.0], label="measured")
+    ax.set_xlabel(own)
+    if refused:
+        with pytest.raises(dm.ParameterError, match=r"label “ω \(rpm\)” along x.*another unit"):
+            branch().plot("range", ax=ax)
+    else:
+        branch().plot("range", ax=ax)
+    assert ax.get_xlabel() == own
+
+
+@pytest.mark.parametrize("listed", [True, False])
+def test_variables_of_one_unit_have_looks_names_and_a_common_axis(listed: bool) -> None:
+    """Both were black lines without a name, under the label of the second."""
+    _, ax = pyplot.subplots(layout="constrained")
+    if listed:
+        dm.plot_sweep(speeds(), ["begin", "end"], ax=ax)
+    else:
+        dm.plot_sweep(speeds(), "begin", ax=ax)
+        dm.plot_sweep(speeds(), "end", ax=ax)
+    assert ax.get_ylabel() == "Speed (rad/s)"
+    said = [text.replace("\n", " ") for text in legend_texts(ax)]
+    assert said == ["Speed at which it begins", "Lowest speed to which it lasts"]
+    begin, end = [line for line in ax.lines if len(line.get_xdata()) == 3]
+    assert begin.get_color() != end.get_color()
+    assert begin.get_linestyle() != end.get_linestyle()
+    assert begin.get_marker() != end.get_marker()
+    for wrong in ("time", ["begin", "time"]):
+        with pytest.raises(dm.ParameterError, match=r"“Speed.*\(rad/s\)” along y, and “Period"):
+            dm.plot_sweep(speeds(), wrong, ax=ax if wrong == "time" else None)
+
+
+def test_lines_are_named_by_their_reader() -> None:
+    called = {"begin": "up", "end": "down"}
+    ax = dm.plot_sweep(speeds(), ["begin", "end"], labels=called)
+    assert legend_texts(ax) == ["up", "down"]
+    assert legend_texts(dm.plot_sweep(speeds(), "begin", labels={"begin": "up"})) == ["up"]
+
+
+def test_sweeps_of_several_cases_are_named_by_what_differs() -> None:
+    worn = speeds().assign_attrs(base='{"Omega": 14, "mu_k": 0.2}')
+    new = speeds().assign_attrs(base='{"Omega": 14, "mu_k": 0.3}')
+    ax = dm.plot_sweep(worn, "begin")
+    dm.plot_sweep(new, "begin", ax=ax)
+    assert [text[-3:] for text in legend_texts(ax)] == ["0.2", "0.3"]
+    assert ax.figure.get_suptitle() == "Ω = 14 rad/s"
+    assert ax.get_ylabel() == "Speed at which it begins (rad/s)"
+
+
+def test_lines_of_several_sweeps_keep_the_names_of_their_values() -> None:
+    """Directions of two cases."""
+    attrs = {"units": "mm", "long_name": "reach"}
+    axes = {"direction": ["up", "down"], "Omega": [1.0, 2.0]}
+    study = xr.Dataset({"reach": ([*axes], np.eye(2), attrs)}, axes)
+    ax = dm.plot_sweep(study.assign_attrs(base='{"mu_k": 0.2}'), "reach")
+    dm.plot_sweep(study.assign_attrs(base='{"mu_k": 0.3}'), "reach", ax=ax)
+    said = legend_texts(ax)
+    assert len(set(said)) == 4
+    assert [text.split(",")[0] for text in said] == ["up", "down", "up", "down"]
+
+
+def test_rows_of_missing_values_of_several_variables_stand_apart() -> None:
+    study = speeds()
+    study["begin"] = study["begin"].where(study["N"] > 300)
+    ax = dm.plot_sweep(study, ["begin", "end"])
+    rows = [line.get_ydata()[0] for line in ax.lines if line.get_marker() == "x"]
+    assert len(set(rows)) == 2
+
+
+def test_variables_that_are_drawn_together_are_lines_over_one_dimension() -> None:
+    study = dm.sweep(dm.floquet, CASE, Omega=[10.0, 12.0], N=[300.0, 385.0])
+    with pytest.raises(dm.ParameterError, match="must be lines over the same dimension"):
+        dm.plot_sweep(study, ["growth_rate", "period"])
+
+
+@pytest.mark.parametrize(
+    ("phrases", "common"),
+    [
+        (["Growth rate of a", "Growth rate of b"], "Growth rate"),
+        (["Lowest position of it", "Highest position of it"], "Position"),
+        (["Range", "Period"], ""),
+        (["Highest height", "Least height"], "Height"),
+    ],
+)
+def test_the_common_name_is_what_all_are_called(phrases: list[str], common: str) -> None:
+    assert common_words(phrases) == common
+
+
+@pytest.mark.parametrize(
+    "drawn",
+    [
+        lambda: dm.plot_modes(CASE, 2),
+        lambda: dm.critical(CASE, "mu_k", (0.2, 0.3), points=3).plot(),
+        lambda: run().plot_poincare(),
+    ],
+    ids=["modes", "critical", "section"],
+)
+def test_a_branch_does_not_stand_on_a_picture_of_something_else(drawn: Callable[[], Any]) -> None:
+    ax = np.ravel(np.asarray(drawn(), dtype=object))[0]
+    with pytest.raises(dm.ParameterError, match=r"^ax: shows"):
+        branch().plot("range", ax=ax)
