@@ -418,10 +418,10 @@ def draws_dots_on_curves(shown: Explorer) -> None:
     for option in ("", "outcome=separation", "outcome=quiet"):
         shown.choose("Dots", option)
         dots[option] = shown.ask("whites")
-    # a dot of radius 3 without its line has some 20 pixels; there are two of each class
+    # a dot of radius 3 without its line has some 15 to 20 pixels; there are two of each class
     assert dots[""] == 0
-    assert dots["outcome=separation"] >= 20
-    assert dots["outcome=quiet"] >= 20
+    assert dots["outcome=separation"] >= 15
+    assert dots["outcome=quiet"] >= 15
 
 
 def fits(shown: Explorer) -> None:

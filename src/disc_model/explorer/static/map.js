@@ -10,9 +10,13 @@ function places() {
   );
 }
 
-/** Whether a flag stands where a point has no result; a point that failed may have that of some variables. */
-const isFiller = (study, variable, place) =>
-  Boolean(variable.flags) && variable !== study.status && value(study, variable, place) === 0 && failed(study, place);
+/** Whether a flag has its first word because its point has no result. A point that failed may have that of some variables, and
+ * one without a cycle was computed. */
+function isFiller(study, variable, place) {
+  if (!study.status || !variable.flags || variable === study.status) return false;
+  const status = study.status.flags[value(study, study.status, place)];
+  return value(study, variable, place) === 0 && !contents.computed.includes(status);
+}
 
 const failed = (study, place) =>
   Boolean(study.status) && study.status.flags[value(study, study.status, place)] !== "ok";

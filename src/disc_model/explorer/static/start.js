@@ -67,6 +67,8 @@ async function start() {
   }
   update();
   listen();
+  listenToSearch();
+  tellOfSearch();
 }
 
 foldFigures();

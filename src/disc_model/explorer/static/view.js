@@ -47,8 +47,24 @@ async function chooseStudy(name) {
   );
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
+  if (!hasValues(view.variable)) chooseValued();
   if (marks().some((mark) => mark.key === SIMULATED)) view.mark = SIMULATED;
   view.place = opening();
+}
+
+/** Whether a variable has a value at any point. */
+const hasValues = (variable) => !variable.gaps || variable.gaps.numbers.includes(0);
+
+/** Show another variable than one without any value, along its own dimensions. */
+function chooseValued() {
+  const { study } = view;
+  const valued = study.variables.find((one) => hasValues(one) && !one.name.endsWith("status"));
+  if (!valued) return;
+  const dims = study.dims.filter((dim) => valued.dims.includes(dim.name));
+  const lengthy = dims.filter((dim) => dim.values.length > 1);
+  const [across, up] = usualAxes(lengthy.length ? lengthy : dims);
+  Object.assign(view, { variable: valued, x: across.name, y: up ? up.name : NONE });
+  chooseAxes();
 }
 
 /** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
@@ -117,7 +133,6 @@ function choice(label, options, chosen, act, name = label) {
 }
 
 const MANY_STUDIES = 8; // which a reader does not overlook in a list
-const SEARCH = "Search";
 
 /** The studies whose name, title or quantity has all words of the search, and the one that is shown. */
 function studiesFound(shown) {
@@ -149,33 +164,30 @@ function listStudies(select, shown) {
   select.title = select.selectedOptions[0].text;
 }
 
-/** A field that leaves in the list of studies those with the words that are typed; Enter shows the first. */
-function searchField() {
-  const box = document.createElement("label");
-  const field = document.createElement("input");
-  Object.assign(field, { type: "search", name: SEARCH, value: view.search, placeholder: "words of its name" });
-  const count = () => {
-    const found = studiesFound(null).length;
-    box.firstChild.textContent = view.search.trim() ? `Find a study: ${found} of ${contents.studies.length}` : "Find a study";
-  };
+/** How many studies the search has found, beside its field. */
+function tellOfSearch() {
+  const all = contents.studies.length;
+  element("search").hidden = all <= MANY_STUDIES;
+  const found = view.search.trim() ? `: ${studiesFound(null).length} of ${all}` : "";
+  element("search").querySelector("span").textContent = `Find a study${found}`;
+}
+
+/** The field leaves in the list of studies those with the words that are typed; Enter shows the first. */
+function listenToSearch() {
+  const field = element("search").querySelector("input");
   field.addEventListener("input", () => {
     view.search = field.value;
     listStudies(element("controls").elements.namedItem("Study"), view.study);
-    count();
+    tellOfSearch();
     showCutTexts();
   });
   field.addEventListener("keydown", async (event) => {
-    if (event.key !== "Enter") return;
-    event.preventDefault(); // it would send the form
     const [first] = studiesFound(null);
-    if (!first) return;
+    if (event.key !== "Enter" || !first) return;
     view.warning = "";
     await chooseStudy(first.name);
     update();
   });
-  box.append("", field);
-  count();
-  return box;
 }
 
 /** The name of an axis, without what explains it after a colon. */
@@ -187,7 +199,6 @@ function fillControls() {
   const axis = (dim) => [dim.name, shortLabel(dim)];
   const named = (one) => [one.name, one.name === one.label ? one.name : `${one.label} (${one.name})`];
   const boxes = [
-    ...(contents.studies.length > MANY_STUDIES ? [searchField()] : []),
     studyChoice(study),
     choice("Across", axes.map(axis), view.x, (name) => {
       if (name === view.y) view.y = view.x;
@@ -225,9 +236,7 @@ function fillControls() {
       choice("Dots", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.title])],
         view.mark, (key) => (view.mark = key)),
     );
-  const searching = document.activeElement?.name === SEARCH;
   element("controls").replaceChildren(...boxes);
-  if (searching) element("controls").elements.namedItem(SEARCH)?.focus();
   showCutTexts();
 }
 
