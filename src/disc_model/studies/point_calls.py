@@ -74,7 +74,6 @@ OF_CYCLES: Mapping[str, str] = {
     "growth_rate": "found.growth_rate",
     "period": "found.period",
     "stick_fraction": "found.stick_fraction",
-    "releases": "found.releases",
     "multiplier_re": "found.multipliers[0].real",
     "multiplier_im": "found.multipliers[0].imag",
     "stick_slip_frequency": "found.releases / found.period",
@@ -98,10 +97,11 @@ BY_FLOQUET: Mapping[str, Sequence[str]] = {
         "sliding_growth_rate",
     ),
     "campbell": ("growth_rate", "stick_slip_frequency"),
-    "regions": ("growth_rate", "period", "releases"),
     "sensitivity": ("growth_rate", "cycle"),
 }
 """Variables of quantities that `floquet` gives."""
+OF_CYCLES_REACHED = ("cycle", "growth_rate", "period", "releases", "period_ratio")
+"""Variables of `regions` of the cycle to which a motion comes, which need not be that near its start."""
 WITHIN_HORIZON = ("outcome", "first_separation")
 SCANS: Mapping[str, Callable[..., Any]] = {
     "critical_speed": critical_speed,
@@ -119,8 +119,10 @@ def call_of(name: str, quantity: Quantity) -> Call:
     quantity : with its options
     """
     columns = [*quantity.COLUMNS]
-    if name in ("regions", "sensitivity"):  # computed as planes, and as samples of one sequence
+    if name == "sensitivity":  # samples of one sequence
         columns = [*WITHIN_HORIZON, *BY_FLOQUET[name]]
+    if name == "regions":  # computed as planes, where neighbours decide how an outcome is known
+        columns = [*WITHIN_HORIZON, *OF_CYCLES_REACHED]
     parameter = getattr(quantity, "parameter", "")
     return Call(
         name,
@@ -150,7 +152,7 @@ def _recipes(name: str, quantity: Any) -> list[Recipe]:
     recipes = []
     if name in BY_FLOQUET:
         numbers = {variable: OF_CYCLES[variable] for variable in BY_FLOQUET[name]}
-        recipes.append(Recipe("dm.floquet", _tolerance_of_cycles(name, quantity), numbers))
+        recipes.append(Recipe("dm.floquet", _tolerance_of_cycles(quantity), numbers))
     if name == "sliding":
         recipes.append(Recipe("dm.steady_sliding", [], OF_SLIDING))
 
@@ -175,10 +177,9 @@ def _recipes(name: str, quantity: Any) -> list[Recipe]:
     return recipes
 
 
-def _tolerance_of_cycles(name: str, quantity: Any) -> list[str]:
-    """The tolerance of `floquet`, if it is not the usual one; that of regions is of simulations."""
-    usual = type(quantity).model_fields["tol"].default
-    if name == "regions" or quantity.tol == usual:
+def _tolerance_of_cycles(quantity: Any) -> list[str]:
+    """The tolerance of `floquet`, if it is not the usual one."""
+    if quantity.tol == type(quantity).model_fields["tol"].default:
         return []
     return [f"tol={quantity.tol!r}"]
 

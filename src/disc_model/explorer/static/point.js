@@ -201,7 +201,7 @@ function saidOfPoint(study, place, variable) {
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
 
-const LONGEST_CASE = 300; // characters of a case that is written twice: a disc has many more
+const LONGEST_CASE = 120; // characters of a case that is written twice: a sample or a disc has more
 
 /** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
 function simulation(study, place, variable) {
