@@ -73,6 +73,9 @@ def studies() -> dict[str, dict[str, Any]]:
     found["zipped"] = grid("sensitivity")
     found["zipped"]["zip"] = {"N": [200, 385], "Omega": [12.6, 15]}
     found["zipped"]["base"] = {"n_diameters": 1}
+    spread = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
+    distributions = found["zipped"]["options"]["distributions"] | {"m": spread}
+    found["zipped"]["options"] = found["zipped"]["options"] | {"distributions": distributions}
     return found
 
 
@@ -145,6 +148,18 @@ def test_the_call_of_a_point_gives_its_value(shown: Shown, name: str) -> None:
         assert equal(value, stored(shown.datasets[name], row)), row
         compared += 1
     assert compared or name == "stability_curves", "there is no curve in so small a plane"
+
+
+def test_all_parameters_of_a_sample_are_among_its_values(shown: Shown) -> None:
+    """One of them stood there, and the sample could not be told from the page."""
+    shown.rows("zipped")
+    names = shown.page.run(
+        "return [...document.querySelectorAll('#values th')].map(x => x.textContent)"
+    )
+    distributed = shown.datasets["zipped"]["parameter"].values.tolist()
+    assert len(distributed) == 2
+    for name in distributed:
+        assert f"{name}: value of the sample, SI units" in names
 
 
 def stored(study: xr.Dataset, row: dict[str, Any]) -> Any:
