@@ -83,7 +83,7 @@ const seen = {
   // The selectors whose title is not the text of what is chosen.
   untitled: () => [...document.querySelectorAll("select")].filter(x => x.title !== x.selectedOptions[0].text).map(x => x.name),
   // The colour of a number on the bar's scale.
-  colourOf: number => colouring([number], view.variable.scale).colour(number),
+  colourOf: number => colouring([number], view.variable).colour(number),
   sizesOfType: of => [...document.querySelectorAll(of)]
     .filter(x => x.innerText).map(x => parseFloat(getComputedStyle(x).fontSize)),
 };

@@ -18,12 +18,8 @@ from disc_model.explorer import LEVELS, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, lightness
 from disc_model.figures.colours import growth_norm
-from disc_model.studies.point_calls import SEARCHES, call_of
-from disc_model.studies.registry import quantity_of
-from disc_model.studies.run import describe
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, motions, plane
-from tests.studies.test_quantities import OPTIONS
 from tests.workflow.browser import Page, browser
 
 pytestmark = [pytest.mark.slow, needs.BROWSER.mark]
@@ -198,14 +194,21 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
         assert len(eval(call, {"dm": dm})) == 3
         # a disc is not written twice
         disc = [{"name": "disc", "value": {"omega": [100.5] * 100}, "usual": False}]
-        long = "return simulation({...view.study, fixed: arguments[0]}, view.place)"
-        assert opened.run(long, disc) == "dm.simulate(case, 60).plot()"
+        long = "return simulation({...view.study, ...arguments[0]}, view.place, view.variable)"
+        call = {**view_call(), "columns": ["growth_rate"]}
+        known = {"fixed": disc, "call": call}
+        assert opened.run(long, known) == "dm.simulate(case, 60).plot()"
         # a stable cycle stands for another one, and not for one that grows
         for place, kind, N in (((0, 2), "stable", 100), ((1, 3), "unstable", 385)):
             shown.point(*place, click=True)
             said = f"Nearest stored motion of the same kind, {kind}, at N = {N} N"
             assert shown.text("motion-note").startswith(said)
             assert not opened.run(hidden)
+
+
+def view_call() -> dict[str, Any]:
+    """A call of a study that gives all variables of `columns`."""
+    return {"quantity": "floquet", "options": {}, "recipes": [], "begins": {}, "along": {}}
 
 
 def test_a_curve_of_growth_rates_has_the_dots_of_stable_ones(tmp_path: Path) -> None:
@@ -235,33 +238,6 @@ def test_a_curve_of_growth_rates_has_the_dots_of_stable_ones(tmp_path: Path) -> 
 def is_light(colours: list[str]) -> bool:
     """Whether some are white but for smooth edges: marks on dark cells."""
     return any(lightness(colour) > 0.8 for colour in colours)
-
-
-def test_the_call_of_every_point_runs(tmp_path: Path) -> None:
-    """Those of quantities that search a speed gave a case without a speed."""
-    told = []
-    for name, options in OPTIONS.items():
-        quantity = quantity_of(name).model_validate(options)
-        base = {"N": 200, "Omega": 15, "n_diameters": 1, "damping_ratio": None}
-        attrs = {"base": json.dumps({x: base[x] for x in base if x not in quantity.scanned})}
-        study = xr.Dataset(
-            {"value": ("c_p", [1.0, 2.0])}, {"c_p": ("c_p", [0.0, 0.02], describe("c_p"))}, attrs
-        )
-        told.append(contents_of(name, study, stated=Stated(**call_of(name, quantity)._asdict())))
-    explorer_path = tmp_path / "explorer.html"
-    explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
-    with browser(tmp_path / "profile") as opened:
-        opened.open(explorer_path)
-        opened.wait_for(READY)
-        shown = Explorer(opened)
-        calls = {}
-        for name in OPTIONS:
-            shown.choose("Study", name)
-            calls[name] = shown.text("call")
-    for name, call in calls.items():
-        found = eval(call, {"dm": dm})
-        assert isinstance(found, xr.Dataset if name in SEARCHES else dm.Parameters), name
-    assert calls["critical_speed"].startswith("dm.critical_speed(dm.Parameters(N=200, n_diam")
 
 
 def started_study() -> xr.Dataset:
@@ -442,10 +418,10 @@ def draws_dots_on_curves(shown: Explorer) -> None:
     for option in ("", "outcome=separation", "outcome=quiet"):
         shown.choose("Dots", option)
         dots[option] = shown.ask("whites")
-    # a dot of radius 3 without its line has some 20 pixels; there are two of each class
+    # a dot of radius 3 without its line has some 15 to 20 pixels; there are two of each class
     assert dots[""] == 0
-    assert dots["outcome=separation"] >= 20
-    assert dots["outcome=quiet"] >= 20
+    assert dots["outcome=separation"] >= 15
+    assert dots["outcome=quiet"] >= 15
 
 
 def fits(shown: Explorer) -> None:

@@ -1,5 +1,6 @@
 """Words of figures for values and horizons."""
 
+import numpy as np
 import pytest
 import xarray as xr
 
@@ -78,6 +79,32 @@ def test_the_horizon_of_a_study_has_its_unit(options: str, text: str) -> None:
 )
 def test_points_without_a_separation_are_called_so(name: str, options: str, text: str) -> None:
     study = xr.Dataset(attrs={"options": options})
+    assert missing_text(study, name) == text
+
+
+@pytest.mark.parametrize(
+    ("quantity", "name", "dims", "long_name", "text"),
+    [
+        ("critical_speed", "critical_speed", "N", "lowest speed", "none from 5 to 24 rad/s"),
+        ("critical_speed", "crossing", "crossing_number", "a speed", "no further crossing"),
+        ("branches", "period", "branch_point", "period", "no branch, or one of fewer points"),
+        (
+            "hysteresis",
+            "onset_speed",
+            "N",
+            "speed, nan if at none or at the lowest",
+            "at no speed, or at the lowest already",
+        ),
+        ("regions", "period", "N", "period of the cycle", "no cycle is followed"),
+        ("floquet", "period", "N", "period of the cycle", "no value"),
+    ],
+)
+def test_a_missing_value_has_its_reason(
+    quantity: str, name: str, dims: str, long_name: str, text: str
+) -> None:
+    """Critical speeds that were not found were "no value"."""
+    variable = xr.DataArray([1.0, np.nan], dims=dims, attrs={"long_name": long_name})
+    study = xr.Dataset({name: variable}, {"scan_Omega": [5.0, 24.0]}, {"quantity": quantity})
     assert missing_text(study, name) == text
 
 

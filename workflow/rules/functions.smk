@@ -77,9 +77,8 @@ def stated_of(grid):
         units.update(plot.units)
     maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
     shown = [plot.variable for plot in grid.plots.values() if hasattr(plot, "variable")]
-    call = call_of(grid.quantity, grid.options)
     return {
-        **call._asdict(),
+        "call": call_of(grid.quantity, grid.options).plain,
         "motion": grid.options.motion,
         "units": units,
         "has_figures": bool(grid.plots),

@@ -40,8 +40,7 @@ class Stated(NamedTuple):
     Attributes
     ----------
     motion : what its stored motions are
-    before, after : texts round a case, in the call in Python that computes a point
-    begins : parameters that the quantity varies by itself, each where its range begins
+    call : how its points are computed in Python, as `disc_model.studies.point_calls.Call.plain`
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
     variable : the variable of its first figure that shows one, "" without
@@ -49,9 +48,7 @@ class Stated(NamedTuple):
     """
 
     motion: str = ""
-    before: str = ""
-    after: str = ""
-    begins: Mapping[str, float] = MappingProxyType({})
+    call: Mapping[str, Any] = MappingProxyType({})
     units: Mapping[str, str] = MappingProxyType({})
     has_figures: bool = True
     axes: Sequence[str] = ()
@@ -59,6 +56,10 @@ class Stated(NamedTuple):
 
 
 NOTHING_STATED = Stated()
+NO_CALL: Mapping[str, Any] = MappingProxyType(
+    {"quantity": "", "options": {}, "columns": [], "recipes": [], "begins": {}, "along": {}}
+)
+"""A call of which nothing is stated: the point's case alone."""
 
 
 def study_contents(
@@ -84,11 +85,13 @@ def _study_contents(
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
     base = json.loads(study.attrs.get("base", "{}"))
-    drawn = [x for x in study.data_vars.values() if x.ndim and x.dtype.kind in "biuf"]
+    drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
+    call = {**NO_CALL, **stated.call}
+    exact = {call.get("sampled", ""), *call["along"].values()}  # numbers of the case of a point
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
-        "call": {"before": stated.before, "after": stated.after, "begins": dict(stated.begins)},
+        "call": call,
         "discs": json.loads(study.attrs.get("discs", "{}")),
         "starts": json.loads(study.attrs.get("starts", "{}")),
         "start": _start_of_all(study),
@@ -96,8 +99,8 @@ def _study_contents(
         "axes": [name for name in stated.axes if name in study.sizes],
         "first": stated.variable,
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
-        "dims": [_dimension(study, str(dim)) for dim in study.sizes],
-        "variables": [_variable(study, variable) for variable in drawn],
+        "dims": [_dimension(study, str(dim)) for dim, size in study.sizes.items() if size],
+        "variables": [_variable(study, x, exact=str(x.name) in exact) for x in drawn],
         "messages": _messages(study),
         "motions": shown_motions,
     }
@@ -269,9 +272,10 @@ def _place(names: Iterable[str], values: Sequence[Any]) -> str:
     return ", ".join(texts)
 
 
-def _variable(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`, with the classes of points that have none, and the scale
-    of colours of growth rates; flags as bytes with words and their looks, those of the figures."""
+def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict[str, Any]:
+    """Numbers as 32-bit floats of `BITS`, or all of their digits, with the classes of points that
+    have none, and the scale of colours of growth rates; flags as bytes with words and their looks,
+    those of the figures."""
     name = str(variable.name)
     described = _named(name, variable.attrs)
     if name in WITHIN_HORIZON:
@@ -286,12 +290,22 @@ def _variable(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any]:
         numbers = variable.values
         if factor != 1.0:
             numbers = factor * numbers
+        described["whole"] = _are_whole(numbers, described["unit"])
+        described["exact"] = exact
+        if exact:
+            return {**described, "data": packed(numbers, "<f8")}
         return {**described, "data": packed(shortened(numbers), "<f4")}
     words = str(meanings).split()
     codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
     looks = [_look(look) for look in looks_of(words).values()]
     data = packed(np.searchsorted(codes, variable.values), "u1")
     return {**described, "flags": words, "looks": looks, "data": data}
+
+
+def _are_whole(numbers: np.ndarray, unit: str) -> bool:
+    """Whether numbers without a unit are counts."""
+    finite = numbers[np.isfinite(numbers)]
+    return not unit and bool(np.all(finite == np.rint(finite)))
 
 
 def _gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:

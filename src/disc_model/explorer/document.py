@@ -16,6 +16,7 @@ from PIL import Image, ImageOps
 
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import PHASE_COLOURS
+from disc_model.figures.selection import WITHOUT_CYCLE
 from disc_model.parameters import RATIOS, Parameters
 
 PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
@@ -47,6 +48,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "maps": {"sequential": _colours(cm.batlow), "diverging": _colours(cm.vik)},
         "phases": PHASE_COLOURS,
         "weights": WEIGHTS,
+        "computed": ["ok", *WITHOUT_CYCLE],
         "parameters": [*Parameters.model_fields, *RATIOS],
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)

@@ -78,6 +78,76 @@ PLAIN_WORDS = re.compile(
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
+BEYOND = {
+    "branch_point": "no branch, or one of fewer points",
+    "branch": "no further branch",
+    "curve_point": "no curve, or one of fewer points",
+    "curve": "no further curve",
+    "crossing_number": "no further crossing",
+    "crossing": "no further crossing",
+    "attractor": "no further attractor",
+    "release": "no further release",
+    "begin": "contact is not lost",
+}
+"""What it means that there is no value at a place of a dimension that has room for more than was found."""
+_NO_MODE = "no mode of this number"
+_NO_LOCK = "no stable cycle was found at it"
+_NO_PERIOD = "it does not repeat"
+_NOT_SWEPT = "the sweep did not come here"
+_NO_START = "no start led to separation"
+_NO_MULTIPLIER = "no multiplier of the mode"
+_NO_CYCLE = "no cycle is followed"
+GONE: Mapping[str, Mapping[str, str]] = {
+    "basins": dict.fromkeys(
+        ("critical_energy", "critical_energy_lower", "critical_energy_sampled"), _NO_START
+    ),
+    "bifurcation": {
+        **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further sample"),
+        "w_point": "sampled once a turn only",
+        "first_separation": "no separation",
+    },
+    "branches": dict.fromkeys(("sweep_range", "sweep_separation_rate"), _NOT_SWEPT),
+    "campbell": {
+        **dict.fromkeys(
+            ("sliding_frequency", "sliding_growth_rate", "forward_wave_fraction"), _NO_MODE
+        ),
+        **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
+    },
+    "critical_speed": {"scan_first_separation": "no separation, or not timed"},
+    "locking": {
+        **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
+        **dict.fromkeys(("leading_multiplier", "growth_rate"), _NO_LOCK),
+        **dict.fromkeys(("real_multiplier", "swing_multiplier"), _NO_LOCK),
+        "separations_per_release": "no release of stick, or no separation",
+        "separation_interval": "no release of stick, or no separation",
+    },
+    "outcome": {
+        "cycle_distance": "it was not left for a cycle",
+        "return_map_residual": "it returned too seldom",
+        "return_map_residual_rate": "it returned too seldom",
+    },
+    "regions": {
+        **dict.fromkeys(("period", "period_ratio"), _NO_CYCLE),
+        "simulated_time": "not simulated",
+    },
+    "sliding": {
+        **dict.fromkeys(
+            ("frequency", "mode_growth_rate", "damping_ratio", "forward_wave_fraction"), _NO_MODE
+        ),
+        "mac": "no such mode, or the first value",
+    },
+}
+"""Why points that were computed have no value of some variables, by quantity."""
+WITHOUT = {
+    "if contact is not lost": "contact is not lost",
+    "without one": "no cycle",
+    "if there is none": "none found",
+    "if at none or at the lowest": "at no speed, or at the lowest already",
+    "if it still does at the lowest": "none, or still at the lowest speed",
+    "if there is none, or it continues": "none, or it continues",
+    "if it was not": "it was not left",
+}
+"""What figures say for what long names say after "nan"."""
 IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
 """Units of numbers of cycles in all pictures."""
 RANGE_END = re.compile("_(min|max)$")
@@ -197,10 +267,28 @@ def missing_text(study: xr.Dataset, name: str) -> str:
         return BELOW_ANY
     horizon = horizon_text(study)
     if name != "first_separation" or not horizon:
-        return name_of(NO_VALUE)
+        return _reason_in(study, name) or name_of(NO_VALUE)
     if json.loads(study.attrs["options"]).get("extrapolate"):  # then some that occur have no time
         return f"none within {horizon}, or not timed"
     return f"none within {horizon}"
+
+
+def _reason_in(study: xr.Dataset, name: str) -> str:
+    """Why a point that was computed has no value, as far as the study's dimensions and the variable's
+    long name say; "" if they do not."""
+    if name == "critical_speed" and "scan_Omega" in study.coords:
+        speeds = study["scan_Omega"].values
+        return f"none from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+    if name not in study:
+        return ""
+    of_quantity = GONE.get(str(study.attrs.get("quantity", "")), {})
+    if name in of_quantity:
+        return of_quantity[name]
+    dims = study[name].dims
+    for dim, reason in BEYOND.items():
+        if dim in dims:
+            return reason
+    return WITHOUT.get(str(study[name].attrs.get("long_name", "")).partition(", nan ")[2], "")
 
 
 def horizon_text(study: xr.Dataset) -> str:

@@ -46,10 +46,13 @@ async function unpacked(text, Kind) {
   return new Kind(bytes.buffer);
 }
 
+/** The array that holds the numbers of a variable. */
+const kindOf = (variable) => (variable.flags ? Uint8Array : variable.exact ? Float64Array : Float32Array);
+
 /** Unpacks what a study holds, once. */
 async function unpack(study) {
   const parts = [
-    ...study.variables.map((variable) => [variable, variable.flags ? Uint8Array : Float32Array]),
+    ...study.variables.map((variable) => [variable, kindOf(variable)]),
     ...study.variables.filter((variable) => variable.gaps).map((variable) => [variable.gaps, Uint8Array]),
     ...study.variables.flatMap((variable) => variable.marks.map((mark) => [mark, Uint8Array])),
     ...(study.messages ? [[study.messages, Uint32Array]] : []),

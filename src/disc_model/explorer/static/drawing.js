@@ -39,8 +39,7 @@ function scaleOf(dim) {
 function ticksOf(dim, kind, first, last, at) {
   const whole = dim.values.every(Number.isInteger);
   if (kind === "linear")
-    return roundTicks(first, last)
-      .filter((x) => !whole || Number.isInteger(x))
+    return ticksBetween(first, last, whole)
       .map((x) => [x, number(x, 4)]);
   if (kind === "log") {
     const found = [];
@@ -61,6 +60,9 @@ function roundTicks(first, last, most = MOST_TICKS) {
   for (let i = Math.ceil(first / step - 1e-9); i * step <= last + 1e-9 * step; i++) found.push(i * step);
   return found;
 }
+
+/** Round ticks, whole ones of counts. */
+const ticksBetween = (first, last, whole) => roundTicks(first, last).filter((x) => !whole || Number.isInteger(x));
 
 // Colours
 
@@ -83,7 +85,7 @@ function inkOn(colour) {
 }
 
 /** Colours of numbers: `colour(x)`, and `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers. */
-function colouring(numbers, scale) {
+function colouring(numbers, { scale, whole }) {
   const finite = numbers.filter(Number.isFinite).sort((a, b) => a - b);
   if (!finite.length) return null;
   if (scale && view.colours === "auto") return asInFigures(scale);
@@ -93,7 +95,7 @@ function colouring(numbers, scale) {
   const size = both ? Math.max(-least, greatest) : greatest - least;
   const sizes = finite.map((x) => Math.abs(x - zero)).sort((a, b) => a - b);
   const quarter = sizes[Math.floor(sizes.length / 4)] || size / 100;
-  const stretched = view.colours === "stretched" || (view.colours === "auto" && size > 40 * quarter);
+  const stretched = view.colours === "stretched" || (view.colours === "auto" && !whole && size > 40 * quarter);
   const width = stretched ? Math.max(quarter, 1e-6 * size) : 0;
   const share = (x) => (stretched ? Math.asinh(x / width) / Math.asinh(size / width) : x / size);
   const back = (s) => (stretched ? width * Math.sinh(s * Math.asinh(size / width)) : s * size);
@@ -105,11 +107,17 @@ function colouring(numbers, scale) {
     colour: (x) => colourAt(map, place(x)),
     ticks: (pixels) => {
       if (size === 0) return [[0.5, least]]; // one number alone
+      if (whole) return wholeTicks(least, greatest, pixels).map((count) => [place(count), count]);
       const places = pixels < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1];
       return places.map((at) => [at, found(at)]);
     },
   };
 }
+
+/** Whole numbers between two, as many as a bar has room for. */
+const wholeTicks = (least, greatest, pixels) =>
+  [...new Set([least, ...roundTicks(least, greatest, pixels < 360 ? 3 : MOST_TICKS), greatest])]
+    .filter((x, i, all) => Number.isInteger(x) && (x === greatest || i === 0 || greatest - x > (greatest - least) / 12));
 
 const colourAt = (map, share) => map[Math.round(Math.min(1, Math.max(0, share)) * (map.length - 1))];
 

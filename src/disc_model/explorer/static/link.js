@@ -49,9 +49,24 @@ async function follow(hash) {
     view.warning = "This link is of an older page, and counts cells instead of saying values: its study is shown, not its point.";
     return true;
   }
-  const warnings = [...followShown(asked), ...view.study.dims.map((dim) => followAlong(dim, asked))];
+  const along = view.study.dims.map((dim) => followAlong(dim, asked));
+  const warnings = [...followShown(asked), ...along, ...otherValues(asked)];
   view.warning = warnings.filter(Boolean).join(" ");
   return true;
+}
+
+const SHOWN_BY = ["study", "x", "y", "variable", "colours", "dots"]; // words of a link that are no values
+
+/** Warnings of values in an address that are not those of its study: of a parameter that does not vary, or of none. */
+function otherValues(asked) {
+  const { study } = view;
+  const varied = study.dims.flatMap((dim) => Object.keys(dim.parts));
+  return [...asked].filter(([name]) => !SHOWN_BY.includes(name) && !varied.includes(name)).map(([name, text]) => {
+    const fixed = study.fixed.find((one) => one.name === name);
+    if (!fixed) return `The link's ${name} = ${text} is not in this study.`;
+    if (typeof fixed.value === "object" || distance([fixed.value], 0, text) < 1e-9) return "";
+    return `The link's ${name} = ${text} is not that of this study, ${name} = ${stated(fixed.value)}.`;
+  });
 }
 
 /** Choose the axes, variable, colours and dots that an address says; returns warnings of those that are not there. */

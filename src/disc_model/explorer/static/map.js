@@ -10,6 +10,14 @@ function places() {
   );
 }
 
+/** Whether a flag has its first word because its point has no result. A point that failed may have that of some variables, and
+ * one without a cycle was computed. */
+function isFiller(study, variable, place) {
+  if (!study.status || !variable.flags || variable === study.status) return false;
+  const status = study.status.flags[value(study, study.status, place)];
+  return value(study, variable, place) === 0 && !contents.computed.includes(status);
+}
+
 const failed = (study, place) =>
   Boolean(study.status) && study.status.flags[value(study, study.status, place)] !== "ok";
 
@@ -22,7 +30,7 @@ function drawMap() {
   const cells = places();
   const numbers = cells.map((cell) => value(study, variable, cell.place));
   const [xs, ys] = [scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, numbers) : scaleOf(study.dim[y])];
-  const colours = curve || variable.flags ? null : colouring(numbers, variable.scale);
+  const colours = curve || variable.flags ? null : colouring(numbers, variable);
   const [left, right] = [widest(ink, ys.ticks()) + 14, width - 14];
   const upward = wrapped(ink, axisLabel(curve ? variable : study.dim[y]), right - left);
   const named = colours ? wrapped(ink, axisLabel(variable), right - left) : [];
@@ -37,7 +45,7 @@ function drawMap() {
   const dotted = (place) => Boolean(dots) && dots.holds(place);
   const over = curve ? [] : marksOver(variable, x, y);
   const patterns = patternsOf(ink, over);
-  const seen = { flags: new Set(), gaps: new Set(), marks: new Set(), hatched: false };
+  const seen = { flags: new Set(), gaps: new Set(), marks: new Set(), statuses: new Set(), hatched: false };
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
     const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
@@ -57,8 +65,9 @@ function drawMap() {
       seen.marks.add(mark);
       if (mark.look.hatch) fill(patterns.get(mark)[inkOn(look?.face ?? colours.colour(numbers[n]))]);
     }
-    if (variable !== study.status && !gap && failed(study, place)) {
+    if (isFiller(study, variable, place)) {
       seen.hatched = true;
+      seen.statuses.add(shown(study, study.status, place));
       fill(hatch);
     }
     if (!curve && dotted(place)) disc(ink, (x0 + x1) / 2, (y0 + y1) / 2, dotRadius(x1 - x0, y1 - y0));
@@ -143,7 +152,7 @@ function legend(seen, dots) {
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
   for (const look of variable.gaps?.looks ?? []) if (seen.gaps.has(look)) entries.push([swatchOf(look), look.label]);
   for (const mark of variable.marks) if (seen.marks.has(mark)) entries.push([swatchOf(mark.look), mark.look.label]);
-  if (seen.hatched) entries.push(["hatched", "no result; the point's status says why"]);
+  if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   if (dots) entries.push([dotSwatch(), dots.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
@@ -168,7 +177,7 @@ function scaleOfNumbers(variable, numbers) {
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
   const ticks = variable.flags
     ? variable.looks.map((look, code) => [code, look.label]).filter(([code]) => code >= least && code <= greatest)
-    : roundTicks(least - room, greatest + room).map((tick) => [tick, number(tick, 4)]);
+    : ticksBetween(least - room, greatest + room, variable.whole).map((tick) => [tick, number(tick, 4)]);
   return { borders: [least - room, greatest + room], to: identity, ticks: () => ticks };
 }
 

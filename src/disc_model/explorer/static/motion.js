@@ -87,7 +87,7 @@ function drawMotion() {
   element("motion-hovered").textContent = "";
   element("phases").replaceChildren();
   motionDrawn = null;
-  element("motion-call").textContent = own ? "" : simulation(study, place);
+  element("motion-call").textContent = own ? "" : simulation(study, place, view.variable);
   element("motion-by-call").hidden = !element("motion-call").textContent;
   element("motion-says").textContent = saidOfCall(study, place);
   if (!motion) {

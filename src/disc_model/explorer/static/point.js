@@ -52,9 +52,12 @@ function move(event) {
   choose({ ...view.place, [name]: to });
 }
 
+/** The dimensions of a study's grid, each point of which is computed by itself; others are of its quantity. */
+const gridOf = (study) => study.dims.filter((dim) => study.status?.dims.includes(dim.name) ?? true);
+
 /** The values of what varies at a point, in SI units, as pairs of name and value. */
-const variedAt = (study, place) =>
-  study.dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
+const variedAt = (dims, place) =>
+  dims.flatMap((dim) => Object.entries(dim.parts).map(([name, column]) => [name, column[place[dim.name]]]));
 
 const CONSTANTS = new Map([[null, "None"], [true, "True"], [false, "False"]]);
 
@@ -67,47 +70,147 @@ function python(value) {
   return `{${pairs.join(", ")}}`;
 }
 
+/** The values of the parameters that the quantity varies by itself where a variable was computed; without those that the variable
+ * does not depend on. */
+function scannedAt(study, place, variable) {
+  const found = Object.entries(study.call.along).flatMap(([parameter, name]) => {
+    const dim = study.dim[name];
+    if (dim) return variable.dims.includes(name) ? [[parameter, dim.parts[name][place[name]]]] : [];
+    const holder = study.variables.find((one) => one.name === name);
+    const known = holder?.dims.every((one) => variable.dims.includes(one)) ? value(study, holder, place) : NaN;
+    return Number.isNaN(known) ? [] : [[parameter, known]];
+  });
+  return Object.fromEntries(found);
+}
+
+/** The values of the parameters of a sample. */
+function sampledAt(study, place) {
+  const holder = study.variables.find((one) => one.name === study.call.sampled);
+  if (!holder) return {};
+  return Object.fromEntries(study.dim.parameter.values.map((name, i) => [name, value(study, holder, { ...place, parameter: i })]));
+}
+
+/** Arguments of a call in Python. */
+const argumentsOf = (values) => values.map(([name, one]) => `${name}=${python(one)}`).join(", ");
+
 /** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; a parameter that the
- * quantity varies by itself has the value where its range begins. */
-function caseOf(study, place) {
-  const unusual = study.fixed.filter((one) => !one.usual);
-  const values = [...unusual.map((one) => [one.name, one.value]), ...Object.entries(study.call.begins), ...variedAt(study, place)];
-  const given = (name, value) => python(name === "disc" ? study.discs[value] ?? value : value);
-  const stated = values.filter(([name]) => contents.parameters.includes(name)).map(([name, value]) => `${name}=${given(name, value)}`);
-  return `dm.Parameters(${stated.join(", ")})`;
+ * quantity varies by itself has its value at the point, or else that where its range begins. */
+function caseOf(study, place, variable) {
+  const unusual = study.fixed.filter((one) => !one.usual).map((one) => [one.name, one.value]);
+  const scanned = { ...study.call.begins, ...scannedAt(study, place, variable) };
+  const values = { ...Object.fromEntries([...unusual, ...variedAt(gridOf(study), place)]), ...scanned };
+  if (study.call.lifts_mu_s) {
+    const least = values.mu_s ?? study.fixed.find((one) => one.name === "mu_s")?.value;
+    if (least < values.mu_k) values.mu_s = values.mu_k;
+  }
+  if (typeof values.disc === "string") values.disc = study.discs[values.disc] ?? values.disc;
+  const known = Object.entries(values).filter(([name]) => contents.parameters.includes(name));
+  // numbers of a disc's modes, and what is drawn about the values of a point
+  const ofModes = Object.entries(scanned).filter(([name]) => !contents.parameters.includes(name));
+  const replaced = [...ofModes, ...Object.entries(sampledAt(study, place))];
+  return `dm.Parameters(${argumentsOf(known)})${replaced.length ? `.replace(${argumentsOf(replaced)})` : ""}`;
 }
 
 const PERTURBED = "perturbation_"; // before a coordinate of the start that varies
 
-/** The arguments, in Python, of the start of a point's motion; "" for the static start. */
-function startOf(study, place) {
-  const varied = variedAt(study, place);
+/** The start of a point's motion: the motion before it, if any, and the perturbations that are not 0. */
+function beginningOf(study, place) {
+  const varied = variedAt(gridOf(study), place);
   const named = Object.fromEntries(varied).start;
   const { prerun, perturbation } = study.starts[named] ?? study.start;
   const kicks = varied.filter(([name]) => name.startsWith(PERTURBED)).map(([name, value]) => [name.slice(PERTURBED.length), value]);
   const kick = Object.fromEntries([...Object.entries(perturbation ?? {}), ...kicks].filter(([, value]) => value !== 0));
+  return { prerun, kick, isStatic: !prerun && !Object.keys(kick).length };
+}
+
+/** The arguments, in Python, of the start of a point's motion; "" for the static start. */
+function startOf(study, place) {
+  const { prerun, kick } = beginningOf(study, place);
   const given = Object.keys(kick).length ? [python(kick)] : [];
   if (prerun) given.push(`prerun=${python(prerun)}`);
   return given.join(", ");
 }
 
-/** The call in Python for a point: its case, with the start of its motion, or that of a quantity which varies a parameter by itself. */
-function call(study, place) {
-  const found = `${study.call.before}${caseOf(study, place)}${study.call.after}`;
+/** A study of the point alone, as it was computed; what it has of a variable is a code where that is a flag. */
+function studyOf(study, place, variable) {
+  const unusual = study.fixed.filter((one) => !one.usual).map((one) => [one.name, one.value]);
+  const axes = variedAt(gridOf(study), place);
+  const given = {
+    study: "point", quantity: study.call.quantity, options: study.call.options, base: Object.fromEntries(unusual),
+    axes: Object.fromEntries(axes.map(([name, one]) => [name, [one]])),
+  };
+  const { disc, start } = Object.fromEntries(axes);
+  if (study.discs[disc]) given.discs = { [disc]: study.discs[disc] };
+  if (study.starts[start]) given.starts = { [start]: study.starts[start] };
+  const stored = `found["${variable.name}"]`;
+  const one = `${stored}${placeWithin(study, place, variable)}.item()`;
+  return {
+    found: `dm.run_study(${python(given)})`,
+    number: variable.flags ? `${stored}.attrs["flag_meanings"].split()[${one}]` : one,
+  };
+}
+
+/** Where a number lies along the quantity's own dimensions, in Python. */
+function placeWithin(study, place, variable) {
+  const own = variable.dims.filter((name) => !gridOf(study).includes(study.dim[name]));
+  return own.length ? `.isel(${own.map((name) => `${name}=${place[name]}`).join(", ")})` : "";
+}
+
+const LEFT_OUT = "not_simulated"; // the outcome of a sample that is not followed
+
+/** What computes the value of a variable at a point, and the expression of the value; null if a point alone does not have it. */
+function computation(study, place, variable) {
+  const { columns, recipes } = study.call;
+  if (!columns.includes(variable.name) || variable.flags?.[value(study, variable, place)] === LEFT_OUT) return null;
+  const { prerun, kick, isStatic } = beginningOf(study, place);
+  const recipe = recipes.find((one) => variable.name in one.numbers && (isStatic || (one.takes_kick && !prerun)));
+  if (!recipe) return studyOf(study, place, variable);
+  const given = ["case", ...recipe.arguments, ...(isStatic ? [] : [`start=${python(kick)}`])];
+  return {
+    found: `${recipe.function}(${given.join(", ")})`,
+    number: recipe.numbers[variable.name] || `found["${variable.name}"]${placeWithin(study, place, variable)}.item()`,
+  };
+}
+
+/** The call in Python for a point: its case, the start of its motion, and what computes the value that is shown. */
+function call(study, place, variable) {
+  const written = caseOf(study, place, variable);
   const start = startOf(study, place);
-  return start ? `case = ${found}\nstart = dm.initial_state(case, ${start})` : found;
+  const known = computation(study, place, variable);
+  if (!start && !known) return written;
+  const lines = [`case = ${written}`];
+  if (start) lines.push(`start = dm.initial_state(case, ${start})`);
+  if (known) lines.push(`found = ${known.found}`);
+  if (known && !gapAt(study, variable, place)) lines.push(known.number);
+  return lines.join("\n");
+}
+
+/** What the call for a point gives, in words. */
+function saidOfPoint(study, place, variable) {
+  const known = computation(study, place, variable);
+  const scanned = scannedAt(study, place, variable);
+  const waiting = Object.keys(study.call.begins).filter((name) => !(name in scanned));
+  const ends = waiting.length > 1 ? "stand where their ranges begin" : "stands where its range begins";
+  const begins = waiting.length ? ` ${waiting.join(" and ")}, which the study varies by itself, ${ends}.` : "";
+  if (!known) return `The case of this point.${study.call.quantity ? " No call of it alone gives the value above." : ""}${begins}`;
+  const alone = known.found.startsWith("dm.run_study") ? "a study of it alone" : "the call";
+  const what = gapAt(study, variable, place) ? "computes it anew" : `gives the value above${variable.unit ? ", in SI units" : ""}`;
+  const all = study.call.computes && !known.found.startsWith("dm.steady") ? ` It computes ${study.call.computes}.` : "";
+  return `The case of this point, and ${alone} that ${what}.${all}${begins}`;
 }
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
 
-const LONGEST_CASE = 300; // characters of a case that is written twice: a disc has many more
+const LONGEST_CASE = 120; // characters of a case that is written twice: a sample or a disc has more
 
 /** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
-function simulation(study, place) {
-  if (Object.keys(study.call.begins).length) return "";
+function simulation(study, place, variable) {
+  const scanned = scannedAt(study, place, variable);
+  if (Object.keys(study.call.begins).some((name) => !(name in scanned))) return "";
   if (startOf(study, place)) return `dm.simulate(case, ${SIMULATED_FOR}, initial_state=start).plot()`;
-  const written = caseOf(study, place);
-  return `dm.simulate(${written.length > LONGEST_CASE ? "case" : written}, ${SIMULATED_FOR}).plot()`;
+  const written = caseOf(study, place, variable);
+  const long = written.length > LONGEST_CASE && call(study, place, variable).startsWith("case = ");
+  return `dm.simulate(${long ? "case" : written}, ${SIMULATED_FOR}).plot()`;
 }
 
 const STORED_DIGITS = 5; // of a number
@@ -150,11 +253,14 @@ function showPoint() {
   const { study, place, variable } = view;
   const own = study.dims.filter((dim) => study.status?.dims.includes(dim.name) || variable.dims.includes(dim.name));
   element("point").textContent = `${where(place, own)}. ${variable.label}: ${shown(study, variable, place)}`;
-  element("call").textContent = call(study, place);
+  element("call-says").textContent = saidOfPoint(study, place, variable);
+  element("call").textContent = call(study, place, variable);
   const message = messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;
-  fillTable("values", study.variables.map((one) => [one, shownWithin(study, one, place)]));
+  const sampled = Object.entries(sampledAt(study, place)).map(([name, one]) => [{ name, title: "value of the sample, SI units" }, number(one)]);
+  const others = study.variables.filter((one) => one.name !== study.call.sampled);
+  fillTable("values", [...others.map((one) => [one, shownWithin(study, one, place)]), ...sampled]);
   fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.shown), one.unit)]));
 }
 

@@ -24,6 +24,12 @@ function update() {
   element("grids").ariaBusy = "false";
 }
 
+/** On a telephone the figures are folded: all of them together are some forty screens high. */
+function foldFigures() {
+  if (matchMedia("(max-width: 900px)").matches && contents.studies.length)
+    for (const group of document.querySelectorAll("#figures details")) group.open = false;
+}
+
 function listen() {
   const map = element("map");
   map.addEventListener("pointermove", (event) => hover(cellAt(map, event)));
@@ -54,16 +60,17 @@ function listen() {
 
 async function start() {
   try {
-    // the largest growth map among the studies that have figures
-    const [first] = [...contents.studies].sort((a, b) => b.has_figures - a.has_figures || mapped(b) - mapped(a));
-    if (!(await follow(location.hash.slice(1)))) await chooseStudy(first.name);
+    if (!(await follow(location.hash.slice(1)))) await chooseStudy(firstStudy().name);
   } catch (error) {
     element("map-title").textContent = `This browser cannot unpack the studies: ${error}`;
     return;
   }
   update();
   listen();
+  listenToSearch();
+  tellOfSearch();
 }
 
+foldFigures();
 if (contents.studies.length) start();
 else element("grids").hidden = true;

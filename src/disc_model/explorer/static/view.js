@@ -1,15 +1,27 @@
 // What is looked at, and the controls that choose it.
 
-const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, warning: "" };
+const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, warning: "", search: "" };
 
 const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
 const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));
 const growth = (variable) => variable.name === "growth_rate";
-/** Points of a study's growth map; 0 if it has none. */
-const mapped = (study) =>
-  long(study).filter((dim) => !dim.words).length > 1 && study.variables.some(growth)
-    ? study.dims.reduce((product, dim) => product * dim.values.length, 1)
-    : 0;
+const outcome = (variable) => variable.name === "outcome";
+/** Points of a study's largest map, over two numbers, of some variables; 0 if it has none. */
+const mapped = (study, ofKind) =>
+  Math.max(0, ...study.variables.filter(ofKind).map((variable) => {
+    const dims = gridOf(study).filter((dim) => variable.dims.includes(dim.name));
+    const numeric = dims.filter((dim) => !dim.words && dim.values.length > 1);
+    return numeric.length > 1 ? dims.reduce((product, dim) => product * dim.values.length, 1) : 0;
+  }));
+
+/** The study on which the page opens: one that has figures, if any has, with the largest map of growth rates or outcomes, or
+ * else of any variable. */
+function firstStudy() {
+  const ranks = (study) => [study.has_figures, mapped(study, (one) => growth(one) || outcome(one)), mapped(study, () => true)];
+  const ranked = contents.studies.map((study) => ({ study, rank: ranks(study) }));
+  const later = (a, b) => b.rank.map((one, i) => one - a.rank[i]).find((apart) => apart) ?? 0;
+  return ranked.sort(later)[0].study;
+}
 const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
@@ -35,8 +47,24 @@ async function chooseStudy(name) {
   );
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
+  if (!hasValues(view.variable)) chooseValued();
   if (marks().some((mark) => mark.key === SIMULATED)) view.mark = SIMULATED;
   view.place = opening();
+}
+
+/** Whether a variable has a value at any point. */
+const hasValues = (variable) => !variable.gaps || variable.gaps.numbers.includes(0);
+
+/** Show another variable than one without any value, along its own dimensions. */
+function chooseValued() {
+  const { study } = view;
+  const valued = study.variables.find((one) => hasValues(one) && !one.name.endsWith("status"));
+  if (!valued) return;
+  const dims = study.dims.filter((dim) => valued.dims.includes(dim.name));
+  const lengthy = dims.filter((dim) => dim.values.length > 1);
+  const [across, up] = usualAxes(lengthy.length ? lengthy : dims);
+  Object.assign(view, { variable: valued, x: across.name, y: up ? up.name : NONE });
+  chooseAxes();
 }
 
 /** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
@@ -104,6 +132,64 @@ function choice(label, options, chosen, act, name = label) {
   return box;
 }
 
+const MANY_STUDIES = 8; // which a reader does not overlook in a list
+
+/** The studies whose name, title or quantity has all words of the search, and the one that is shown. */
+function studiesFound(shown) {
+  const words = view.search.toLowerCase().split(/\s+/).filter(Boolean);
+  const text = (study) => `${study.name} ${study.title} ${study.call.quantity}`.toLowerCase();
+  return contents.studies.filter((study) => study === shown || words.every((word) => text(study).includes(word)));
+}
+
+/** The selector of a study, in groups of one quantity. */
+function studyChoice(shown) {
+  const box = choice("Study", [], "", chooseStudy);
+  listStudies(box.querySelector("select"), shown);
+  return box;
+}
+
+function listStudies(select, shown) {
+  const found = studiesFound(shown);
+  const quantities = [...new Set(found.map((study) => study.call.quantity))];
+  const groups = quantities.map((quantity) => {
+    const group = document.createElement("optgroup");
+    group.label = quantity.replaceAll("_", " ");
+    for (const study of found.filter((one) => one.call.quantity === quantity))
+      group.append(new Option(`${study.name}: ${study.title}`, study.name, false, study === shown));
+    return group;
+  });
+  const grouped = quantities.length > 1 && found.length > MANY_STUDIES;
+  select.replaceChildren(...(grouped ? groups : groups.flatMap((group) => [...group.children])));
+  select.value = shown.name;
+  select.title = select.selectedOptions[0].text;
+}
+
+/** How many studies the search has found, beside its field. */
+function tellOfSearch() {
+  const all = contents.studies.length;
+  element("search").hidden = all <= MANY_STUDIES;
+  const found = view.search.trim() ? `: ${studiesFound(null).length} of ${all}` : "";
+  element("search").querySelector("span").textContent = `Find a study${found}`;
+}
+
+/** The field leaves in the list of studies those with the words that are typed; Enter shows the first. */
+function listenToSearch() {
+  const field = element("search").querySelector("input");
+  field.addEventListener("input", () => {
+    view.search = field.value;
+    listStudies(element("controls").elements.namedItem("Study"), view.study);
+    tellOfSearch();
+    showCutTexts();
+  });
+  field.addEventListener("keydown", async (event) => {
+    const [first] = studiesFound(null);
+    if (event.key !== "Enter" || !first) return;
+    view.warning = "";
+    await chooseStudy(first.name);
+    update();
+  });
+}
+
 /** The name of an axis, without what explains it after a colon. */
 const shortLabel = (dim) => dim.label.split(":")[0];
 
@@ -113,7 +199,7 @@ function fillControls() {
   const axis = (dim) => [dim.name, shortLabel(dim)];
   const named = (one) => [one.name, one.name === one.label ? one.name : `${one.label} (${one.name})`];
   const boxes = [
-    choice("Study", contents.studies.map((one) => [one.name, `${one.name}: ${one.title}`]), study.name, chooseStudy),
+    studyChoice(study),
     choice("Across", axes.map(axis), view.x, (name) => {
       if (name === view.y) view.y = view.x;
       view.x = name;
