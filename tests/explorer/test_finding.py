@@ -58,6 +58,28 @@ def modes() -> xr.Dataset:
     return xr.Dataset(data, coords, {"title": "Modes"})
 
 
+def limits() -> xr.Dataset:
+    """A study of which no figure names axes: critical speeds over the preload, for two horizons, and
+    numbers along its branches."""
+    loads = np.linspace(100, 400, 7)
+    data = {
+        "status": ("N", np.zeros(7, np.int8), flagged("ok failed")),
+        "settled": (["N", "horizon"], np.ones((7, 2), np.int8), flagged("no yes")),
+        "critical_speed": (["N", "horizon"], np.ones((7, 2)), {"long_name": "critical speed"}),
+        "point_range": (["branch_point"], np.ones(20), {"long_name": "range"}),
+    }
+    points = ("branch_point", np.arange(20.0), {"long_name": "number of the point"})
+    coords = {"N": ("N", loads, describe("N")), "horizon": [200.0, 500.0], "branch_point": points}
+    return xr.Dataset(data, coords, {"title": "Limits"})
+
+
+def test_a_study_without_a_figure_opens_on_a_curve_of_numbers_over_its_grid(opened: Open) -> None:
+    """It opened on a map of two rows, the horizons, and on a flag."""
+    with opened([contents_of("limits", limits())]) as shown:
+        seen = shown.page.run("return [view.x, view.y, view.variable.name]")
+    assert seen == ["N", "", "critical_speed"]
+
+
 def test_it_opens_on_the_largest_map_of_growth_rates_or_outcomes(opened: Open) -> None:
     """It opened on two bands of colour, the kinds of modes along the speed."""
     outcomes = plane().drop_vars("growth_rate").isel(Omega=slice(2))

@@ -25,10 +25,17 @@ function firstStudy() {
 const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
-/** Axes of a study of which no figure names them: the speed goes across. */
-function usualAxes(axes) {
-  const across = axes.find((dim) => dim.name === "Omega") ?? axes[0];
-  return [across, axes.find((dim) => dim !== across)];
+const MANY = 8; // values from which on a dimension of the quantity's own is worth the height of a map
+const COUNTS = /^number of/i; // the label of a dimension that only counts something, such as branches
+
+/** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
+ * quantity's own that is no short list and no count: a curve shows more than a map of two rows. */
+function usualAxes(study, axes) {
+  const grid = axes.filter((dim) => gridOf(study).includes(dim));
+  const own = axes.filter((dim) => !grid.includes(dim));
+  const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.label));
+  const across = grid.find((dim) => dim.name === "Omega") ?? grid[0] ?? worth[0] ?? own.at(-1);
+  return [across, [...grid, ...worth].find((dim) => dim !== across)];
 }
 
 async function chooseStudy(name) {
@@ -38,7 +45,7 @@ async function chooseStudy(name) {
   const axes = numeric.length ? numeric : long(study).length ? long(study) : study.dims;
   const figure = study.axes.map((name) => study.dim[name]);
   const ofFigure = figure.length === 2 && figure.every((dim) => axes.includes(dim));
-  const [across, up] = ofFigure ? figure : usualAxes(axes);
+  const [across, up] = ofFigure ? figure : usualAxes(study, axes);
   const kept = view.place;
   Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
   view.variable = study.variables.find((one) => one.name === study.first) ?? null;
@@ -62,7 +69,7 @@ function chooseValued() {
   if (!valued) return;
   const dims = study.dims.filter((dim) => valued.dims.includes(dim.name));
   const lengthy = dims.filter((dim) => dim.values.length > 1);
-  const [across, up] = usualAxes(lengthy.length ? lengthy : dims);
+  const [across, up] = usualAxes(study, lengthy.length ? lengthy : dims);
   Object.assign(view, { variable: valued, x: across.name, y: up ? up.name : NONE });
   chooseAxes();
 }
@@ -84,7 +91,9 @@ function chooseAxes() {
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
   const wanted = (one) => !one.name.endsWith("status");
-  if (!fitting.includes(view.variable)) view.variable = fitting.find(growth) ?? fitting.find(wanted) ?? fitting[0];
+  const ranked = [growth, (one) => one.name.endsWith("outcome"), (one) => wanted(one) && !one.flags, wanted, () => true];
+  const usual = ranked.map((kind) => fitting.find(kind)).find((one) => one);
+  if (!fitting.includes(view.variable)) view.variable = usual;
   if (!chosenDots()) view.mark = NONE;
 }
 
