@@ -263,18 +263,31 @@ def test_maps_have_the_marks_of_figures() -> None:
     assert variables["releases"]["marks"] == []
 
 
-@pytest.mark.parametrize("axes", [("N", "Omega"), ("N", "normalization")])
-def test_marks_are_those_of_each_plane(axes: tuple[str, str]) -> None:
-    """Whichever dimensions a reader chooses as axes."""
+def test_unresolved_cells_are_those_of_each_plane_of_numbers() -> None:
     study = plane()
     study["growth_rate"].values[:, 1, 1] = -1.0
     variables = {one["name"]: one for one in contents_of("plane", study)["variables"]}
-    found = marked(variables["growth_rate"], study["growth_rate"].shape)[UNRESOLVED.label, *axes]
-    cells = xr.DataArray(found, dims=study["growth_rate"].dims)
-    [other] = {*AXES} - {*axes}
-    for i in range(study.sizes[other]):
-        figure = isolated(study.isel({other: i}).transpose(*axes), "growth_rate")
-        np.testing.assert_array_equal(cells.isel({other: i}).transpose(*axes), figure)
+    marks = marked(variables["growth_rate"], study["growth_rate"].shape)
+    cells = xr.DataArray(marks[UNRESOLVED.label, "N", "Omega"], dims=study["growth_rate"].dims)
+    for i in range(study.sizes["normalization"]):
+        chosen = study.isel(normalization=i).transpose("N", "Omega")
+        np.testing.assert_array_equal(
+            cells.isel(normalization=i).transpose("N", "Omega"), isolated(chosen, "growth_rate")
+        )
+    assert (UNRESOLVED.label, "N", "normalization") not in marks, "nothing lies between words"
+
+
+def test_samples_are_no_neighbours_of_each_other() -> None:
+    """The page hatched "unresolved" between random samples: nothing lies between them."""
+    numbered = ("sample", np.arange(3), {"long_name": "number of the sample"})
+    study = plane().isel(normalization=0, drop=True).isel(Omega=slice(3)).rename(Omega="sample")
+    study = study.drop_vars("sample", errors="ignore").assign_coords(sample=numbered)
+    study["growth_rate"].values[:] = 1.0
+    study["growth_rate"].values[1, 1] = -1.0
+    variables = {one["name"]: one for one in contents_of("plane", study)["variables"]}
+    for name in ("growth_rate", "outcome"):
+        words = [mark["look"]["label"] for mark in variables[name]["marks"]]
+        assert UNRESOLVED.label not in words
 
 
 def test_a_line_has_the_mark_of_its_stable_points() -> None:

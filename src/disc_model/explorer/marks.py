@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.cells import MARKED, unresolved_motions
+from disc_model.figures.cells import MARKED, are_ordered, unresolved_motions
 from disc_model.figures.classes import UNRESOLVED, Look
 from disc_model.figures.colours import is_growth
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, marks_of
@@ -77,6 +77,8 @@ def _marks_on(plane: xr.Dataset, name: str) -> Mapping[str, Mask]:
     variable = plane[name]
     if is_growth(name):
         return marks_of(plane, name)
+    if not are_ordered(variable):
+        return {}
     status = plane["status_words"]
     words = variable
     if {*status.dims} <= {*variable.dims}:

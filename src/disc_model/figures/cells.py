@@ -88,6 +88,18 @@ def decades_between(values: Array) -> list[float]:
 # ---- Painting
 
 
+def are_ordered(values: xr.DataArray) -> bool:
+    """Whether cells beside each other on a map have neighbouring values along both dimensions:
+    numbers that do not merely count samples, events or modes."""
+    return all(map(_is_ordered, (values.coords.get(dim) for dim in values.dims)))
+
+
+def _is_ordered(values: xr.DataArray | None) -> bool:
+    if values is None or values.dtype.kind not in "fiu":
+        return False
+    return not str(values.attrs.get("long_name", "")).startswith("number of the ")
+
+
 def unresolved(words: Words) -> Mask:
     """Cells between two that have one other word: single ones, and strips that are one cell
     wide."""
@@ -159,7 +171,7 @@ def class_cells(ax: Axes, plane: xr.DataArray, looks: Mapping[str, Look]) -> set
     colours = paint(ax, edges, words, looks)
     used = set(words.flat)
     single = unresolved_motions(words)
-    if single.any():
+    if are_ordered(plane) and single.any():
         lay_over(ax, edges, single, UNRESOLVED, colours)
         used.add(UNRESOLVED.label)
     return used

@@ -9,7 +9,7 @@ from cmcrameri import cm
 from matplotlib.colors import to_hex
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.cells import edges_of, entries, lay_over, paint, unresolved
+from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
 from disc_model.figures.selection import class_of_gap, has_values, statuses_like
@@ -70,11 +70,10 @@ def marks_of(plane: xr.Dataset, name: str = "growth_rate") -> dict[str, Mask]:
     """Cells of a map of growth rates that have each mark, a key of `MAP_LOOKS`; neutral ones are
     named, and keep the colour of their rate."""
     rates = plane[name].values
-    return {
-        NEGATIVE: rates < -ROUNDING,
-        NEUTRAL: np.abs(rates) <= ROUNDING,
-        UNRESOLVED.label: isolated(plane, name),
-    }
+    marks = {NEGATIVE: rates < -ROUNDING, NEUTRAL: np.abs(rates) <= ROUNDING}
+    if are_ordered(plane[name]):
+        marks[UNRESOLVED.label] = isolated(plane, name)
+    return marks
 
 
 def stability_of(plane: xr.Dataset) -> Words:
