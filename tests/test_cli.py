@@ -1,11 +1,14 @@
 """The command line: options, summary, plot."""
 
+import inspect
+import logging
 import os
 import re
 import sys
 from pathlib import Path
 
 import pytest
+import snakemake.workflow
 
 import disc_model
 from disc_model import Parameters, cli, simulate
@@ -392,3 +395,13 @@ def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> No
     notebook = {"MPLBACKEND": "module://no_such_module.backend"}
     run(sys.executable, "-m", "disc_model", *SHORT, "--plot", picture, **notebook)
     assert picture.read_bytes().startswith(b"\x89PNG")
+
+
+def test_the_advice_to_look_at_times_of_files_alone_is_not_passed_on() -> None:
+    """`disc-model study -n` ended with advice of Snakemake by which stale results would stay."""
+    said = inspect.getsource(snakemake.workflow.Workflow.log_provenance_info)
+    advice = "use the command line option '--rerun-triggers mtime' (also see --help)."
+    assert "--rerun-triggers mtime" in said, "Snakemake has other words now"
+    for text, kept in ((advice, False), ("Job stats:", True)):
+        record = logging.LogRecord("snakemake.logging", logging.INFO, "", 0, text, (), None)
+        assert cli._is_no_advice(record) == kept

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import functools
 import inspect
+import logging
 import math
 import os
 import shlex
@@ -437,6 +438,7 @@ def study(
     import snakemake.cli  # type: ignore[import-untyped]
 
     snakemake.cli.print = _print_without_profile
+    logging.getLogger("snakemake.logging").addFilter(_is_no_advice)
     try:
         snakemake.cli.main(options)  # ends with an exit code
     except SystemExit as ended:
@@ -459,6 +461,12 @@ def _print_without_profile(*texts: Any, **options: Any) -> None:
     said = " ".join(map(str, texts))
     if not said.startswith("Using workflow specific profile "):
         print(said, **options)
+
+
+def _is_no_advice(record: logging.LogRecord) -> bool:
+    """Whether Snakemake logs anything but the advice to look at times of files alone, by which
+    results would stay that a change has made out of date."""
+    return "--rerun-triggers mtime" not in str(record.msg)
 
 
 def _show_options(grid: GridStudy) -> None:

@@ -223,6 +223,25 @@ def test_points_without_a_number_have_the_class_that_figures_show() -> None:
     assert numbers(unknown, "u1").tolist() == [0, 0, 1]
 
 
+def test_a_sample_that_was_not_simulated_has_no_time_for_this_reason() -> None:
+    """It was said to be "none within 500 s, or not timed", and separates at 90 s."""
+    study = plane().isel(normalization=0, drop=True)
+    shape = study["growth_rate"].shape
+    outcomes = np.ones(shape, np.int8)
+    outcomes[0, 0] = 0
+    study["outcome"] = (study["growth_rate"].dims, outcomes, flagged("not_simulated quiet"))
+    study["first_separation"] = (study["growth_rate"].dims, np.full(shape, np.nan), {"units": "s"})
+    study["status"] = study["outcome"].copy(data=np.zeros(shape, np.int8))
+    study["status"].attrs = flagged("ok failed")
+    study.attrs["options"] = '{"horizon": 500, "extrapolate": true}'
+    variables = {one["name"]: one for one in contents_of("samples", study)["variables"]}
+    gaps = variables["first_separation"]["gaps"]
+    assert [look["label"] for look in gaps["looks"]] == [
+        "none within 500 s, or not timed",
+        "not simulated",
+    ]
+
+
 def test_a_motion_that_did_not_separate_is_called_as_in_figures() -> None:
     study = plane()
     rates = study["growth_rate"]

@@ -10,7 +10,7 @@ from disc_model.data import dataset
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import name_of
 from disc_model.figures.kinds.base import NORM
-from disc_model.figures.types import Array, Words
+from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.words import NO_VALUE, named_value, rank_of, value_text
 
 WITHOUT_CYCLE = (
@@ -24,6 +24,8 @@ WITHOUT_CYCLE = (
 """Statuses of points that were computed, and have no stick-slip cycle."""
 ROUNDING = 1e-9
 """Relative difference of equal speeds in files."""
+NOT_SIMULATED = "not_simulated"
+"""Outcome of a sample whose motion was not simulated."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -195,7 +197,17 @@ def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
     status = statuses_like(study, array)
     gone = ~np.isfinite(array.values.astype(float)) | (status == EXCLUDED)
     classes = np.vectorize(class_of_gap, otypes=[str])(status)
+    classes = np.where(_not_simulated(study, array), NOT_SIMULATED, classes)
     return np.where(gone, classes, "")
+
+
+def _not_simulated(study: xr.Dataset, array: xr.DataArray) -> Mask:
+    """Samples whose motion was not simulated."""
+    outcome = study.get("outcome")
+    words = () if outcome is None else outcome.attrs.get("flag_meanings", "").split()
+    if outcome is None or NOT_SIMULATED not in words or {*outcome.dims} != {*array.dims}:
+        return np.zeros(array.shape, dtype=bool)
+    return flag_names(outcome.transpose(*array.dims)) == NOT_SIMULATED
 
 
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:

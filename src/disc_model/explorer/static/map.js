@@ -139,7 +139,7 @@ function markChosen(ink) {
     const near = nearestMotion();
     if (near && isInMap(near)) {
       ink.beginPath();
-      ink.arc(horizontal(xs.middles[near.places[x]]), vertical(ys.middles[near.places[y]]), 6, 0, 2 * Math.PI);
+      ink.arc(horizontal(xs.at[near.places[x]]), vertical(ys.at[near.places[y]]), 6, 0, 2 * Math.PI);
       ink.stroke();
     }
   }

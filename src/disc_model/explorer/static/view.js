@@ -10,7 +10,7 @@ const outcome = (variable) => variable.name === "outcome";
 const mapped = (study, ofKind) =>
   Math.max(0, ...study.variables.filter(ofKind).map((variable) => {
     const dims = gridOf(study).filter((dim) => variable.dims.includes(dim.name));
-    const numeric = dims.filter((dim) => !dim.words && dim.values.length > 1);
+    const numeric = dims.filter((dim) => !dim.words && !COUNTS.test(dim.label) && dim.values.length > 1);
     return numeric.length > 1 ? dims.reduce((product, dim) => product * dim.values.length, 1) : 0;
   }));
 
@@ -26,7 +26,7 @@ const selectors = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
 
 const MANY = 8; // values from which on a dimension of the quantity's own is worth the height of a map
-const COUNTS = /^number of/i; // the label of a dimension that only counts something, such as branches
+const COUNTS = /^number of the /i; // the label of a dimension that only counts something, such as branches
 
 /** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
  * quantity's own that is no short list and no count: a curve shows more than a map of two rows. */
