@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+import snakemake.cli
 import snakemake.workflow
 
 import disc_model

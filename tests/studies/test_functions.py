@@ -259,16 +259,34 @@ def test_a_sweep_says_why_it_has_no_onset_or_end(
     rates: list[list[float]], onset: float, end: float, message: str
 ) -> None:
     """The lower bound was returned as the end, and nothing was said."""
+    sweep = swept(rates, onset, end)
+    sweep["sweep_settled"] = sweep["separation_rate"].astype(str).copy(data=[["settled"] * 3] * 2)
+    said = functions._with_reasons(sweep).attrs["message"]
+    assert message in said
+    assert bool(said) == bool(message)
+
+
+def swept(rates: list[list[float]], onset: float, end: float) -> xr.Dataset:
     data = {
         "separation_rate": (("direction", "sweep_Omega"), np.array(rates)),
         "onset_speed": ((), onset),
         "offset_speed": ((), end),
     }
     coords = {"direction": ["up", "down"], "sweep_Omega": [12.0, 14.0, 16.0]}
-    sweep = functions._with_reasons(xr.Dataset(data, coords, {"message": ""}))
-    said = sweep.attrs["message"]
-    assert message in said
-    assert bool(said) == bool(message)
+    return xr.Dataset(data, coords, {"message": ""})
+
+
+def test_a_sweep_says_where_contact_may_yet_be_lost() -> None:
+    """An onset at 13 rad/s rested on a stay at 12 rad/s that was undecided, and nothing said so: a
+    longer one separates."""
+    sweep = swept([[0, 0, 9], [0, 9, 9]], 16.0, 14.0)
+    settled = [["settled", "undecided", "changing"], ["settled", "settled", "settled"]]
+    sweep["sweep_settled"] = (("direction", "sweep_Omega"), settled)
+    said = functions._with_reasons(sweep).attrs["message"]
+    assert said == (
+        "at 14 rad/s on the way up the motion in contact has not settled and may yet separate: "
+        "raise max_dwell"
+    )
 
 
 SCANNING = pytest.mark.parametrize("function", [dm.critical_speed, dm.hysteresis])

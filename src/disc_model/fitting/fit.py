@@ -63,6 +63,11 @@ effects are those of others."""
 LOOSE = 0.1
 """Standard deviation of a parameter over its size from which such a parameter counts as not
 determined."""
+UNLIKELY = 0.05
+"""Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
+ALL_BUT_IMPOSSIBLE = 1e-3
+"""and below which something is wrong."""
+WRONG = "model or uncertainties"
 
 
 @dataclass(frozen=True)
@@ -234,23 +239,33 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, ends in self.unpredicted.items():
             reasons += [_ends_within(name, end) for end in ends]
         if self.converged and self._misses:
-            reasons.append(f"model or uncertainties are wrong, {self._misfit}")
+            reasons.append(self._misfit)
         return "; ".join(reasons)
 
     @property
     def _misses(self) -> bool:
         """Whether chi squared is larger than in 95 % of fits of the right model."""
+        return self._chance < UNLIKELY
+
+    @property
+    def _chance(self) -> float:
+        """Share of fits of the right model whose chi squared is at least as large."""
         from scipy import stats
 
-        return bool(self.chi_squared > stats.chi2.ppf(0.95, max(self.freedom, 1)))
+        return float(stats.chi2.sf(self.chi_squared, max(self.freedom, 1)))
 
     @property
     def _misfit(self) -> str:
         """How large chi squared is, in words."""
         if self.freedom == 0:
-            return f"chi squared is {self.chi_squared:.3g} and should be 0"
+            return f"{WRONG} are wrong, chi squared is {self.chi_squared:.3g} and should be 0"
         reduced = self.chi_squared / self.freedom
-        return f"chi squared is {reduced:.3g} times its degrees of freedom"
+        size = f"chi squared is {reduced:.3g} times its degrees of freedom"
+        if self._chance < ALL_BUT_IMPOSSIBLE:
+            return f"{WRONG} are wrong, {size}"
+        return (
+            f"{WRONG} may be wrong, {size}: {100 * self._chance:.2g} % of right ones have as much"
+        )
 
     @property
     def correlation(self) -> Array:

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.analysis.classify import Settled
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
@@ -383,16 +384,16 @@ def hysteresis(
 
 
 def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
-    """A sweep of the speed whose message says why it has no onset or no end of separation, unless it
-    says what went wrong."""
+    """A sweep of the speed whose message says why it has no onset or no end of separation, and where
+    contact may yet be lost, unless it says what went wrong."""
     if sweep.attrs["message"]:
         return sweep
     values = sweep["sweep_Omega"].values
     lowest = f"{values[0]:g} rad/s"
     highest = f"{values[-1]:g} rad/s"
     if not (sweep["separation_rate"] > 0).any():
-        message = f"contact is kept at all {values.size} speeds from {values[0]:g} to {highest}"
-        return sweep.assign_attrs(message=message)
+        reason = f"contact is kept at all {values.size} speeds from {values[0]:g} to {highest}"
+        return sweep.assign_attrs(message="; ".join([reason, *_doubts_of_contact(sweep)]))
 
     speeds = swept_speeds(sweep)
     reasons = []
@@ -406,4 +407,22 @@ def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
         reasons.append(f"contact is kept at {highest}, where the way down begins")
     if speeds.onset_at_bound or speeds.end_at_bound:
         reasons.append("bounds further down may show where it is kept")
+    reasons += _doubts_of_contact(sweep)
     return sweep.assign_attrs(message="; ".join(reasons))
+
+
+def _doubts_of_contact(sweep: xr.Dataset) -> list[str]:
+    """Where a motion in contact had not settled when its stay ended, in words."""
+    settled = flag_names(sweep["sweep_settled"]) == Settled.SETTLED
+    doubtful = (sweep["separation_rate"] == 0) & ~settled
+    doubts = []
+    for direction in ("up", "down"):
+        speeds = sweep["sweep_Omega"].values[doubtful.sel(direction=direction).values]
+        if speeds.size:
+            at = ", ".join(f"{speed:g}" for speed in speeds[:3])
+            more = f" and {speeds.size - 3} more" if speeds.size > 3 else ""
+            doubts.append(f"at {at}{more} rad/s on the way {direction}")
+    if not doubts:
+        return []
+    where = " and ".join(doubts)
+    return [f"{where} the motion in contact has not settled and may yet separate: raise max_dwell"]
