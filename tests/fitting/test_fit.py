@@ -1,5 +1,6 @@
 """Parameters found from synthetic measurements, and what wrong input is told."""
 
+import dataclasses
 import math
 import re
 from collections.abc import Callable, Sequence
@@ -201,6 +202,13 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert said["intervals"] == f"none: {fit.doubt}"
     assert " to " not in said["E"]
     assert "±" not in repr(fit)
+    # a chi squared that one of 25 fits of the right model exceeds is no proof
+    unlucky = dataclasses.replace(fit, chi_squared=4.2)
+    assert not unlucky.consistent
+    assert unlucky.doubt == (
+        "model or uncertainties may be wrong, chi squared is 4.2 times its degrees of freedom: "
+        "4 % of right ones have as much"
+    )
 
 
 def test_a_search_that_has_not_converged_has_no_intervals() -> None:
