@@ -227,29 +227,54 @@ class CycleProblem:
         return Evaluation(residual, by, orbit, jacobian)
 
     def _difference(self, z: Array, here: Array, i: int, releases: int | None) -> Array:
-        """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of two
+        """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of
         orbits."""
         change = DIFFERENCE / stretch_of(self.base, self.names[i])
         for _ in range(MOST_SHORTER):
             try:
-                ahead, behind = self._beside(z, i, change, releases)
+                rise, bend = self._changes(z, here, i, change, releases)
             except Rejected:  # which a shorter change may pass
                 pass
             else:
-                bend = (ahead + behind) / 2 - here
-                if np.linalg.norm(bend) <= CURVED * np.linalg.norm(ahead - behind):
+                if np.linalg.norm(bend) <= CURVED * np.linalg.norm(rise):
                     break
             change *= SHORTER
         else:
-            ahead, behind = self._beside(z, i, change, releases)
-        return np.asarray((ahead - behind) / (2 * change), dtype=float)
+            rise, _ = self._changes(z, here, i, change, releases)
+        return np.asarray(rise / (2 * change), dtype=float)
 
-    def _beside(self, z: Array, i: int, change: float, releases: int | None) -> tuple[Array, Array]:
-        """F beside z, ahead and behind by a change of the i-th scaled parameter."""
+    def _changes(
+        self, z: Array, here: Array, i: int, change: float, releases: int | None
+    ) -> tuple[Array, Array]:
+        """The rise of F over two changes of the i-th scaled parameter, to second order, and its bend:
+        on both sides of z, or on one at a limit of the parameter, such as 0."""
         move = np.zeros(len(z))
         move[self.n + i] = change
         # x stays the same point of the reference's coordinates
-        return self.residual(z + move, releases), self.residual(z - move, releases)
+        if self._is_case(z - move) == self._is_case(z + move):
+            ahead = self.residual(z + move, releases)
+            behind = self.residual(z - move, releases)
+            return ahead - behind, (ahead + behind) / 2 - here
+        if self._is_case(z - move):
+            rise, bend = self._changes_aside(z, here, -move, releases)
+            return -rise, bend
+        return self._changes_aside(z, here, move, releases)
+
+    def _changes_aside(
+        self, z: Array, here: Array, move: Array, releases: int | None
+    ) -> tuple[Array, Array]:
+        """The rise of F over two moves, from differences on one side, and its bend."""
+        near = self.residual(z + move, releases)
+        far = self.residual(z + 2 * move, releases)
+        return 4 * near - 3 * here - far, far / 2 + here / 2 - near
+
+    def _is_case(self, z: Array) -> bool:
+        """Whether the parameters of z are those of a case."""
+        try:
+            self.case(z)
+        except ParameterError:
+            return False
+        return True
 
     def place(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
