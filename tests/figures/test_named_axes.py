@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.sweep_lines import common_words
 from tests.figures.test_wishes import CASE, DRAWN, branch, legend_texts, run
 
@@ -163,8 +164,90 @@ def test_rows_of_missing_values_of_several_variables_stand_apart() -> None:
     study = speeds()
     study["begin"] = study["begin"].where(study["N"] > 300)
     ax = dm.plot_sweep(study, ["begin", "end"])
-    rows = [line.get_ydata()[0] for line in ax.lines if line.get_marker() == "x"]
-    assert len(set(rows)) == 2
+    ax.figure.draw_without_rendering()
+    rows = [row.get_window_extent() for row in rows_of(ax)]
+    assert len(rows) == 2
+    assert rows[0].y1 < rows[1].y0
+
+
+def rows_of(ax: Any) -> list[Any]:
+    """Marks above a panel."""
+    return [row for each in rows_above(ax) for row in each.rows]
+
+
+@pytest.mark.parametrize("empty", ["begin", "end"])
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_variable_without_values_leaves_another_its_numbers_and_its_legend(
+    empty: str, layout: Any
+) -> None:
+    """The common axis had no numbers, and the legend was off the page."""
+    study = speeds()
+    study["end"][:] = 12.0
+    study[empty] = study[empty].where(False)
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    dm.plot_sweep(study, ["begin", "end"], ax=ax)
+    figure.draw_without_rendering()
+    assert [text.get_text() for text in ax.get_yticklabels()]
+    box = ax.get_legend().get_window_extent()
+    assert figure.bbox.count_contains(box.corners()) == 4
+
+
+def test_panels_that_share_an_axis_have_numbers_beside_one_without_values() -> None:
+    study = speeds()
+    study["end"] = study["end"].where(False)
+    for order in (["begin", "end"], ["end", "begin"]):
+        _, axes = pyplot.subplots(1, 2, sharey=True, layout="constrained")
+        for ax, name in zip(axes, order, strict=True):
+            dm.plot_sweep(study, name, ax=ax, labels={"y": "Speed (rad/s)"})
+        assert axes[0].get_yticks().size
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_what_has_no_value_is_said_once_above_the_marks_of_all_lines(layout: Any) -> None:
+    """Three notes lay on each other and on the label, and all marks were alike."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    for number in range(3):
+        study = speeds().assign_attrs(base=f'{{"Omega": {number}}}')
+        study["begin"] = study["begin"].where(study["N"] != 300)
+        dm.plot_sweep(study, "begin", ax=ax)
+    figure.draw_without_rendering()
+    [note] = [text for text in ax.texts if text.get_text() == "no value"]
+    words = note.get_window_extent()
+    boxes = [row.get_window_extent() for row in rows_of(ax)]
+    assert len(boxes) == 3
+    assert words.count_overlaps([*boxes, ax.bbox, ax.yaxis.label.get_window_extent()]) == 0
+    assert len({row.get_marker() for row in rows_of(ax)}) == 3
+    lines = [line for line in ax.lines if line.get_label()[0] != "_"]
+    assert [row.get_marker() for row in rows_of(ax)] == [line.get_marker() for line in lines]
+    assert [row.get_color() for row in rows_of(ax)] == [line.get_color() for line in lines]
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_long_reason_leaves_panels_their_width(layout: Any) -> None:
+    """Panels were 7 mm wide beside it."""
+    study = speeds()
+    attrs = {**SPEED, "long_name": "speed, nan if at none or at the lowest"}
+    study["end"] = study["end"].where(study["N"] > 300).assign_attrs(attrs)
+    figure, axes = pyplot.subplots(2, 2, figsize=(3.31, 4), layout=layout)
+    axes[0, 0].set_title("A title")
+    for ax in axes.flat:
+        dm.plot_sweep(study, "end", ax=ax)
+    figure.draw_without_rendering()
+    for ax in axes.flat:
+        [note] = [text for text in ax.texts if "at no speed" in text.get_text()]
+        assert note.get_window_extent().width <= ax.bbox.width + 1
+        assert ax.bbox.width > 0.25 * figure.bbox.width
+    [title] = [text for text in axes[0, 0].get_children() if text is axes[0, 0].title]
+    [note] = axes[0, 0].texts
+    assert title.get_window_extent().y0 > note.get_window_extent().y1
+
+
+@pytest.mark.parametrize("values", [[0, 0, 0], [0.0, np.nan, 0.0]])
+def test_counts_that_are_all_zero_have_whole_numbers(values: list[float]) -> None:
+    steps = ("N", values, {"long_name": "number of steps"})
+    ax = dm.plot_sweep(xr.Dataset({"steps": steps}, {"N": [300.0, 350.0, 400.0]}), "steps")
+    ticks = ax.get_yticks()
+    assert ticks == pytest.approx(np.round(ticks))
 
 
 def test_variables_that_are_drawn_together_are_lines_over_one_dimension() -> None:

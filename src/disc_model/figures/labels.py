@@ -8,11 +8,12 @@ from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from matplotlib.text import Annotation, Text
+from matplotlib.text import Text
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
 
 from disc_model.data.variables import SHOWN, typeset
 from disc_model.figures.drawing import DECADES
+from disc_model.figures.gap_rows import rows_above, stack_rows
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import UNITS
 
@@ -59,6 +60,8 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
         each.text.set_text(said)
         _break(each.text, each.direction, _room(figure, each))
         _BROKEN[each.text] = Broken(said, each.text.get_text())
+    for ax in {each.ax: None for each in found}:
+        stack_rows(ax)
 
 
 def words_of(text: Text) -> str:
@@ -86,17 +89,13 @@ def _texts_of(ax: Axes) -> Iterator[Breakable]:
     for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
         if label.get_text().strip():
             beyond = BEYOND
-            if direction == "height" and (_named_above(ax) or ax.get_label() == COLOUR_BAR):
+            if direction == "height" and ax.get_label() == COLOUR_BAR:
                 beyond = 1.0
             yield Breakable(label, ax, direction, beyond)
     for title in titles_of(ax):
         yield Breakable(title, ax, "width", 1.0)
-
-
-def _named_above(ax: Axes) -> bool:
-    """Whether rows above the axes have names on the left, which a longer label would meet."""
-    notes = [text for text in ax.texts if isinstance(text, Annotation)]
-    return any(text.xycoords == "axes fraction" and text.xy[0] == 0 for text in notes)
+    for rows in rows_above(ax):
+        yield Breakable(rows.words, ax, "width", 1.0)
 
 
 def titles_of(ax: Axes) -> list[Text]:

@@ -13,7 +13,7 @@ from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
-from disc_model.figures.curve import ABOVE, MARKS, draw_lines
+from disc_model.figures.curve import MARKS, draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
@@ -292,11 +292,9 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
         marks,
         joined=drawn.joined,
         single=next_look(page.ax),
-        top=max((each.top for each in others), default=ABOVE),
     )
     page.ax.set_ylabel(quantities.y)
-    lines.parts = [(part, ref(line)) for part, line in found.lines]
-    lines.top = found.top
+    lines.parts = [(part, ref(line)) for part, line in found]
     join_lines(page, lines)
 
 

@@ -33,7 +33,6 @@ class Lines:
     phrase : name of the variable
     shown : what tells the lines from others
     parts : name along a second dimension, "" without one, of each line, and the line
-    top : height above the panel up to which its missing values stand, as a share of it
     """
 
     across: str
@@ -41,7 +40,6 @@ class Lines:
     phrase: str
     shown: Shown
     parts: Sequence[tuple[str, ref[Any]]] = ()
-    top: float = 0.0
 
 
 _LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
