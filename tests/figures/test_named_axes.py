@@ -148,6 +148,39 @@ def test_sweeps_of_several_cases_are_named_by_what_differs() -> None:
     assert ax.get_ylabel() == "Speed at which it begins (rad/s)"
 
 
+def test_a_ratio_is_no_difference_to_the_value_that_it_gives() -> None:
+    """One was named by mu_k = 0.24, the other by mu_k/mu_s = 0.6."""
+    ax = dm.plot_sweep(speeds().assign_attrs(base='{"N": 385, "mu_s": 0.4, "mu_k": 0.24}'), "begin")
+    ratio = '{"N": 200, "mu_s": 0.4, "mu_k_over_mu_s": 0.6}'
+    dm.plot_sweep(
+        speeds().assign_attrs(base=ratio).rename(N="k"), "begin", ax=ax, labels={"x": "N"}
+    )
+    assert "0.6" not in "".join(legend_texts(ax))
+    same = dm.plot_sweep(speeds().assign_attrs(base=ratio), "begin")
+    dm.plot_sweep(speeds().assign_attrs(base=ratio.replace("0.6", "0.5")), "begin", ax=same)
+    assert [text[-5:] for text in legend_texts(same)] == ["= 0.6", "= 0.5"]
+
+
+def test_a_single_horizon_has_its_unit() -> None:
+    ax = dm.plot_sweep(speeds(), "begin")
+    within = speeds().assign_coords(horizon=((), 60.0, {"units": "s"}))
+    dm.plot_sweep(within, "end", ax=ax)
+    assert legend_texts(ax)[1].endswith("horizon = 60 s")
+
+
+def test_what_several_variables_say_alike_is_said_by_the_axis() -> None:
+    """ "up, Least force at the end of the stay", beside another of the same length."""
+    axes = {"direction": ["up", "down"], "Omega": [1.0, 2.0]}
+    data = {}
+    for name in ("least", "greatest"):
+        attrs = {"units": "N", "long_name": f"{name} force at the end of the stay"}
+        data[name] = ([*axes], np.eye(2), attrs)
+    ax = dm.plot_sweep(xr.Dataset(data, axes, {"base": "{}"}), [*data])
+    ends = ["least force", "greatest force"]
+    assert legend_texts(ax) == [f"{way}, {end}" for end in ends for way in ("up", "down")]
+    assert ax.get_ylabel().replace("\n", " ") == "Force at the end of the stay (N)"
+
+
 def test_lines_of_several_sweeps_keep_the_names_of_their_values() -> None:
     """Directions of two cases."""
     attrs = {"units": "mm", "long_name": "reach"}
