@@ -225,6 +225,26 @@ def test_a_variable_without_values_leaves_another_its_numbers_and_its_legend(
     assert figure.bbox.count_contains(box.corners()) == 4
 
 
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_legend_as_wide_as_the_page_stays_on_it(layout: Any) -> None:
+    """It was cut at the right, where the layout moved the panel once more."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    up = "speed at which separation first is found on the way up"
+    down = "lowest speed to which it persists without a gap on the way down"
+    sweep = {
+        "onset_speed": ("N", [13.0, 14.0, 16.0], {**SPEED, "long_name": up}),
+        "offset_speed": ("N", [np.nan] * 3, {**SPEED, "long_name": f"{down}, nan if it was not"}),
+    }
+    dm.plot_sweep(xr.Dataset(sweep, {"N": [300.0, 340.0, 385.0]}), [*sweep], ax=ax)
+    lowest = {**SPEED, "long_name": "lowest speed with separation, nan if there is none"}
+    scan = {"critical_speed": ("N", [np.nan, 15.5, 19.5, np.nan], lowest)}
+    loads = {"N": [300.0, 385.0, 500.0, 600.0], "horizon": ((), 60.0, {"units": "s"})}
+    dm.plot_sweep(xr.Dataset(scan, loads), "critical_speed", ax=ax)
+    figure.draw_without_rendering()
+    box = ax.get_legend().get_window_extent()
+    assert figure.bbox.count_contains(box.corners()) == 4
+
+
 def test_panels_that_share_an_axis_have_numbers_beside_one_without_values() -> None:
     study = speeds()
     study["end"] = study["end"].where(False)
