@@ -303,6 +303,41 @@ def test_counts_that_are_all_zero_have_whole_numbers(values: list[float]) -> Non
     assert ticks == pytest.approx(np.round(ticks))
 
 
+def test_symbols_on_axes_of_a_reader_are_upright_beside_labels_of_the_reader() -> None:
+    """The index of k_p was slanted beside an upright Omega."""
+    _, axes = pyplot.subplots(1, 2)
+    axes[0].set_ylabel("reach of $k_p$ (rad/s)")
+    for ax in axes:
+        for friction in (0.2, 0.3):
+            study = speeds().rename(N="k_p").assign_attrs(base=f'{{"mu_k": {friction}}}')
+            dm.plot_sweep(study, "begin", ax=ax)
+    for ax in axes:
+        assert r"$\mathrm{k_p}$" in ax.get_xlabel()
+        assert all("mathrm" in text for text in legend_texts(ax))
+    assert axes[0].get_ylabel() == "reach of $k_p$ (rad/s)"
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_numbers_of_a_short_bar_do_not_meet(log: bool) -> None:
+    """0.01, 0 and -0.01 lay on each other, and 28 on 29."""
+    axes = {"N": [300.0, 350.0], "Omega": [14.0, 15.0]}
+    rates = {"growth_rate": ([*axes], [[-0.2, 0.1], [0.2, 0.3]], {"units": "s-1"})}
+    reach = {"reach": ([*axes], [[21.0, 24.0], [27.0, 29.9]], {"units": "mm"})}
+    figure, panels = pyplot.subplots(2, 2, figsize=(5.9, 3.4))
+    for ax in panels.flat:
+        dm.plot_sweep(xr.Dataset(reach if log else rates, axes), log=log, ax=ax)
+    figure.draw_without_rendering()
+    for bar in figure.axes[4:]:
+        labels = [*bar.get_yticklabels(), *bar.get_yticklabels(minor=True)]
+        low, high = bar.get_ylim()
+        shown = [
+            text for text in labels if text.get_text() and low <= text.get_position()[1] <= high
+        ]
+        boxes = [text.get_window_extent() for text in shown]
+        assert len(boxes) > 1
+        assert all(box.count_overlaps(boxes) == 1 for box in boxes)
+
+
 def test_variables_that_are_drawn_together_are_lines_over_one_dimension() -> None:
     study = dm.sweep(dm.floquet, CASE, Omega=[10.0, 12.0], N=[300.0, 385.0])
     with pytest.raises(dm.ParameterError, match="must be lines over the same dimension"):
