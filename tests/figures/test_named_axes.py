@@ -295,6 +295,20 @@ def test_a_long_reason_leaves_panels_their_width(layout: Any) -> None:
     assert title.get_window_extent().y0 > note.get_window_extent().y1
 
 
+def test_titles_beside_each_other_are_level_above_marks_set_apart_from_values() -> None:
+    with pyplot.rc_context({"axes.spines.top": False}):
+        figure, axes = pyplot.subplots(1, 2, sharey=True, layout="constrained")
+    for ax, name in zip(axes, ("begin", "end"), strict=True):
+        ax.set_title(f"Speed ({name})")
+        dm.plot_sweep(speeds(), name, ax=ax, labels={"y": "Speed (rad/s)"})
+    figure.draw_without_rendering()
+    low, high = (ax.title.get_window_extent() for ax in axes)
+    assert low.y0 == pytest.approx(high.y0)
+    [rows] = rows_above(axes[1])
+    assert high.y0 > rows.words.get_window_extent().y1
+    assert [ax.spines["top"].get_visible() for ax in axes] == [False, True]
+
+
 @pytest.mark.parametrize("values", [[0, 0, 0], [0.0, np.nan, 0.0]])
 def test_counts_that_are_all_zero_have_whole_numbers(values: list[float]) -> None:
     steps = ("N", values, {"long_name": "number of steps"})

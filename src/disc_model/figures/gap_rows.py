@@ -5,10 +5,11 @@ from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
 
+import numpy as np
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation, blended_transform_factory
 
-from disc_model.figures.drawing import large, mark
+from disc_model.figures.drawing import GREY, large, mark, wide
 from disc_model.figures.types import Array, Axes
 
 FIRST = 4.0  # points, height of the first row above its panel,
@@ -29,6 +30,8 @@ class Rows:
 
 _ROWS: WeakKeyDictionary[Axes, dict[str, Rows]] = WeakKeyDictionary()
 """The rows above panels, by their reasons, in their order."""
+_HEIGHTS: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
+"""The heights of titles above panels with such rows, points."""
 
 
 def rows_above(ax: Axes) -> list[Rows]:
@@ -45,6 +48,8 @@ def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
     if reason not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         reasons[reason] = Rows(words)
+    if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
+        ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
     [row] = ax.plot(
         across, [1.0] * len(across), transform=transform, clip_on=False, linestyle="", **look
@@ -55,10 +60,10 @@ def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
 
 def stack_rows(ax: Axes) -> None:
     """Set the rows above a panel, and the words of their reasons in as many lines as they have now,
-    on each other; titles stand above them."""
+    on each other; titles stand above them, also those of panels beside it on the same axis."""
     page: Any = ax.get_figure(root=True)
-    found = rows_above(ax)
     height = mark(FIRST)
+    found = rows_above(ax)
     for each in found:
         for row in each.rows:
             up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
@@ -69,8 +74,19 @@ def stack_rows(ax: Axes) -> None:
         each.words.set_transform(up)
         lines = each.words.get_text().count("\n") + 1
         height += lines * LINE * large(TEXT) + mark(FIRST)
-    if found:
-        _lift_titles(ax, height - mark(FIRST) + TITLE)
+    if not found:
+        return
+    _HEIGHTS[ax] = height - mark(FIRST) + TITLE
+    beside = [each for each in ax.get_shared_y_axes().get_siblings(ax) if _in_row(each, ax)]
+    highest = max(_HEIGHTS.get(each, 0.0) for each in beside)
+    for each in beside:
+        _lift_titles(each, highest)
+
+
+def _in_row(ax: Axes, other: Axes) -> bool:
+    """Whether axes end at the same height."""
+    places = [each.get_position(original=True) for each in (ax, other)]
+    return bool(np.isclose(places[0].y1, places[1].y1))
 
 
 def _lift_titles(ax: Axes, height: float) -> None:
