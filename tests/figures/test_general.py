@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from disc_model.errors import ParameterError
 from disc_model.figures import curve, heat_map, selection
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
 from disc_model.figures.style import save
@@ -155,8 +156,9 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert labels(figure) == [names[0], *values[1:]], "the dimension is named once"
     assert np.allclose(lines(ax)[values[2]].get_ydata(), [-0.1, 0, 0.1])
     assert [text.get_text() for text in ax.texts] == ["no cycle found"]
-    [gone] = [line for line in ax.lines if line.get_ydata()[0] > 1]
-    assert ax.texts[0].xy[1] == pytest.approx(gone.get_ydata()[0]), "named beside its row"
+    [row] = rows_above(ax)
+    [gone] = row.rows
+    assert row.words is ax.texts[0], "named above its row"
     assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), (
         "that has no value there"
     )

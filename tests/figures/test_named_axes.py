@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.sweep_lines import common_words
 from tests.figures.test_wishes import CASE, DRAWN, branch, legend_texts, run
 
@@ -147,6 +148,39 @@ def test_sweeps_of_several_cases_are_named_by_what_differs() -> None:
     assert ax.get_ylabel() == "Speed at which it begins (rad/s)"
 
 
+def test_a_ratio_is_no_difference_to_the_value_that_it_gives() -> None:
+    """One was named by mu_k = 0.24, the other by mu_k/mu_s = 0.6."""
+    ax = dm.plot_sweep(speeds().assign_attrs(base='{"N": 385, "mu_s": 0.4, "mu_k": 0.24}'), "begin")
+    ratio = '{"N": 200, "mu_s": 0.4, "mu_k_over_mu_s": 0.6}'
+    dm.plot_sweep(
+        speeds().assign_attrs(base=ratio).rename(N="k"), "begin", ax=ax, labels={"x": "N"}
+    )
+    assert "0.6" not in "".join(legend_texts(ax))
+    same = dm.plot_sweep(speeds().assign_attrs(base=ratio), "begin")
+    dm.plot_sweep(speeds().assign_attrs(base=ratio.replace("0.6", "0.5")), "begin", ax=same)
+    assert [text[-5:] for text in legend_texts(same)] == ["= 0.6", "= 0.5"]
+
+
+def test_a_single_horizon_has_its_unit() -> None:
+    ax = dm.plot_sweep(speeds(), "begin")
+    within = speeds().assign_coords(horizon=((), 60.0, {"units": "s"}))
+    dm.plot_sweep(within, "end", ax=ax)
+    assert legend_texts(ax)[1].endswith("horizon = 60 s")
+
+
+def test_what_several_variables_say_alike_is_said_by_the_axis() -> None:
+    """ "up, Least force at the end of the stay", beside another of the same length."""
+    axes = {"direction": ["up", "down"], "Omega": [1.0, 2.0]}
+    data = {}
+    for name in ("least", "greatest"):
+        attrs = {"units": "N", "long_name": f"{name} force at the end of the stay"}
+        data[name] = ([*axes], np.eye(2), attrs)
+    ax = dm.plot_sweep(xr.Dataset(data, axes, {"base": "{}"}), [*data])
+    ends = ["least force", "greatest force"]
+    assert legend_texts(ax) == [f"{way}, {end}" for end in ends for way in ("up", "down")]
+    assert ax.get_ylabel().replace("\n", " ") == "Force at the end of the stay (N)"
+
+
 def test_lines_of_several_sweeps_keep_the_names_of_their_values() -> None:
     """Directions of two cases."""
     attrs = {"units": "mm", "long_name": "reach"}
@@ -163,8 +197,159 @@ def test_rows_of_missing_values_of_several_variables_stand_apart() -> None:
     study = speeds()
     study["begin"] = study["begin"].where(study["N"] > 300)
     ax = dm.plot_sweep(study, ["begin", "end"])
-    rows = [line.get_ydata()[0] for line in ax.lines if line.get_marker() == "x"]
-    assert len(set(rows)) == 2
+    ax.figure.draw_without_rendering()
+    rows = [row.get_window_extent() for row in rows_of(ax)]
+    assert len(rows) == 2
+    assert rows[0].y1 < rows[1].y0
+
+
+def rows_of(ax: Any) -> list[Any]:
+    """Marks above a panel."""
+    return [row for each in rows_above(ax) for row in each.rows]
+
+
+@pytest.mark.parametrize("empty", ["begin", "end"])
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_variable_without_values_leaves_another_its_numbers_and_its_legend(
+    empty: str, layout: Any
+) -> None:
+    """The common axis had no numbers, and the legend was off the page."""
+    study = speeds()
+    study["end"][:] = 12.0
+    study[empty] = study[empty].where(False)
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    dm.plot_sweep(study, ["begin", "end"], ax=ax)
+    figure.draw_without_rendering()
+    assert [text.get_text() for text in ax.get_yticklabels()]
+    box = ax.get_legend().get_window_extent()
+    assert figure.bbox.count_contains(box.corners()) == 4
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_legend_as_wide_as_the_page_stays_on_it(layout: Any) -> None:
+    """It was cut at the right, where the layout moved the panel once more."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    up = "speed at which separation first is found on the way up"
+    down = "lowest speed to which it persists without a gap on the way down"
+    sweep = {
+        "onset_speed": ("N", [13.0, 14.0, 16.0], {**SPEED, "long_name": up}),
+        "offset_speed": ("N", [np.nan] * 3, {**SPEED, "long_name": f"{down}, nan if it was not"}),
+    }
+    dm.plot_sweep(xr.Dataset(sweep, {"N": [300.0, 340.0, 385.0]}), [*sweep], ax=ax)
+    lowest = {**SPEED, "long_name": "lowest speed with separation, nan if there is none"}
+    scan = {"critical_speed": ("N", [np.nan, 15.5, 19.5, np.nan], lowest)}
+    loads = {"N": [300.0, 385.0, 500.0, 600.0], "horizon": ((), 60.0, {"units": "s"})}
+    dm.plot_sweep(xr.Dataset(scan, loads), "critical_speed", ax=ax)
+    figure.draw_without_rendering()
+    box = ax.get_legend().get_window_extent()
+    assert figure.bbox.count_contains(box.corners()) == 4
+
+
+def test_panels_that_share_an_axis_have_numbers_beside_one_without_values() -> None:
+    study = speeds()
+    study["end"] = study["end"].where(False)
+    for order in (["begin", "end"], ["end", "begin"]):
+        _, axes = pyplot.subplots(1, 2, sharey=True, layout="constrained")
+        for ax, name in zip(axes, order, strict=True):
+            dm.plot_sweep(study, name, ax=ax, labels={"y": "Speed (rad/s)"})
+        assert axes[0].get_yticks().size
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_what_has_no_value_is_said_once_above_the_marks_of_all_lines(layout: Any) -> None:
+    """Three notes lay on each other and on the label, and all marks were alike."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout=layout)
+    for number in range(3):
+        study = speeds().assign_attrs(base=f'{{"Omega": {number}}}')
+        study["begin"] = study["begin"].where(study["N"] != 300)
+        dm.plot_sweep(study, "begin", ax=ax)
+    figure.draw_without_rendering()
+    [note] = [text for text in ax.texts if text.get_text() == "no value"]
+    words = note.get_window_extent()
+    boxes = [row.get_window_extent() for row in rows_of(ax)]
+    assert len(boxes) == 3
+    assert words.count_overlaps([*boxes, ax.bbox, ax.yaxis.label.get_window_extent()]) == 0
+    assert len({row.get_marker() for row in rows_of(ax)}) == 3
+    lines = [line for line in ax.lines if line.get_label()[0] != "_"]
+    assert [row.get_marker() for row in rows_of(ax)] == [line.get_marker() for line in lines]
+    assert [row.get_color() for row in rows_of(ax)] == [line.get_color() for line in lines]
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_a_long_reason_leaves_panels_their_width(layout: Any) -> None:
+    """Panels were 7 mm wide beside it."""
+    study = speeds()
+    attrs = {**SPEED, "long_name": "speed, nan if at none or at the lowest"}
+    study["end"] = study["end"].where(study["N"] > 300).assign_attrs(attrs)
+    figure, axes = pyplot.subplots(2, 2, figsize=(3.31, 4), layout=layout)
+    axes[0, 0].set_title("A title")
+    for ax in axes.flat:
+        dm.plot_sweep(study, "end", ax=ax)
+    figure.draw_without_rendering()
+    for ax in axes.flat:
+        [note] = [text for text in ax.texts if "at no speed" in text.get_text()]
+        assert note.get_window_extent().width <= ax.bbox.width + 1
+        assert ax.bbox.width > 0.25 * figure.bbox.width
+    [title] = [text for text in axes[0, 0].get_children() if text is axes[0, 0].title]
+    [note] = axes[0, 0].texts
+    assert title.get_window_extent().y0 > note.get_window_extent().y1
+
+
+def test_titles_beside_each_other_are_level_above_marks_set_apart_from_values() -> None:
+    with pyplot.rc_context({"axes.spines.top": False}):
+        figure, axes = pyplot.subplots(1, 2, sharey=True, layout="constrained")
+    for ax, name in zip(axes, ("begin", "end"), strict=True):
+        ax.set_title(f"Speed ({name})")
+        dm.plot_sweep(speeds(), name, ax=ax, labels={"y": "Speed (rad/s)"})
+    figure.draw_without_rendering()
+    low, high = (ax.title.get_window_extent() for ax in axes)
+    assert low.y0 == pytest.approx(high.y0)
+    [rows] = rows_above(axes[1])
+    assert high.y0 > rows.words.get_window_extent().y1
+    assert [ax.spines["top"].get_visible() for ax in axes] == [False, True]
+
+
+@pytest.mark.parametrize("values", [[0, 0, 0], [0.0, np.nan, 0.0]])
+def test_counts_that_are_all_zero_have_whole_numbers(values: list[float]) -> None:
+    steps = ("N", values, {"long_name": "number of steps"})
+    ax = dm.plot_sweep(xr.Dataset({"steps": steps}, {"N": [300.0, 350.0, 400.0]}), "steps")
+    ticks = ax.get_yticks()
+    assert ticks == pytest.approx(np.round(ticks))
+
+
+def test_symbols_on_axes_of_a_reader_are_upright_beside_labels_of_the_reader() -> None:
+    """The index of k_p was slanted beside an upright Omega."""
+    _, axes = pyplot.subplots(1, 2)
+    axes[0].set_ylabel("reach of $k_p$ (rad/s)")
+    for ax in axes:
+        for friction in (0.2, 0.3):
+            study = speeds().rename(N="k_p").assign_attrs(base=f'{{"mu_k": {friction}}}')
+            dm.plot_sweep(study, "begin", ax=ax)
+    for ax in axes:
+        assert r"$\mathrm{k_p}$" in ax.get_xlabel()
+        assert all("mathrm" in text for text in legend_texts(ax))
+    assert axes[0].get_ylabel() == "reach of $k_p$ (rad/s)"
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_numbers_of_a_short_bar_do_not_meet(log: bool) -> None:
+    """0.01, 0 and -0.01 lay on each other, and 28 on 29."""
+    axes = {"N": [300.0, 350.0], "Omega": [14.0, 15.0]}
+    rates = {"growth_rate": ([*axes], [[-0.2, 0.1], [0.2, 0.3]], {"units": "s-1"})}
+    reach = {"reach": ([*axes], [[21.0, 24.0], [27.0, 29.9]], {"units": "mm"})}
+    figure, panels = pyplot.subplots(2, 2, figsize=(5.9, 3.4))
+    for ax in panels.flat:
+        dm.plot_sweep(xr.Dataset(reach if log else rates, axes), log=log, ax=ax)
+    figure.draw_without_rendering()
+    for bar in figure.axes[4:]:
+        labels = [*bar.get_yticklabels(), *bar.get_yticklabels(minor=True)]
+        low, high = bar.get_ylim()
+        shown = [
+            text for text in labels if text.get_text() and low <= text.get_position()[1] <= high
+        ]
+        boxes = [text.get_window_extent() for text in shown]
+        assert len(boxes) > 1
+        assert all(box.count_overlaps(boxes) == 1 for box in boxes)
 
 
 def test_variables_that_are_drawn_together_are_lines_over_one_dimension() -> None:

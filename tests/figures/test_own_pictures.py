@@ -328,6 +328,8 @@ def test_branches_on_the_same_axes_share_a_legend() -> None:
     assert len({*colours}) == 3
     drawn = {line.get_color() for line in ax.lines if line.get_linestyle() != "None"}
     assert {*colours} <= drawn
+    said_of_all = [line.get_color() for line in legend.get_lines()[3:5]]
+    assert not {*said_of_all} & drawn, "a black line was one more stability"
 
 
 def test_a_doubled_branch_is_named_by_its_releases() -> None:
@@ -396,15 +398,16 @@ def test_a_title_says_what_all_branches_have_in_common() -> None:
 
 def test_branches_on_the_same_axes_differ_in_grey_print() -> None:
     """The second and the third were of nearly the same grey, both whole lines."""
-    assert len({look.dashes for look in LOOKS}) == len(LOOKS) == 6
+    assert len({look.dashes for look in LOOKS}) == len(LOOKS) == 10
+    assert len({look.colour for look in LOOKS}) == 10
     shades = [lightness(look.colour) for look in LOOKS]
     assert np.abs(np.diff(shades[:5])).min() > 0.1, "the next one, which a grey print shows too"
     ax = None
-    for number in range(6):
+    for number in range(10):
         ax = branch().plot("period", ax=ax, labels={"branch": f"sheet {number}"})
     assert ax is not None
-    samples = ax.figure.legends[0].get_lines()[:6]
-    assert len({_pattern(line) for line in samples}) == 6
+    samples = ax.figure.legends[0].get_lines()[:10]
+    assert len({_pattern(line) for line in samples}) == 10
     room = ax.figure.legends[0].handlelength * ax.figure.legends[0]._fontsize
     widest = max(line.get_linewidth() for line in ax.lines)
     drawn = {line.get_color(): line for line in ax.lines if line.get_linewidth() == widest}

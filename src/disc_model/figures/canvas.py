@@ -7,6 +7,7 @@ from contextlib import contextmanager, nullcontext
 from typing import Any
 
 from matplotlib import pyplot
+from matplotlib.text import Text
 
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels, set_upright
@@ -15,7 +16,7 @@ from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
 from disc_model.figures.pages import Wishes as Wishes
 from disc_model.figures.placing import check_room
-from disc_model.figures.room import make_room
+from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.style import readers_style
 from disc_model.figures.words import head_text
 
@@ -53,7 +54,9 @@ def page_for(
                 _finish(page, wishes)
             page.remember()
             if figure.get_gid() == OWN:
-                set_upright(figure)
+                set_upright(figure.findobj(Text))
+            else:
+                set_own_upright(figure)
         return
     with readers_style():
         figure = pyplot.figure(figsize=(width, height), layout="constrained")
@@ -74,7 +77,7 @@ def page_for(
             page.remember()
             if page.is_map:
                 keep_height(figure, page.axes)
-            set_upright(figure)
+            set_upright(figure.findobj(Text))
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn
             raise

@@ -1,11 +1,12 @@
 """Curves: any variable against one dimension."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.ticker import AutoLocator, NullLocator
 
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.branch_lines import THIN, Look
@@ -19,10 +20,10 @@ from disc_model.figures.drawing import (
     mark,
     plain_decades,
     row_of_panels,
-    say,
     say_beside,
     wide,
 )
+from disc_model.figures.gap_rows import add_row
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.legends import figure_legend
@@ -46,6 +47,7 @@ from disc_model.figures.words import (
     label_in,
     measured,
     missing_text,
+    named,
 )
 
 LINEAR = 0.1
@@ -66,8 +68,6 @@ MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 LONGEST_BESIDE = 25  # characters of a name that fits there
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 ROOM = 0.12  # share of the panel beside its values that has room for them
-ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
-ROW = 0.05  # and the distance of two rows
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
 WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
@@ -85,10 +85,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.label_outer()
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
-    pad = None
-    if plot.panels == "each":  # for the rows of missing values
-        pad = 20
-    letters(axes, titles_of(panels), pad=pad)
+    letters(axes, titles_of(panels))
     _name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
     return figure
 
@@ -130,15 +127,7 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
 # ---- Lines
 
 
-class DrawnLines(NamedTuple):
-    """What was drawn: each line with its name, and the height up to which marks stand above the
-    panel, as a share of it."""
-
-    lines: list[tuple[str, Any]]
-    top: float
-
-
-def draw_lines(  # noqa: PLR0913
+def draw_lines(
     ax: Axes,
     study: xr.Dataset,
     variable: str,
@@ -148,16 +137,14 @@ def draw_lines(  # noqa: PLR0913
     *,
     joined: bool = True,
     single: Look = PLAIN,
-    top: float = ABOVE,
-) -> DrawnLines:
+) -> list[tuple[str, Any]]:
     """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
-    marks above the panel stand for missing values.
+    marks above the panel stand for missing values. Returns each line with its name.
 
     Panels of a figure share `marks`, by the names of lines, so that a line has the same mark and
     colour in all of them.
 
     single : colour of a single line, and dashes of all
-    top : height of the first row of missing values, as a share of the panel
     """
     if marks is None:
         marks = {}
@@ -193,6 +180,8 @@ def draw_lines(  # noqa: PLR0913
         drawn.append((title, first))
 
     # scales and labels
+    _forget_empty(ax)
+    shows = _shows_numbers(ax)
     _scale_heights(ax, array, log)
     if along.dtype.kind == "U":
         _turn_words(ax, along)
@@ -202,12 +191,13 @@ def draw_lines(  # noqa: PLR0913
             plain_decades(ax.xaxis)
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
-    _set_ticks(ax, names, array)
+    _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
     ax.margins(0.03)
 
     # what is no value, or none that was found
     _point_down(ax, study, array, x, colours)
-    return DrawnLines(drawn, _mark_gaps(ax, study, array, x, marks, colours, top))
+    _mark_gaps(ax, study, array, x, marks, colours)
+    return drawn
 
 
 def _are_rates(array: xr.DataArray, log: bool) -> bool:
@@ -283,14 +273,45 @@ def _draw_dots(
     return {"markersize": mark(DOT)}
 
 
-def _set_ticks(ax: Axes, names: Sequence[str], array: xr.DataArray) -> None:
-    """Write the names of classes along the vertical axis, if there are any; nothing where no point
-    has a value, as numbers would be made up."""
+def _are_counts(variable: xr.DataArray) -> bool:
+    """Whether a variable counts something, also where some points have no value."""
+    return variable.dtype.kind in "iu" or named(variable).name.startswith("Number of ")
+
+
+class NoNumbers(NullLocator):
+    """No ticks of an axis along which nothing has a value yet."""
+
+
+def _forget_empty(ax: Axes) -> None:
+    """Let an axis have numbers again on which no line had a value."""
+    if isinstance(ax.yaxis.get_major_locator(), NoNumbers):
+        ax.set_yscale("linear")
+        ax.relim()
+
+
+def _shows_numbers(ax: Axes) -> bool:
+    """Whether anything has a value along the vertical axis, also in other panels that share it."""
+    for each in ax.get_shared_y_axes().get_siblings(ax):
+        if each.patches or each.collections:
+            return True
+        for line in each.lines:
+            in_data = all(line.get_transform().contains_branch_seperately(each.transData))
+            if in_data and np.isfinite(line.get_ydata()).any():
+                return True
+    return False
+
+
+def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None:
+    """Write the names of classes along the vertical axis, if there are any; whole numbers beside
+    counts; nothing where no point of any line has a value, as numbers would be made up."""
+    axis: Any = ax.yaxis
     if names:
         ax.set_yticks(range(len(names)), labels=names)
-    elif array.isnull().all():
-        ax.set_yticks([])
-        ax.set_yticks([], minor=True)
+    elif not shows:
+        axis.set_major_locator(NoNumbers())
+        axis.set_minor_locator(NullLocator())
+    elif whole and isinstance(axis.get_major_locator(), AutoLocator):
+        axis.get_major_locator().set_params(integer=True, min_n_ticks=1)
 
 
 def _lines_of(study: xr.Dataset, variable: str, x: str) -> list[Part[xr.DataArray]]:
@@ -349,39 +370,20 @@ def _mark_gaps(
     x: str,
     marks: Mapping[str, str],
     colours: Mapping[str, Any],
-    top: float,
-) -> float:
-    """Mark points without a value above the panel, a row for each line and each reason, which is
-    named on the left of its rows; returns the height above the last row."""
+) -> None:
+    """Mark points without a value above the panel, a row for each line and each reason, in the looks
+    of the lines."""
     by = remaining(array, [x])
     across = _along(array[x]).values
     for name, gone in gaps(study, array).items():
-        first = top
-        parts = parts_along(gone, by)
-        for part in parts:
-            mask = part.data.values
-            if not mask.any():
-                continue
-            shape = "x"
-            if by is not None:
-                shape = marks[part.name]
-            row = np.full(int(mask.sum()), top)
-            ax.plot(
-                across[mask],
-                row,
-                shape,
-                color=colours[part.name],
-                transform=ax.get_xaxis_transform(),
-                clip_on=False,
-                **_look(),
-            )
-            top += ROW
+        reason = name
         if name == name_of(NO_VALUE):
-            name = missing_text(study, str(array.name))
-        middle = 0.5 * (first + top - ROW)
-        say(ax, name, (0, middle), (-3, 0), xycoords="axes fraction", fontsize=large(7))
-        top += ROW
-    return top
+            reason = missing_text(study, str(array.name))
+        for part in parts_along(gone, by):
+            mask = part.data.values
+            if mask.any():
+                look = {"marker": marks[part.name], "color": colours[part.name], **_look()}
+                add_row(ax, reason, across[mask], **look)
 
 
 def scale_rates(ax: Axes) -> None:

@@ -40,6 +40,9 @@ ORANGE = "#E69F00"
 BROWN = "#7A4B12"
 GREEN = "#009E73"
 PURPLE = "#CC79A7"
+INDIGO = "#332288"  # of Tol, as the next two: for many lines
+OLIVE = "#999933"
+ROSE = "#CC6677"
 
 DISC = BLUE
 SLIDER = ORANGE

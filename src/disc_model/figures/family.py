@@ -1,7 +1,8 @@
 """Several branches on the same axes: their colours, and what legend and title say of them."""
 
+import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -14,8 +15,12 @@ from disc_model.figures.drawing import (
     BLUE,
     BROWN,
     GREEN,
+    GREY,
+    INDIGO,
+    OLIVE,
     ORANGE,
     PURPLE,
+    ROSE,
     SEPARATED,
     SKY,
     large,
@@ -26,6 +31,7 @@ from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import MOST_LINES, OWN, Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import head_text, stated_value, what_case
+from disc_model.parameters import RATIOS
 
 SPECIAL_MARKS = {
     "fold": ("s", SEPARATED, "fold"),
@@ -43,6 +49,10 @@ LOOKS = (
     Look(BROWN, (1.2, 1.8)),
     Look(SKY, (3, 3)),
     Look(PURPLE, (3, 1.3, 1.1, 1.3, 1.1, 1.3)),
+    Look(BLUE, (7, 1.6)),
+    Look(OLIVE, (4, 1.2, 2, 1.2)),
+    Look(INDIGO, (2.6, 1.2, 1, 1.2)),
+    Look(ROSE, (2, 1.1)),
 )
 """Of branches on the same axes, in their order: dashes tell them apart in grey print."""
 WIDTH = 1.4  # points, of their lines in the legend
@@ -51,13 +61,15 @@ WIDTH = 1.4  # points, of their lines in the legend
 @dataclass
 class Shown:
     """A branch on axes: its name, if the reader gives one, what titles say of its case, the releases
-    of stick in a period of its cycles, and its own entries of the legend."""
+    of stick in a period of its cycles, and its own entries of the legend; and words for values of
+    which names of parameters say nothing."""
 
     name: str
     values: Mapping[str, Any]
     releases: int
     looks: list[Any]
     special: list[Any]
+    said: Mapping[str, str] = field(default_factory=dict)
 
 
 _SHOWN: WeakKeyDictionary[Axes, list[Shown]] = WeakKeyDictionary()
@@ -109,6 +121,9 @@ def _explain(page: Page, family: Sequence[Shown]) -> None:
     marks: dict[str, Any] = {}
     for each in family:
         looks |= {str(handle.get_label()): handle for handle in each.looks}
+    for handle in looks.values():
+        handle.set_color(GREY)  # black would be that of a branch
+    for each in family:
         marks |= {str(handle.get_marker()): handle for handle in each.special}
     for sign, _, name in SPECIAL_MARKS.values():
         if sign in marks:
@@ -136,8 +151,10 @@ def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
     """What sets a branch apart from others on its axes: values of its case, and how many releases
     a period of its cycles has; "" if nothing does."""
     common = _common_values(family)
-    differing = {name: value for name, value in branch.values.items() if name not in common}
-    said = [typeset(stated_value(name, value)) for name, value in differing.items()]
+    said = []
+    for name, value in _without_ratios(branch, family).items():
+        if name not in common:
+            said.append(branch.said.get(name) or typeset(stated_value(name, value)))
     if len({each.releases for each in family}) > 1:
         said.append(f"{counted(branch.releases, 'release')} per period")
     return ", ".join(filter(None, said))
@@ -154,9 +171,27 @@ def retitle(figure: Any, family: Sequence[Shown]) -> None:
 
 def _common_values(family: Sequence[Shown]) -> dict[str, Any]:
     """The values that the cases of all branches have in common."""
-    first, *others = family
+    first, *others = (_without_ratios(each, family) for each in family)
     common = {}
-    for name, value in first.values.items():
-        if all(each.values.get(name) == value for each in others):
+    for name, value in first.items():
+        if all(name in other and _equal(other[name], value) for other in others):
             common[name] = value
     return common
+
+
+def _without_ratios(branch: Shown, family: Sequence[Shown]) -> dict[str, Any]:
+    """The values of a branch, with a parameter in place of a ratio that others do not state: both
+    may say the same."""
+    values = dict(branch.values)
+    for ratio, (name, other) in RATIOS.items():
+        stated_by_all = all(ratio in each.values for each in family)
+        if ratio in values and other in values and not stated_by_all:
+            values[name] = values.pop(ratio) * values[other]
+    return values
+
+
+def _equal(one: Any, another: Any) -> bool:
+    """Whether two values are the same but for rounding."""
+    if isinstance(one, float | int) and isinstance(another, float | int):
+        return math.isclose(one, another, rel_tol=1e-12)
+    return bool(one == another)

@@ -2,17 +2,18 @@
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
-from matplotlib.text import Annotation, Text
-from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator
+from matplotlib.text import Text
+from matplotlib.ticker import FixedLocator, Formatter, FuncFormatter, MaxNLocator
 
 from disc_model.data.variables import SHOWN, typeset
 from disc_model.figures.drawing import DECADES
+from disc_model.figures.gap_rows import rows_above, stack_rows
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import UNITS
 
@@ -59,6 +60,8 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
         each.text.set_text(said)
         _break(each.text, each.direction, _room(figure, each))
         _BROKEN[each.text] = Broken(said, each.text.get_text())
+    for ax in {each.ax: None for each in found}:
+        stack_rows(ax)
 
 
 def words_of(text: Text) -> str:
@@ -86,17 +89,13 @@ def _texts_of(ax: Axes) -> Iterator[Breakable]:
     for label, direction in ((ax.xaxis.label, "width"), (ax.yaxis.label, "height")):
         if label.get_text().strip():
             beyond = BEYOND
-            if direction == "height" and (_named_above(ax) or ax.get_label() == COLOUR_BAR):
+            if direction == "height" and ax.get_label() == COLOUR_BAR:
                 beyond = 1.0
             yield Breakable(label, ax, direction, beyond)
     for title in titles_of(ax):
         yield Breakable(title, ax, "width", 1.0)
-
-
-def _named_above(ax: Axes) -> bool:
-    """Whether rows above the axes have names on the left, which a longer label would meet."""
-    notes = [text for text in ax.texts if isinstance(text, Annotation)]
-    return any(text.xycoords == "axes fraction" and text.xy[0] == 0 for text in notes)
+    for rows in rows_above(ax):
+        yield Breakable(rows.words, ax, "width", 1.0)
 
 
 def titles_of(ax: Axes) -> list[Text]:
@@ -159,10 +158,10 @@ def seen(word: str) -> int:
 # ---- Symbols
 
 
-def set_upright(figure: Figure) -> None:
+def set_upright(texts: Iterable[Any]) -> None:
     """Set symbols with an index, such as c_p, in upright letters, as all others are, whatever the
-    setting of matplotlib when the figure is drawn."""
-    for text in figure.findobj(Text):
+    setting of matplotlib when the texts are drawn."""
+    for text in texts:
         said = text.get_text()
         if "$" in said:
             text.set_text(re.sub(r"\$([^$]+)\$", r"$\\mathrm{\1}$", without_font(said)))
@@ -210,6 +209,70 @@ def _shown(axis: Any, places: Any) -> Any:
     low, high = sorted(axis.get_view_interval())
     rounding = 1e-3 * (high - low)
     return places[(places >= low - rounding) & (places <= high + rounding)]
+
+
+class Sparing(Formatter):
+    """The numbers of another formatter, but those that are hidden."""
+
+    def __init__(self, all_of_them: Formatter) -> None:
+        self.all_of_them = all_of_them
+        self.hidden: list[float] = []
+
+    def __call__(self, x: float, pos: int | None = None) -> str:
+        hidden = np.isclose(x, self.hidden, rtol=1e-9, atol=0).any()
+        return "" if hidden else self.all_of_them(x, pos)
+
+    def set_axis(self, axis: Any) -> None:
+        super().set_axis(axis)
+        self.all_of_them.set_axis(axis)
+
+    def set_locs(self, locs: Any) -> None:
+        self.all_of_them.set_locs(locs)
+
+
+def spare_numbers(bar: Axes) -> None:
+    """Hide numbers beside a bar of colours where they would meet: all but every second one from zero
+    or a power of ten on, or every third, and so on."""
+    axis: Any = bar.yaxis
+    formatters = [axis.get_major_formatter(), axis.get_minor_formatter()]
+    for each in formatters:
+        if isinstance(each, Sparing):
+            each.hidden = []
+    numbers = _numbers_beside(axis)
+    values = [number for number, _ in numbers]
+    anchor = 0
+    for place in (0.0, *_shown(axis, axis.get_majorticklocs())):
+        if place in values:
+            anchor = values.index(place)
+            break
+
+    every = 1
+    kept = numbers
+    while not all(after[1].y0 > before[1].y1 for before, after in pairwise(kept)):
+        every += 1
+        kept = [each for i, each in enumerate(numbers) if (i - anchor) % every == 0]
+    if every == 1:
+        return
+    known = [number for number, _ in kept]
+    hidden = [number for number in values if number not in known]
+    for each, replace in zip(
+        formatters, (axis.set_major_formatter, axis.set_minor_formatter), strict=True
+    ):
+        sparing = each if isinstance(each, Sparing) else Sparing(each)
+        sparing.hidden = hidden
+        replace(sparing)
+
+
+def _numbers_beside(axis: Any) -> list[tuple[float, Any]]:
+    """The numbers beside a vertical axis from the lowest on, and the boxes that they take."""
+    found = []
+    for minor in (False, True):
+        shown = _shown(axis, axis.get_ticklocs(minor=minor))
+        for text in axis.get_ticklabels(minor=minor):
+            number = text.get_position()[1]
+            if text.get_text() and number in shown:
+                found.append((number, text.get_window_extent()))
+    return sorted(found, key=lambda each: each[0])
 
 
 # ---- Units of the reader

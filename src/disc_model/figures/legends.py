@@ -39,6 +39,7 @@ STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
+MOVES = 2  # of a legend below a panel after it has changed the size of the panel
 ROUNDING = 1.0  # pixel, to which places are rounded
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
@@ -249,11 +250,16 @@ def legend_below(
     # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
     legend.get_tightbbox = partial(_as_wide_as, ax, legend)
 
-    # lower axes may have narrower numbers, and begin further to the left
-    page.draw_without_rendering()
-    beyond = max(LEFT * page.dpi - legend.get_window_extent().x0, 0.0)
+    # lower axes may have narrower numbers, and begin further to the left; the layout may move them
+    # once more when the legend has its place
     anchor: Any = place.draw
-    legend.set_bbox_to_anchor((beyond / ax.bbox.width, 0), anchor.keywords["bbox_transform"])
+    across = 0.0
+    for _ in range(MOVES):
+        page.draw_without_rendering()
+        box = legend.get_window_extent()
+        across += max(LEFT * page.dpi - box.x0, 0.0)
+        across -= max(min(box.x1 - free.right, box.x0 - free.left), 0.0)
+        legend.set_bbox_to_anchor((across / ax.bbox.width, 0), anchor.keywords["bbox_transform"])
     return legend
 
 

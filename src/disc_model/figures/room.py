@@ -4,9 +4,12 @@ from itertools import chain
 from typing import Any
 from weakref import WeakSet
 
+from matplotlib.text import Text
+
 from disc_model.figures.colours import bars_of
-from disc_model.figures.labels import break_labels, part_numbers
+from disc_model.figures.labels import break_labels, part_numbers, set_upright, spare_numbers
 from disc_model.figures.legends import finds_room_below, finds_room_inside
+from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.pages import Page, Wishes, write_legend
 from disc_model.figures.placing import fit_to_page
 from disc_model.figures.types import Axes
@@ -45,8 +48,25 @@ def make_room(page: Page, wishes: Wishes) -> None:
             _remember(former, asked)
     if plain:
         fit_to_page(figure, panels)
-    for ax in panels:
+    for ax, bars in panels.items():
         part_numbers(ax)
+        for bar in bars:
+            spare_numbers(bar)
+
+
+def set_own_upright(figure: Any) -> None:
+    """Set the symbols of all pictures on a reader's figure in upright letters; labels that the reader
+    has written stay."""
+    for ax in figure.axes:
+        if ax not in _DRAWN_ON:
+            continue
+        own = own_labels(ax)
+        labels = {"x": ax.xaxis.label, "y": ax.yaxis.label}
+        set_upright(label for along, label in labels.items() if along not in own)
+        for artist in filter(None, (*shown_on(ax).drawn, ax.get_legend())):
+            set_upright(artist.findobj(Text))
+        for bar in bars_of(ax):
+            set_upright(bar.findobj(Text))
 
 
 def _remember(page: Page, wishes: Wishes) -> None:

@@ -13,7 +13,7 @@ from disc_model.errors import require, suggestion
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
-from disc_model.figures.curve import ABOVE, MARKS, draw_lines
+from disc_model.figures.curve import MARKS, draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
@@ -26,7 +26,15 @@ from disc_model.figures.sweep_lines import (
     quantities_of,
 )
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import horizon_text, label_in, label_of, measured, what_case
+from disc_model.figures.words import (
+    horizon_text,
+    known_name,
+    label_in,
+    label_of,
+    measured,
+    value_text,
+    what_case,
+)
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -243,6 +251,15 @@ def _values_of(study: xr.Dataset) -> dict[str, Any]:
     return fixed
 
 
+def _said_of(study: xr.Dataset) -> dict[str, str]:
+    """Words for single values of what is no parameter and has a unit, such as a horizon."""
+    said = {}
+    for name, values in study.coords.items():
+        if values.size == 1 and values.attrs.get("units", "1") != "1" and not known_name(values):
+            said[str(name)] = f"{name} = {value_text(study, str(name))}"
+    return said
+
+
 def _case_of(study: xr.Dataset) -> str:
     """The text of these values."""
     return what_case(_values_of(study))
@@ -278,6 +295,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     others = lines_on(page.ax)
     labels = (label_of(study[drawn.across])[0], label_in(study, drawn.variable))
     lines = lines_of(study, drawn.variable, labels, name, _values_of(study))
+    lines.shown.said = _said_of(study)
     quantities = quantities_of(lines, others)
     page.show(quantities)
     marks = {}
@@ -292,11 +310,9 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
         marks,
         joined=drawn.joined,
         single=next_look(page.ax),
-        top=max((each.top for each in others), default=ABOVE),
     )
     page.ax.set_ylabel(quantities.y)
-    lines.parts = [(part, ref(line)) for part, line in found.lines]
-    lines.top = found.top
+    lines.parts = [(part, ref(line)) for part, line in found]
     join_lines(page, lines)
 
 

@@ -33,7 +33,6 @@ class Lines:
     phrase : name of the variable
     shown : what tells the lines from others
     parts : name along a second dimension, "" without one, of each line, and the line
-    top : height above the panel up to which its missing values stand, as a share of it
     """
 
     across: str
@@ -41,7 +40,6 @@ class Lines:
     phrase: str
     shown: Shown
     parts: Sequence[tuple[str, ref[Any]]] = ()
-    top: float = 0.0
 
 
 _LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
@@ -83,10 +81,33 @@ def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:
     unit = unit_in(label)
     if labels - {label} and {*map(unit_in, labels)} == {unit} != {""}:
         phrases = [each.phrase for each in (*others, lines)]
-        label = f"{common_words(phrases) or 'Value'} ({unit})"
-        labels |= {f"{common_words(phrases[:-1]) or 'Value'} ({unit})"}
+        label = f"{common_name(phrases)} ({unit})"
+        labels |= {f"{common_name(phrases[:-1])} ({unit})"}
         return Quantities(lines.across, label, alike=labels)
     return Quantities(lines.across, label)
+
+
+def common_name(phrases: Sequence[str]) -> str:
+    """The name of what all phrases say."""
+    words = common_words(phrases) or "Value"
+    return f"{words} {common_tail(phrases)}".strip()
+
+
+def common_tail(phrases: Sequence[str]) -> str:
+    """The words at the end of all phrases, if these are several, that say where or of what; "" if
+    there are none."""
+    if len(set(phrases)) < 2:
+        return ""
+    split = [phrase.split() for phrase in phrases]
+    count = 0
+    for column in zip(*(reversed(words[1:]) for words in split), strict=False):
+        if len({*column}) > 1:
+            break
+        count += 1
+    tail = split[0][len(split[0]) - count :]
+    while tail and tail[0] not in LOOSE:
+        tail = tail[1:]
+    return " ".join(tail)
 
 
 def common_words(phrases: Sequence[str]) -> str:
@@ -105,6 +126,12 @@ def common_words(phrases: Sequence[str]) -> str:
     return ""
 
 
+def _within(name: str) -> str:
+    """A name after other words: its first word has no capital, unless it is a symbol."""
+    first = name.partition(" ")[0]
+    return name[0].lower() + name[1:] if first[1:].islower() else name
+
+
 def next_look(ax: Axes) -> Look:
     """The look of the next lines on axes."""
     return LOOKS[len(lines_on(ax)) % len(LOOKS)]
@@ -117,6 +144,10 @@ def join_lines(page: Page, new: Lines) -> None:
     _LINES[page.ax] = family
     shown = [each.shown for each in family]
     names = [new.shown.name]
+    tail = common_tail([each.phrase for each in family])  # which the axis says
+    for each in family:
+        short = each.phrase.removesuffix(tail).rstrip(" ,")
+        each.shown.values = {**each.shown.values, "variable": short}
     if len(family) > 1:
         names = names_of(shown, "sweep")
         retitle(page.figure, shown)
@@ -126,6 +157,8 @@ def join_lines(page: Page, new: Lines) -> None:
     for each, name in zip(family, names, strict=True):
         for part, reference in each.parts:
             line = reference()
+            if part and not each.shown.name:
+                name = _within(name)
             text = ", ".join(filter(None, (part, name)))
             if line is not None and text:
                 replaced += [str(line.get_label()), text]

@@ -1,0 +1,106 @@
+"""Rows of marks above a panel, which stand for points of its lines without a value, and why these have
+none."""
+
+from dataclasses import dataclass, field
+from typing import Any
+from weakref import WeakKeyDictionary
+
+import numpy as np
+from matplotlib.text import Text
+from matplotlib.transforms import ScaledTranslation, blended_transform_factory
+
+from disc_model.figures.drawing import GREY, large, mark, wide
+from disc_model.figures.types import Array, Axes
+
+FIRST = 4.0  # points, height of the first row above its panel,
+APART = 5.0  # of a row, for marks of the usual size,
+GAP = 2.0  # and between a row and words
+TEXT = 7.0  # points, size of the words
+LINE = 1.25  # height of one of their lines, over this size
+TITLE = 6.0  # points, distance of a title from what stands above a panel
+
+
+@dataclass
+class Rows:
+    """The rows of one reason, from the lowest on, and the words above them."""
+
+    words: Text
+    rows: list[Any] = field(default_factory=list)
+
+
+_ROWS: WeakKeyDictionary[Axes, dict[str, Rows]] = WeakKeyDictionary()
+"""The rows above panels, by their reasons, in their order."""
+_HEIGHTS: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
+"""The heights of titles above panels with such rows, points."""
+
+
+def rows_above(ax: Axes) -> list[Rows]:
+    """The rows above a panel from which they were not removed, as by ``ax.clear()``."""
+    return [each for each in _ROWS.get(ax, {}).values() if each.words in ax.texts]
+
+
+def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
+    """Mark points above a panel, in a row under the words of their reason, which stand there once for
+    all lines."""
+    if not rows_above(ax):
+        _ROWS[ax] = {}
+    reasons = _ROWS[ax]
+    if reason not in reasons:
+        words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
+        reasons[reason] = Rows(words)
+    if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
+        ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
+    transform = ax.get_xaxis_transform()
+    [row] = ax.plot(
+        across, [1.0] * len(across), transform=transform, clip_on=False, linestyle="", **look
+    )
+    reasons[reason].rows.append(row)
+    stack_rows(ax)
+
+
+def stack_rows(ax: Axes) -> None:
+    """Set the rows above a panel, and the words of their reasons in as many lines as they have now,
+    on each other; titles stand above them, also those of panels beside it on the same axis."""
+    page: Any = ax.get_figure(root=True)
+    height = mark(FIRST)
+    found = rows_above(ax)
+    for each in found:
+        for row in each.rows:
+            up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
+            row.set_transform(blended_transform_factory(ax.transData, up))
+            height += mark(APART)
+        height += GAP - 0.5 * mark(APART)
+        up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
+        each.words.set_transform(up)
+        lines = each.words.get_text().count("\n") + 1
+        height += lines * LINE * large(TEXT) + mark(FIRST)
+    if not found:
+        return
+    _HEIGHTS[ax] = height - mark(FIRST) + TITLE
+    beside = [each for each in ax.get_shared_y_axes().get_siblings(ax) if _in_row(each, ax)]
+    highest = max(_HEIGHTS.get(each, 0.0) for each in beside)
+    for each in beside:
+        _lift_titles(each, highest)
+
+
+def _in_row(ax: Axes, other: Axes) -> bool:
+    """Whether axes end at the same height."""
+    places = [each.get_position(original=True) for each in (ax, other)]
+    return bool(np.isclose(places[0].y1, places[1].y1))
+
+
+def _lift_titles(ax: Axes, height: float) -> None:
+    """Set the titles of axes, which keep their looks, so many points above them."""
+    for loc in ("left", "center", "right"):
+        words = ax.get_title(loc)
+        if words:
+            before = {text: text.get_fontproperties().copy() for text in _titles(ax, words)}
+            ax.set_title(words, loc=loc, pad=height)
+            for text, font in before.items():
+                text.set_fontproperties(font)
+
+
+def _titles(ax: Axes, words: str) -> list[Text]:
+    """The titles of axes that have some words."""
+    texts = [child for child in ax.get_children() if isinstance(child, Text)]
+    return [text for text in texts if text not in ax.texts and text.get_text() == words]
