@@ -160,6 +160,9 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert (gone.get_xdata(), gone.get_marker()) == ([0.1], lines(ax)[names[0]].get_marker()), (
         "that has no value there"
     )
+    [strip] = ax.patches
+    low, high = strip.get_y(), strip.get_y() + strip.get_height()
+    assert 1 < low < gone.get_ydata()[0] < high, "set off from the points of the panel"
     assert " ".join(ax.get_ylabel().split()) == "Growth rate of disturbances (1/s)"
     path = tmp_path / "curve.png"
     save(figure, path)

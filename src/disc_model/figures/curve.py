@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 from cmcrameri import cm
+from matplotlib.patches import Rectangle
 
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.branch_lines import THIN, Look
@@ -68,6 +69,7 @@ ARROW = 7.0  # points, size of an arrow below a point, and its distance
 ROOM = 0.12  # share of the panel beside its values that has room for them
 ABOVE = 1.03  # height of the first row of missing values, as a share of the panel
 ROW = 0.05  # and the distance of two rows
+STRIP = "0.88"  # grey behind them
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
 WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
@@ -97,6 +99,8 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The part of a study in each panel."""
     if plot.panels == "each":
         return parts_along(study, plot.by, plot.names)
+    if plot.by not in study.dims:  # it has one value
+        return [Part("", "", study)]
     chosen = [study.sel({plot.by: [*values]}) for values in plot.panels] or [study]
     if plot.names:
         words = [str(value) for value in study[plot.by].values]
@@ -376,12 +380,21 @@ def _mark_gaps(
                 **_look(),
             )
             top += ROW
+        if by is not None:  # marks are those of the lines, and are no values
+            _draw_strip(ax, first - ROW / 2, top - ROW / 2)
         if name == name_of(NO_VALUE):
             name = missing_text(study, str(array.name))
         middle = 0.5 * (first + top - ROW)
         say(ax, name, (0, middle), (-3, 0), xycoords="axes fraction", fontsize=large(7))
         top += ROW
     return top
+
+
+def _draw_strip(ax: Axes, low: float, high: float) -> None:
+    """Set rows of missing values off from the panel below them by a grey strip, between two heights
+    as shares of the panel."""
+    look = {"facecolor": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
+    ax.add_patch(Rectangle((0, low), 1, high - low, transform=ax.transAxes, **look))
 
 
 def scale_rates(ax: Axes) -> None:
