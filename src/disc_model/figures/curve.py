@@ -393,7 +393,7 @@ def _mark_gaps(
 def _draw_strip(ax: Axes, low: float, high: float) -> None:
     """Set rows of missing values off from the panel below them by a grey strip, between two heights
     as shares of the panel."""
-    look = {"facecolor": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
+    look: dict[str, Any] = {"facecolor": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
     ax.add_patch(Rectangle((0, low), 1, high - low, transform=ax.transAxes, **look))
 
 

@@ -82,7 +82,7 @@ def _draw_deviations(ax: Axes, fit: Fit) -> None:
     ax.set_xlabel(DEVIATION)
     ax.set_xlim(-span, span)
     freedom = counted(fit.freedom, "degree")
-    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom")
+    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom", fontsize=large(8))
 
 
 def _set_rows(left: Axes, right: Axes, fit: Fit) -> None:

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import chain
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -39,7 +40,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
         (end, "v-", END, "end, falling ramp"),
     ):
         if np.isfinite(speeds).any():
-            look = {"markersize": mark(4), "linewidth": wide(0.8), "label": label}
+            look: dict[str, Any] = {"markersize": mark(4), "linewidth": wide(0.8), "label": label}
             ax.plot(rates, speeds, shape, color=colour, **look)
     _mark_at_bound(
         ax,
@@ -75,7 +76,12 @@ def _mark_at_bound(
     there are none."""
     if not rates.size:
         return
-    look = {"markersize": mark(4), "markerfacecolor": "white", "clip_on": False, "zorder": 3}
+    look: dict[str, Any] = {
+        "markersize": mark(4),
+        "markerfacecolor": "white",
+        "clip_on": False,
+        "zorder": 3,
+    }
     ax.plot(rates, np.full(rates.size, bound), shape, color=colour, label=label, **look)
 
 

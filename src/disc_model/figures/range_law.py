@@ -122,7 +122,7 @@ def _draw_all(ax: Axes, motions: _Motions) -> None:
         if chosen.any():
             lines.append(f"{(inside & chosen).sum()} of {chosen.sum()} {word}")
     corner = _freest_corner(ax, pinned, excess)
-    offset = tuple(3 - 6 * side for side in corner)
+    offset = (3 - 6 * corner[0], 3 - 6 * corner[1])
     look = {"xycoords": "axes fraction", "fontsize": large(7)}
     drawing.say(ax, "\n".join(lines), corner, offset, **look)
 

@@ -160,7 +160,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
             elif across > 1 - EDGE:
                 side = -1
             place = (float(along[i]), float(line.rate[i]))
-            offsets = [(3 * side, 3), *BESIDE]
+            offsets: list[tuple[float, float]] = [(3 * side, 3), *BESIDE]
             if place[1] > FREE * largest:
                 offsets += BELOW
             named.append((place, line.name, offsets))
