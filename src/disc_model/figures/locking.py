@@ -125,7 +125,7 @@ def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
             linewidth=wide(1.4),
             markersize=mark(1.8),
         )
-    margin = 0.02 * (high - low)
+    margin = 0.02 * (high - low or abs(high))
     ax.set_xlim(low - margin, high + margin)
     if shown:
         heights = [step.height for step in shown]

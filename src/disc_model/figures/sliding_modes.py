@@ -69,7 +69,8 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     across = measured(columns[0]["value"])
     tops[0].set_ylabel("Frequency in the slider's frame (Hz)")
     tops[0].set_ylim((0, highest))
-    tops[0].set_xlim(across.values[0], across.values[-1])
+    if across.values.size > 1:
+        tops[0].set_xlim(across.values[0], across.values[-1])
     bottoms[0].set_ylabel("Growth rate (1/s)")
     bottoms[0].set_ylim(min(low for low, _ in limits), HEADROOM * greatest)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
