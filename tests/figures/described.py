@@ -145,6 +145,7 @@ def ramps() -> Figure:
     data = {
         "onset_speed": ("rate", [15.3, 15.6, NAN, NAN], column("ramps", "onset_speed")),
         "offset_speed": ("rate", [9.7, 9.6, 9.1, NAN], column("ramps", "offset_speed")),
+        "top_separation_rate": ("rate", [135.0, 134.0, 0.0, NAN]),
         "rate_status": ("rate", np.array([0, 0, 0, 2], np.int8)),
     }
     study = xr.Dataset(data, {"rate": [0.01, 0.1, 1.0, 2.0]}, stated(low=8.0, high=20.0))

@@ -332,6 +332,7 @@ def ramps() -> Example:
     data = {
         "onset_speed": ("rate", onset, column("ramps", "onset_speed")),
         "offset_speed": ("rate", end, column("ramps", "offset_speed")),
+        "top_separation_rate": ("rate", [135.0, 134.0, 133.0]),
         "rate_status": ("rate", np.zeros(3, np.int8), OK),
     }
     study = xr.Dataset(data, {"rate": ("rate", rates)}, stated(low=8.0, high=20.0))

@@ -23,7 +23,7 @@ from disc_model.figures.spectrogram import span_of
 from disc_model.figures.stages import SECTIONS, stages_of
 from disc_model.figures.style import save
 from tests.damages import damaged
-from tests.figures.reading import assert_fit_for_print
+from tests.figures.reading import assert_fit_for_print, labels
 
 SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
 RECORDED = {
@@ -96,6 +96,19 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     ranges = asked("history", window="history", variables=["P", "psi"], until=30)
     assert all(len(ax.collections) == 1 for ax in ranges.axes), "as bands"
     assert ranges.axes[0].get_xlim() == (0, 30)
+
+
+def test_ramps_of_a_case_are_shaded_and_said() -> None:
+    """The title gave the speed at the start for that of the whole run."""
+    ramp = '[{"parameter": "Omega", "to": 20.0, "start": 10.0, "end": 30.0}]'
+    case = simulated(True).copy()
+    case.attrs["ramps"] = ramp
+    figure = asked("history", case, window="history", variables=["P", "psi"])
+    assert figure.get_suptitle() == "N = 385 N, Ω = 15.1 to 20 rad/s"
+    assert "Ω from 15.1 to 20 rad/s, 10 to 30 s" in labels(figure)
+    for ax in figure.axes:
+        [shade] = ax.patches
+        assert (shade.get_x(), shade.get_width()) == (10.0, 20.0)
 
 
 @pytest.mark.parametrize(("window", "phase"), [("spectrum_a", "stick"), ("zoom", "separation")])

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed, swept_speeds
-from disc_model.figures.borders import Curve, _resonance_of, curves_of, parts_of
+from disc_model.figures.borders import Curve, _resonance_of, curves_of, draw_curves, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
 from tests.figures.described import status
@@ -215,3 +215,26 @@ def test_two_points_beside_a_stable_cycle_make_a_curve(stable: list[str], drawn:
     )
     found = curves_of(curves)
     assert len(found) == drawn
+
+
+def test_curves_are_numbered_within_the_panel_where_they_are_seen() -> None:
+    """Of curves that leave the panel at the right and at the top, and one that is not seen."""
+    ax = pyplot.figure().subplots()
+    ax.set(xlim=(10, 20), ylim=(100, 400))
+    speeds = np.linspace(12.0, 30.0, 19)
+    right = Curve(speeds, np.linspace(150.0, 330.0, 19), "fold", "2 f_s")
+    steep = Curve(speeds, np.linspace(300.0, 480.0, 19), "fold", "3 f_s")
+    beyond = Curve(speeds + 20, np.linspace(150.0, 330.0, 19), "neutral", "4 f_s")
+    handles = draw_curves(ax, [right, steep, beyond])
+    assert [text.get_text() for text in ax.texts] == ["1", "2"]
+    assert [text.xy for text in ax.texts] == [(20.0, 230.0), (20.0, 380.0)]
+    ax.figure.draw_without_rendering()
+    for text in ax.texts:
+        assert text.get_window_extent().x1 <= ax.bbox.x1
+    named = [str(handle.get_label()) for handle in handles]
+    assert named == ["stable cycle ends (fold)", "2 $f_s$", "3 $f_s$"]
+
+
+def test_a_mark_at_the_lowest_speed_is_whole(chart: Callable[..., Figure]) -> None:
+    [onsets] = [line for line in chart().axes[0].lines if line.get_marker() == "o"]
+    assert not onsets.get_clip_on()

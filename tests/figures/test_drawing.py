@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 
-from disc_model.figures.drawing import plain_decades
+from disc_model.figures.drawing import plain_decades, whole_marks
 from disc_model.figures.runs import show_thickness
 from tests.figures.reading import assert_numbers_are_apart
 
@@ -77,4 +77,19 @@ def test_the_bar_of_the_thickness_is_as_long_as_the_disc_is_thick(
     length = abs(shown[1] - shown[0])["xy".index(along)]
     assert length == pytest.approx(2.0)
     assert [text.get_text() for text in ax.texts] == ["thickness 2 mm"]
+    pyplot.close("all")
+
+
+def test_marks_at_the_edge_of_a_panel_stand_whole_and_those_beyond_are_not_drawn() -> None:
+    _, ax = pyplot.subplots()
+    [line] = ax.plot([0.0, 1.0, 2.0], [0.0, 5.0, 1.0], "-")
+    [marks] = ax.plot([0.0, 1.0, 2.0], [0.0, 5.0, 1.0], "o")
+    [none] = ax.plot([], [], "o")
+    ax.set(xlim=(0, 2), ylim=(0, 2))
+    whole_marks(ax)
+    assert none.get_clip_on(), "its extent would be at the corner of the page"
+    assert not marks.get_clip_on()
+    np.testing.assert_array_equal(marks.get_ydata(), [0.0, np.nan, 1.0])
+    assert line.get_clip_on()
+    assert line.get_ydata().tolist() == [0.0, 5.0, 1.0]
     pyplot.close("all")

@@ -64,3 +64,36 @@ def test_models_stand_beside_each_other_and_titles_say_what_differs(kind: str) -
         subjects = [title.partition(") ")[2].replace("\n", " ") for title in titles]
         assert [subject for subject in subjects if subject] == expected
     pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("kind", "dim"),
+    [
+        ("late_range", "contact"),
+        ("late_range", "disc"),
+        ("root_locus", "value"),
+        ("root_locus", "mode"),
+        ("sliding_modes", "value"),
+        ("sliding_modes", "mode"),
+        ("staircase", "Omega"),
+    ],
+)
+def test_a_dimension_may_have_one_value(kind: str, dim: str) -> None:
+    """It was dropped before something was drawn along it."""
+    example = EXAMPLES[kind]()
+    inputs = {name: given.isel({dim: slice(1)}) for name, given in example.inputs.items()}
+    plot = kind_of(kind).model_validate({"kind": kind, **example.phrase})
+    figure = render(plot, {name: xr.DataTree(given) for name, given in inputs.items()})
+    figure.draw_without_rendering()
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("kind", ["late_range", "escape"])
+def test_a_dimension_of_a_figure_may_be_the_normalization(kind: str) -> None:
+    plot = kind_of(kind).model_validate({"kind": kind, "by": "normalization"})
+    values = {name: [0.0, 1.0] for name in plot.dims}
+    values |= {"normalization": ["as_published", "orthonormal"]}
+    assert not [*plot.wrong_dims(values)]
+    other = kind_of(kind).model_validate({"kind": kind})
+    values |= {name: [0.0, 1.0] for name in other.dims}
+    assert [*other.wrong_dims(values)]

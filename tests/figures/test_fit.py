@@ -57,3 +57,18 @@ def test_deviations_are_in_standard_deviations_of_which_two_are_expected(panels:
     assert (band.get_x(), band.get_x() + band.get_width()) == (-2.0, 2.0)
     assert right.get_title(loc="left") == "chi squared 41.2, 1 degree of freedom"
     assert right.get_xlabel() == "Deviation (standard deviations)"
+
+
+@pytest.mark.parametrize("beside", [True, False])
+def test_rows_of_readers_panels_are_level_and_named_once(beside: bool) -> None:
+    """Panels that share no axis had other limits, and numbers for names."""
+    _, axes = pyplot.subplots(*((1, 2) if beside else (2, 1)), figsize=(7, 4))
+    left, right = plot_fit(made_up(), ax=axes)
+    assert right.get_ylim() == left.get_ylim()
+    assert right.get_yticks().tolist() == left.get_yticks().tolist() == [2, 1, 0]
+    named = [text.get_text() for text in right.get_yticklabels() if text.get_visible()]
+    shown = right.yaxis.get_tick_params()["labelleft"]
+    assert shown is not beside
+    if shown:
+        assert named == ["first", "second", "third"]
+    pyplot.close("all")

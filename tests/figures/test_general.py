@@ -260,3 +260,11 @@ def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, 
 def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
     along = xr.DataArray(values, name=name)
     assert heat_map.scale(along) == kind
+
+
+def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:
+    """Names for its value, or panels of it, ended in an error."""
+    single = study.isel(normalization=slice(1), c_p=slice(1))
+    for more in ({"names": {"0.01": "little"}}, {"panels": [[0.01]]}):
+        ax = draw("curve", single, variable="period", x="mu_k", by="c_p", **more).axes[0]
+        assert np.allclose(ax.lines[0].get_ydata()[1:], [1000.0, 1100.0])  # ms

@@ -11,6 +11,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.colors import to_hex, to_rgba
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
+from disc_model.figures import late_range
 from disc_model.figures.cells import (
     Edges,
     decades_between,
@@ -23,6 +24,7 @@ from disc_model.figures.cells import (
 from disc_model.figures.classes import LOOKS, UNRESOLVED
 from disc_model.figures.style import save
 from disc_model.studies.quantities.regions import Regions
+from tests.figures.every_kind import EXAMPLES
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 
 NORMS = ["as_published", "orthonormal"]
@@ -235,7 +237,7 @@ def test_contact_is_lost_at_the_range_of_the_mode_that_friction_feeds() -> None:
     factor = f"{2 / expected:.2g}"
     assert words == [
         "contact lost, 8 kN",
-        f"with separation: {factor} to {factor} times\nthe range at which contact is lost",
+        f"with separation: {factor} times\nthe range at which\ncontact is lost",
     ]
     (reversal,) = [line for line in figure.axes[1].lines if line.get_linestyle() == ":"]
     assert reversal.get_ydata()[0] == 1
@@ -304,3 +306,46 @@ def test_a_cell_between_two_others_that_are_alike_is_unresolved(
     assert row == marked
     [column] = unresolved(across.T).T.tolist()
     assert column == marked
+
+
+@pytest.mark.parametrize("contacts", [["unilateral", "bilateral"], ["unilateral"]])
+@pytest.mark.parametrize("modes", [["as_published"], ["as_published", "orthonormal"]])
+def test_ranges_of_one_model_or_contact_are_drawn(modes: list[str], contacts: list[str]) -> None:
+    """One normalization was no dimension any more, and drawing failed."""
+    dims = ("Omega", "N", "normalization", "contact")
+    axes = {"Omega": [10.0, 20], "N": [8.0], "normalization": modes, "contact": contacts}
+    shape = (2, 1, len(modes), len(contacts))
+    study = outcomes(dims, axes, np.full(shape, 3))
+    top = np.full(shape, 0.01)
+    study = study.assign(u_max=(dims, top), u_min=(dims, -top), surface_speed=(dims, 0 * top))
+    figure = draw("late_range", study.assign_attrs(base="{}"), by="normalization")
+    assert len(figure.axes) == len(modes)
+    drawn = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
+    assert len(drawn) == len(contacts)
+    assert ("separation ignored" in labels(figure)) == (len(contacts) > 1)
+
+
+def test_factors_that_are_equal_are_said_once() -> None:
+    dims = ("Omega", "N", "disc", "contact")
+    axes = {"Omega": [10.0], "N": [8.0], "disc": ["a"], "contact": ["unilateral"]}
+    study = outcomes(dims, axes, np.full((1, 1, 1, 1), 3))
+    study = study.assign(u_max=(dims, np.full((1, 1, 1, 1), 2.0)), u_min=(dims, np.zeros((1,) * 4)))
+    ax = pyplot.figure().subplots()
+    limits = xr.DataArray([1.0], {"N": [8.0]}, ("N",))
+    late_range._say_how_far_beyond(ax, study.sel(disc="a"), limits)
+    assert ax.texts[0].get_text().startswith("with separation: 2 times")
+
+
+@pytest.mark.parametrize("width", ["column", "page"])
+def test_panels_of_regions_are_lettered_as_they_are_read(width: str) -> None:
+    """In a column, growth rates are below their own outcomes."""
+    example = EXAMPLES["region_map"]()
+    [study] = [each for name, each in example.inputs.items() if name == "study"]
+    single = study.squeeze("normalization", drop=True) if "normalization" in study.dims else study
+    models = xr.concat([single.assign_coords(k=value) for value in (2e4, 6e4)], "k")
+    base = {"normalization": "as_published", **json.loads(study.attrs["base"])}
+    models = models.assign_attrs(study.attrs | {"base": json.dumps(base)})
+    figure = draw("region_map", models, by="k", width=width, **example.phrase)
+    lettered = [ax for ax in figure.axes if ax.get_title(loc="left").startswith("(")]
+    lettered.sort(key=lambda ax: (-round(ax.get_position().y0, 2), ax.get_position().x0))
+    assert [ax.get_title(loc="left")[1] for ax in lettered] == list("abcd")

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib import pyplot
 from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
-from matplotlib.text import Annotation
+from matplotlib.text import Annotation, Text
 
 from disc_model.figures import campbell as campbell_diagram
 from disc_model.figures import ramps as drawn
@@ -19,11 +19,11 @@ from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
 from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
-from disc_model.figures.campbell import peaks
+from disc_model.figures.campbell import Peak, peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
-from disc_model.figures.locking import NEVER_STICKS
+from disc_model.figures.locking import NEVER_STICKS, _draw_steps, _Step
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
@@ -31,6 +31,7 @@ from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
 from tests.figures.described import branches, campbell, of_example, sensitivity, sliding_modes
+from tests.figures.every_kind import flag
 from tests.figures.reading import assert_fit_for_print, crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
@@ -222,6 +223,23 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     )
 
 
+def test_ramps_on_which_separation_never_ends_are_marked_at_the_lowest_speed() -> None:
+    """A legend named ends that were not drawn, and nothing said why there were none."""
+    data = {
+        "rate_status": ("rate", [0, 0, 0]),
+        "onset_speed": ("rate", [15.0, 16.0, np.nan]),
+        "top_separation_rate": ("rate", [135.0, 130.0, 0.0]),
+        "offset_speed": ("rate", [np.nan, np.nan, np.nan]),
+    }
+    study = xr.Dataset(data, {"rate": [0.1, 0.2, 0.4]})
+    study.attrs = {"options": '{"low": 8, "high": 20}', "base": '{"N": 385, "disc": "a"}'}
+    ax = draw("ramps", study).axes[0]
+    shown = lines(ax)
+    assert "end, falling ramp" not in shown
+    on = shown["separation goes on at the lowest speed"]
+    assert (on.get_xdata().tolist(), on.get_ydata().tolist()) == ([0.1, 0.2], [8, 8])
+
+
 def test_the_limit_of_slow_ramps_is_below_all_onsets(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of folds at 12, 15 and 17 rad/s, with onsets from 16 rad/s on."""
     folds = [
@@ -348,6 +366,20 @@ def test_the_scatter_of_ranges_is_drawn_whole_on_a_linear_axis_and_counted() -> 
     inside["deviation"][:] = inside["deviation"] / 10
     _, enlarged = draw("range_law", inside).axes
     assert "higher: see (a)" not in _said(enlarged)
+
+
+def test_what_no_motion_is_has_no_mark_in_the_legend_and_no_number() -> None:
+    """All are filled; words stand in a corner without points."""
+    study = separating_motions()
+    single = study["vibration_share"].copy(data=np.ones((2, 2)))
+    figure = draw("range_law", study.assign(vibration_share=single, force_share=single))
+    assert not [name for name in labels(figure) if name.startswith("no frequency")]
+    [note] = figure.axes[0].texts
+    assert note.get_text() == "within 5 % (grey):\n2 of 3 filled"
+    box = note.get_window_extent()
+    for line in figure.axes[0].lines:
+        if line.get_marker() in ("o", "^", "s") and line.get_xdata().size:
+            assert not box.count_contains(line.get_transform().transform(line.get_xydata()))
 
 
 def test_the_curve_of_the_range_law_is_named_in_the_legend() -> None:
@@ -600,3 +632,45 @@ def test_rates_that_differ_by_more_than_a_tenth_are_not_joined(
 ) -> None:
     found = campbell_diagram.unjoined(np.array(rates))
     assert found.tolist() == alone
+
+
+def test_names_of_steps_stay_within_the_panel() -> None:
+    """At the lower end of a zoom, words stood on the numbers beside the axis."""
+    ax = pyplot.figure(figsize=(3.3, 2.2)).subplots()
+    steps = [_Step(19.8, 19.95, 10.9, 34), _Step(20.05, 20.05, 10.85, 117)]
+    _draw_steps(ax, steps, np.array([19.945, 20.055]))
+    ax.figure.draw_without_rendering()
+    assert [text.get_text() for text in ax.texts] == ["34 releases", "117"]
+    for text in ax.texts:
+        box = text.get_window_extent()
+        assert ax.bbox.x0 <= box.x0
+        assert box.x1 <= ax.bbox.x1
+    pyplot.close("all")
+
+
+def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A multiple was written on the line of another mode, below the one that it meets."""
+    figure, (top, bottom) = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
+    speeds = np.linspace(10.0, 20.0, 5)
+    top.set(xlim=(10, 20), ylim=(0, 700))
+    bottom.set(xlim=(10, 20), ylim=(0, 1))
+    crossing = xr.Dataset(
+        {
+            "crossing_Omega": 15.0,
+            "crossing_frequency": 270.0,
+            "crossing_multiple": 4.0,
+            "crossing_line": flag((), "stick_slip", ("none", "stick_slip")),
+        }
+    )
+    modes = np.repeat([[240.0, 270.0]], 5, axis=0)
+    data = {"growth_rate": ("Omega", np.full(5, 0.3))}
+    study = xr.Dataset({**data, "sliding_frequency": (("Omega", "mode"), modes)}, {"Omega": speeds})
+    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: [Peak(2, crossing)])
+    campbell_diagram._name_peaks(top, bottom, study)
+    figure.draw_without_rendering()
+    [name] = top.texts
+    assert name.get_visible()
+    box = Text.get_window_extent(name)
+    heights = [top.transData.transform((15.0, height))[1] for height in (240.0, 270.0)]
+    assert not [height for height in heights if box.y0 <= height <= box.y1]
+    pyplot.close("all")

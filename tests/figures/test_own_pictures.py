@@ -548,6 +548,28 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     assert ax.get_title(loc="left") == "unstable from 21 kN/m"
 
 
+def test_a_panel_above_a_legend_keeps_its_height_beside_a_label_of_several_lines() -> None:
+    """The label was longer than the axes, which a legend below had made lower, and made them ever
+    lower."""
+    made = Critical(
+        parameters=P,
+        name="Omega",
+        value=15.1,
+        crossings=np.array([11.0, 11.1, 15.1]),
+        unstable_above=np.array([True, False, True]),
+        values=np.linspace(10, 20, 41),
+        growth_rate=np.where(np.arange(41) % 8, np.linspace(-0.1, 10, 41), np.nan),
+        resolution=0.25,
+    )
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 60 / 25.4))
+    made.plot(ax=ax)
+    figure.draw_without_rendering()
+    assert ax.bbox.height > 0.6 * figure.dpi
+    label = ax.yaxis.label.get_window_extent()
+    assert 0 <= label.y0 < label.y1 <= figure.bbox.y1
+    pyplot.close("all")
+
+
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:
     curves = dm.neutral_curves(P, {"Omega": (14, 15.5), "k_p": (1.9e4, 2.1e4)}, [2e4], points=5)
     figure = figure_of(curves.plot())

@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
@@ -12,7 +13,7 @@ from disc_model.figures.kinds import kind_of
 from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
-from disc_model.figures.sliding_modes import LEAST
+from disc_model.figures.sliding_modes import LEAST, _name_decays
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
 from tests.studies.conftest import SMALL, computed
 
@@ -172,3 +173,22 @@ def test_sliding_is_compared_with_what_the_motion_does(
     outcomes = np.array([outcome])
     [found] = agreement(rates, outcomes)
     assert found == word
+
+
+@pytest.mark.parametrize(("rates", "blocks"), [([-1.0, -0.85, -0.72], 1), ([-2.0, -1.4, -0.8], 3)])
+def test_names_of_decaying_modes_do_not_lie_on_each_other(rates: list[float], blocks: int) -> None:
+    """Modes whose names would meet have theirs in one block, below each other as the lines are."""
+    ax = pyplot.figure().subplots()
+    ax.set_ylim(-3, 4)
+    dims = ("value", "mode")
+    data = {"mode_growth_rate": (dims, [rates]), "diameters": (dims, [[0, 2, 3]])}
+    study = xr.Dataset(data, {"value": [1.0]})
+    _name_decays(ax, study, greatest=3.0)
+    assert len(ax.texts) == blocks
+    said = [name for text in reversed(ax.texts) for name in text.get_text().split("\n")]
+    assert said == ["l = 3", "l = 2", "l = 0"]
+    ax.figure.draw_without_rendering()
+    boxes = [text.get_window_extent() for text in ax.texts]
+    for i, box in enumerate(boxes):
+        assert not box.count_overlaps(boxes[:i])
+    pyplot.close("all")

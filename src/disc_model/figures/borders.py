@@ -25,6 +25,7 @@ JOINED = ("branch_continues_first", "branch_continues_second")
 """Whether the branch continues along the study's first and second dimension."""
 CAPS: dict[str, Any] = {"neutral": "projecting", "fold": None}
 """Ends of the segments of borders; dashes have none."""
+EDGE = 0.02  # of a panel's width, beside its ends, where numbers stand on the inner side
 Segment = list[tuple[float, float]]
 
 
@@ -122,9 +123,9 @@ def crossings(curve: Curve, load: float) -> Array:
 
 
 def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
-    """Draw curves, with a number beyond the upper end by label and speed; returns entries of a
-    legend."""
-    named = [curve for curve in curves if curve.label]
+    """Draw curves in axes whose limits are set, with a number beyond the upper end that is seen, by
+    label and speed; returns entries of a legend."""
+    named = [curve for curve in curves if curve.label and _in_view(ax, curve).any()]
     named.sort(key=lambda curve: float(np.nanmax(curve.Omega)))
     numbers: dict[str, int] = {}
     for curve in named:
@@ -134,10 +135,10 @@ def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
         look = border(curve.kind)
         look["label"] = "_nolegend_"
         ax.plot(curve.Omega, curve.N, **look)
-        if curve.label and np.isfinite(curve.N).any():
-            _number(ax, curve, numbers[curve.label])
+    for curve in named:
+        _number(ax, curve, numbers[curve.label])
 
-    kinds = {curve.kind for curve in curves}
+    kinds = {curve.kind for curve in curves if _in_view(ax, curve).any()}
     handles = [sample(**border(kind)) for kind in BORDERS if kind in kinds]
     for label, number in numbers.items():
         sign = {"marker": f"${number}$", "ls": "", "c": BLACK, "ms": mark(4), "mew": 0}
@@ -145,11 +146,27 @@ def draw_curves(ax: Axes, curves: Sequence[Curve]) -> list[Artist]:
     return handles
 
 
+def _in_view(ax: Axes, curve: Curve) -> Mask:
+    """Which points of a curve the limits of the axes include."""
+    seen = np.ones(curve.N.shape, dtype=bool)
+    for values, limits in ((curve.Omega, ax.get_xlim()), (curve.N, ax.get_ylim())):
+        seen &= (values >= min(limits)) & (values <= max(limits))
+    return seen
+
+
 def _number(ax: Axes, curve: Curve, number: int) -> None:
-    """Write the number of a curve beyond its upper end."""
-    i = int(np.nanargmax(curve.N))
-    end = (curve.Omega[i], min(float(curve.N[i]), ax.get_ylim()[1]))
-    say(ax, str(number), end, (0, 2), fontsize=large(6), annotation_clip=False, path_effects=halo())
+    """Write the number of a curve beyond the upper end of what is seen of it, and within the
+    panel's width."""
+    i = int(np.argmax(np.where(_in_view(ax, curve), curve.N, -np.inf)))
+    end = (float(curve.Omega[i]), float(curve.N[i]))
+    across = ax.transAxes.inverted().transform(ax.transData.transform(end))[0]
+    side = 0
+    if across < EDGE:
+        side = 1
+    elif across > 1 - EDGE:
+        side = -1
+    look = {"fontsize": large(6), "annotation_clip": False, "path_effects": halo()}
+    say(ax, str(number), end, (side, 2), **look)
 
 
 # ---- Borders between cells

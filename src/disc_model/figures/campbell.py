@@ -19,6 +19,7 @@ from disc_model.figures.drawing import (
     panels,
     sample,
     say_beside,
+    whole_marks,
     wide,
 )
 from disc_model.figures.kinds.motions import Campbell
@@ -39,8 +40,12 @@ from disc_model.figures.words import SPEED
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
 ROOM = 1.06  # highest frequency of the axis over that of the modes
-BESIDE_MEETING = ((6, -4), (-6, 4), (6, 4), (-6, -4))  # points, of names beside crossings,
-BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10))  # and beside peaks
+BESIDE_MEETING = tuple(
+    (across, up) for up in (4, 9, 14) for across, up in ((6, -up), (-6, up), (6, up), (-6, -up))
+)
+"""Offsets in points of names beside crossings, best first."""
+BETWEEN = 20  # points of each step of a line, which no name covers
+BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10), (2, 17), (-2, 17))  # and beside peaks
 BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 """Look of a stretch of speeds without a growth rate."""
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
@@ -77,6 +82,8 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     below[0].set_ylim(min(3 * low, -LINEAR), max(3 * high, LINEAR))
     above[0].set_ylabel("Frequency in the slider's frame (Hz)")
     below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
+    for ax in axes:
+        whole_marks(ax)
     letters(axes, titles_of(parts))
     for top, bottom, part in zip(above, below, parts, strict=True):
         _name_peaks(top, bottom, part.data.transpose("Omega", ...))
@@ -181,8 +188,12 @@ def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
 
 def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     """Write the multiples at peaks and at crossings, where there is room."""
-    above = Names(top)
-    below = Names(bottom)
+    speeds = study["Omega"].values
+    rate = study["growth_rate"].values
+    modes = study["sliding_frequency"].transpose(..., "Omega").values
+    above = Names(top, lines=_along_lines([(speeds, mode) for mode in modes]))
+    of_rates = _along_lines([broken(speeds, rate, LINEAR)])
+    below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
     for peak in peaks(study):
         if peak.crossing is None:
@@ -192,6 +203,18 @@ def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
         above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=outline)
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
         below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
+
+
+def _along_lines(lines: Sequence[Sequence[Array]]) -> Array:
+    """Points that no name covers, along lines of given points, and closer than these; shape
+    (n, 2)."""
+    share = np.linspace(0, 1, BETWEEN)[:, None]
+    points = []
+    for line in lines:
+        given = np.column_stack(line)
+        steps = given[:-1] + share[..., None] * np.diff(given, axis=0)
+        points.append(steps.reshape(-1, 2))
+    return np.concatenate(points)
 
 
 def _multiple(crossing: xr.Dataset) -> str:

@@ -147,8 +147,12 @@ def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
         for speed in row:
             points += [(speed, load), gap]
     outline = halo(1.3, BLACK)
+    across, up = np.reshape(points, (-1, 2)).T
+    low, high = ax.get_xlim()
     ax.plot(
-        *np.reshape(points, (-1, 2)).T,
+        across,
+        up,
+        clip_on=bool(np.any((across < low) | (across > high))),  # marks at the edge stay whole
         path_effects=outline,
         zorder=1.9,
         label=label,

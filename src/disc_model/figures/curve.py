@@ -94,6 +94,8 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The part of a study in each panel."""
     if plot.panels == "each":
         return parts_along(study, plot.by, plot.names)
+    if plot.by not in study.dims:  # it has one value
+        return [Part("", "", study)]
     chosen = [study.sel({plot.by: [*values]}) for values in plot.panels] or [study]
     if plot.names:
         words = [str(value) for value in study[plot.by].values]

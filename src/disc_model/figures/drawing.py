@@ -122,6 +122,19 @@ def row_of_panels(width: float, count: int, height: float, stacked: float, **sha
     return panels(width, stacked * count, count, 1, **shared)
 
 
+# ---- Panels beside each other
+
+
+def leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
+    """Leave names and numbers of the vertical axes to the first column, if it stands beside this
+    one."""
+    for ax, left in zip(column, first, strict=True):
+        places = [each.get_position(original=True) for each in (left, ax)]
+        if math.isclose(places[0].y0, places[1].y0) and places[0].x1 < places[1].x0:
+            ax.set_ylabel("")
+            ax.tick_params(labelleft=False)
+
+
 # ---- Ticks
 
 FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too
@@ -216,6 +229,20 @@ def headroom(ax: Axes, share: float) -> None:
     """Leave room above the data, a fraction of their height."""
     low, high = ax.get_ylim()
     ax.set_ylim(top=high + share * (high - low))
+
+
+def whole_marks(ax: Axes) -> None:
+    """Let marks on the edge of a panel, whose limits are set, stand whole; those of lines without a
+    stroke."""
+    (left, right), (bottom, top) = (sorted(each) for each in (ax.get_xlim(), ax.get_ylim()))
+    for line in ax.lines:
+        if line.get_linestyle() != "None" or line.get_transform() != ax.transData:
+            continue
+        x, y = np.asarray(line.get_xydata(), dtype=float).T
+        inside = (x >= left) & (x <= right) & (y >= bottom) & (y <= top)
+        if inside.any():  # without a point, an unclipped line has an extent at the page's corner
+            line.set_data(x, np.where(inside, y, np.nan))
+            line.set_clip_on(False)
 
 
 def mark_cases(axes: Sequence[Axes], places: Mapping[str, float], height: float = 0.0) -> None:

@@ -8,7 +8,16 @@ import numpy as np
 
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    SEPARATED,
+    large,
+    leave_to_first,
+    mark,
+    wide,
+)
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
 
@@ -35,6 +44,7 @@ def plot_fit(
         left, right = page.axes
         _draw_differences(left, fit)
         _draw_deviations(right, fit)
+        _set_rows(left, right, fit)
         page.explain(left.get_legend_handles_labels()[0])
     return np.array([left, right], dtype=object)
 
@@ -60,9 +70,6 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
     shift = 100 * (fit.computed - value) / size
     ax.plot(shift, rows, label="computed", **_computed())
     ax.set_xlabel(DIFFERENCE)
-    ax.set_yticks(rows)
-    ax.set_yticklabels([each.name for each in fit.measurements], fontsize=large(7))
-    ax.set_ylim(-0.7, rows.size - 0.3)
     ax.margins(x=0.08)
 
 
@@ -75,7 +82,18 @@ def _draw_deviations(ax: Axes, fit: Fit) -> None:
     ax.set_xlabel(DEVIATION)
     ax.set_xlim(-span, span)
     freedom = counted(fit.freedom, "degree")
-    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom")
+    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom", fontsize=large(8))
+
+
+def _set_rows(left: Axes, right: Axes, fit: Fit) -> None:
+    """Give both panels the same rows, whether or not they share an axis, and name them in both
+    unless these stand beside each other."""
+    rows = _rows(fit)
+    for ax in (left, right):
+        ax.set_yticks(rows)
+        ax.set_yticklabels([each.name for each in fit.measurements], fontsize=large(7))
+        ax.set_ylim(-0.7, rows.size - 0.3)
+    leave_to_first([right], [left])
 
 
 def _rows(fit: Fit) -> np.ndarray:

@@ -10,7 +10,7 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.errors import require
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, PAGE, letters, panels
+from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, letters, panels
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
@@ -31,7 +31,8 @@ def draw(plot: History, case: xr.DataTree) -> Figure:
             f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed"
         )
     letters(axes)
-    figure_legend(figure, draw_history(axes, case, shown, plot.variables))
+    handles = draw_history(axes, case, shown, plot.variables)
+    figure_legend(figure, [*handles, *shade_ramps(axes, ramps_of(case))])
     figure.align_ylabels()
     return figure
 
@@ -74,7 +75,7 @@ def plot_run(
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
-            _leave_to_first(column, grid[:, 0])
+            leave_to_first(column, grid[:, 0])
             handles += shade_ramps(column, ramps_of(case))
             entries |= {str(handle.get_label()): handle for handle in handles}
         page.explain([*entries.values()])
@@ -91,16 +92,6 @@ def _quantities(windows: Sequence[xr.Dataset], variables: Sequence[str]) -> list
     for name in variables:
         found += [Quantities(TIME, sampled(name, window)[0]) for window in windows]
     return found
-
-
-def _leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
-    """Leave names and numbers of the vertical axes to the first column, if it stands beside this
-    one."""
-    for ax, left in zip(column, first, strict=True):
-        places = [each.get_position(original=True) for each in (left, ax)]
-        if math.isclose(places[0].y0, places[1].y0) and places[0].x1 < places[1].x0:
-            ax.set_ylabel("")
-            ax.tick_params(labelleft=False)
 
 
 def _stands_above(ax: Axes, other: Axes) -> bool:

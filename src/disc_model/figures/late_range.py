@@ -16,11 +16,13 @@ from disc_model.figures.drawing import (
     GREEN,
     GREY,
     SKY,
+    halo,
     large,
     letters,
     mark,
     row_of_panels,
     sample,
+    whole_marks,
     wide,
 )
 from disc_model.figures.kinds.motions import LateRange
@@ -40,6 +42,7 @@ BEYOND = "0.9"  # grey behind ranges of more than a thickness, for which plate t
 LOST = (":", (0, (5, 1, 1, 1)), (0, (1, 4)), (0, (7, 2)))
 """Lines at which contact is lost, of preloads in their order."""
 LINES = {"unilateral": "-", "bilateral": "--"}
+CONTACTS = {"unilateral": "with separation", "bilateral": "separation ignored"}
 LOWEST_NAME = (0.98, "right", "top")
 FURTHER_NAMES = (0.03, "left", "bottom")
 """Where the lowest of these lines and the others have their names: share of the panel's width, and
@@ -84,8 +87,9 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.margins(x=0.05)
         if ax.xaxis.get_tick_params()["labelbottom"]:  # its numbers are not those of a panel below
             ax.set_xlabel(SPEED)
+        whole_marks(ax)
     letters(axes, titles)
-    _legend(figure, study["N"].values, has_drive=bool(moving))
+    _legend(figure, study, has_drive=bool(moving))
     return figure
 
 
@@ -135,9 +139,10 @@ def _say_how_far_beyond(ax: Axes, study: xr.Dataset, limits: xr.DataArray) -> No
     found = multiples.where(study["outcome"].copy(data=separates)).values
     found = found[np.isfinite(found)]
     if found.size:
-        factors = f"{found.min():.2g} to {found.max():.2g}"
-        text = f"with separation: {factors} times\nthe range at which contact is lost"
+        factors = " to ".join(dict.fromkeys(f"{end:.2g}" for end in (found.min(), found.max())))
+        text = f"with separation: {factors} times\nthe range at which\ncontact is lost"
         look: dict[str, Any] = {"va": "top", "ha": "right", "size": large(7)}
+        look |= {"path_effects": halo(), "zorder": 5}
         ax.annotate(text, (0.98, BELOW_LINES), xycoords="axes fraction", **look)
 
 
@@ -146,6 +151,11 @@ def _note(ax: Axes, height: float, text: str, place: tuple[float, str, str], **l
     across, ha, va = place
     look = {"size": large(6), "ha": ha, "va": va, **look}
     ax.annotate(text, (across, height), xycoords=("axes fraction", "data"), **look)
+
+
+def _lines_of(contacts: np.ndarray) -> dict[str, str]:
+    """Dashes of the lines of the contacts that a study has."""
+    return {contact: line for contact, line in LINES.items() if contact in contacts}
 
 
 def _marks() -> dict[str, dict[str, Any]]:
@@ -164,7 +174,7 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
     speeds = ranges["Omega"].values
     loads = ranges["N"].values
     for load, colour, width in zip(loads, LOAD_COLOURS, LOAD_WIDTHS, strict=False):
-        for contact, line in LINES.items():
+        for contact, line in _lines_of(ranges["contact"].values).items():
             chosen = {"N": load, "contact": contact}
             heights = ranges.sel(chosen).values
             words = outcomes.sel(chosen).values
@@ -176,14 +186,14 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
                 ax.plot(speeds, np.where(mask, heights, np.nan), color=colour, **look)
 
 
-def _legend(figure: Figure, loads: np.ndarray, has_drive: bool) -> None:
+def _legend(figure: Figure, study: xr.Dataset, has_drive: bool) -> None:
     """Name preloads, contacts, marks, the grey band and the speed of the drive below the panels."""
     handles = [
         sample(color=colour, linewidth=wide(width), label=f"{1e-3 * load:g} kN")
-        for load, colour, width in zip(loads, LOAD_COLOURS, LOAD_WIDTHS, strict=False)
+        for load, colour, width in zip(study["N"].values, LOAD_COLOURS, LOAD_WIDTHS, strict=False)
     ]
-    handles.append(sample(color=GREY, linestyle="-", label="with separation"))
-    handles.append(sample(color=GREY, linestyle="--", label="separation ignored"))
+    for contact, line in _lines_of(study["contact"].values).items():
+        handles.append(sample(color=GREY, linestyle=line, label=CONTACTS[contact]))
     for name, look in _marks().items():
         handles.append(sample(color=GREY, label=name, **look))
     handles.append(Patch(color=BEYOND, label="beyond linear plate theory"))

@@ -14,10 +14,11 @@ from disc_model.figures import drawing
 from disc_model.figures.drawing import BLACK, BLUE, GREY, VERMILION, large, mark, wide
 from disc_model.figures.kinds.motions import PhaseMap, Staircase
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import failed
+from disc_model.figures.selection import failed, without_single
 from disc_model.figures.types import Array, Figure
 
 ROOM = 0.055  # of a panel's width, least distance of two labels
+WORDS = 0.14  # and half of that which a number with its unit takes
 HEIGHT = 0.1  # of a panel's height, room that a label needs above a step,
 BESIDE = 0.06  # and beside one
 TOP = 0.9  # height of the marks of motions that never stick, as a share of the panel
@@ -49,9 +50,9 @@ def draw_staircase(
 ) -> Figure:
     """Draw separations per release over a parameter, a step for each period with its number of
     releases; below, zooms of the file."""
-    parts = [study.squeeze(drop=True)]
+    parts = [without_single(study, plot.x)]
     if "fine" in overlays:
-        parts.append(overlays["fine"].squeeze(drop=True))
+        parts.append(without_single(overlays["fine"], plot.x))
     label, factor = axis_of(plot.x)
 
     narrow = plot.inches != drawing.PAGE
@@ -124,7 +125,7 @@ def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
             linewidth=wide(1.4),
             markersize=mark(1.8),
         )
-    margin = 0.02 * (high - low)
+    margin = 0.02 * (high - low or abs(high))
     ax.set_xlim(low - margin, high + margin)
     if shown:
         heights = [step.height for step in shown]
@@ -146,10 +147,14 @@ def _name_steps(ax: Axes, steps: Sequence[_Step], low: float, high: float) -> No
         taken.append(middle)
         place = (middle, step.height)
         side = 0
-        if middle > high - ROOM * (high - low):  # the words would leave the panel
+        text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
+        room = (WORDS if len(taken) == 1 else ROOM) * (high - low)
+        if middle > high - room:  # the words would leave the panel
             place = (min(step.high, high), step.height)
             side = -1
-        text = f"{step.releases} releases" if len(taken) == 1 else f"{step.releases}"
+        elif middle < low + room:
+            place = (max(step.low, low), step.height)
+            side = 1
         drawing.say(ax, text, place, (side, 3), fontsize=large(7))
 
     for step in unnamed:

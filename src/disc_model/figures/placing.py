@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
+from disc_model.figures.labels import break_labels
 from disc_model.figures.types import Array, Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
@@ -52,6 +53,7 @@ def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
             if np.abs(_places_of(panels) - before).max() > LEAST_STEP:
                 changed = True
                 figure.draw_without_rendering()  # so that a gap is not widened from both sides
+                break_labels(figure, [ax, *bars])  # a longer one would take ever more room
         if not changed:
             return
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from itertools import chain
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -21,7 +22,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.maps import RampedSpeeds
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.swept_speeds import END, ONSET
-from disc_model.figures.types import Figure
+from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import SPEED
 
 
@@ -32,29 +33,26 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     options = stated_in(study, "options")
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
+    going_on = np.isnan(end) & (study["top_separation_rate"].values > 0) & ~gone
     figure, [ax] = panels(plot.inches, 3.4)
     for speeds, shape, colour, label in (
         (onset, "^-", ONSET, "onset, rising ramp"),
         (end, "v-", END, "end, falling ramp"),
     ):
-        ax.plot(
-            rates, speeds, shape, color=colour, markersize=mark(4), linewidth=wide(0.8), label=label
-        )
-
-    late = rates[np.isnan(onset) & ~gone]
-    if late.size:
-        top = np.full(late.size, options["high"])
-        name = "none up to the highest speed"
-        ax.plot(
-            late,
-            top,
-            "^",
-            markersize=mark(4),
-            label=name,
-            color=ONSET,
-            markerfacecolor="white",
-            clip_on=False,
-        )
+        if np.isfinite(speeds).any():
+            look: dict[str, Any] = {"markersize": mark(4), "linewidth": wide(0.8), "label": label}
+            ax.plot(rates, speeds, shape, color=colour, **look)
+    _mark_at_bound(
+        ax,
+        rates[np.isnan(onset) & ~gone],
+        options["high"],
+        "^",
+        ONSET,
+        "none up to the highest speed",
+    )
+    _mark_at_bound(
+        ax, rates[going_on], options["low"], "v", END, "separation goes on at the lowest speed"
+    )
 
     limit = _end_of_cycle(study, overlays, onset)
     if limit is not None:
@@ -69,6 +67,22 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     handles = ax.get_legend_handles_labels()[0]
     figure_legend(figure, handles, loc="outside lower center", columns=1)
     return figure
+
+
+def _mark_at_bound(
+    ax: Axes, rates: np.ndarray, bound: float, shape: str, colour: str, label: str
+) -> None:
+    """Mark rates of ramps that have no speed by hollow marks at a bound of the speed; nothing if
+    there are none."""
+    if not rates.size:
+        return
+    look: dict[str, Any] = {
+        "markersize": mark(4),
+        "markerfacecolor": "white",
+        "clip_on": False,
+        "zorder": 3,
+    }
+    ax.plot(rates, np.full(rates.size, bound), shape, color=colour, label=label, **look)
 
 
 def _end_of_cycle(

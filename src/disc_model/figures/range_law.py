@@ -18,6 +18,9 @@ from disc_model.figures.words import MODES
 LOOKS = {"as_published": (BLUE, "o"), "orthonormal": (VERMILION, "^")}
 OTHER_LOOK = (BLACK, "s")  # of motions that are set apart, and of discs given by a table
 BAND = 5.0  # percent, deviation up to which a motion counts as one that follows the law
+CORNERS = ((1, 1), (0, 1), (1, 0), (0, 0))
+"""Of a panel, in which words may stand, best first."""
+CORNER = (0.45, 0.2)  # size of one, as shares of the panel
 ENLARGED = (-25.0, 35.0)  # percent, deviations in the panel over the time apart
 
 
@@ -116,9 +119,24 @@ def _draw_all(ax: Axes, motions: _Motions) -> None:
     inside = np.abs(excess) <= BAND
     lines = [f"within {BAND:g} % (grey):"]
     for word, chosen in (("filled", motions.single), ("hollow", ~motions.single)):
-        lines.append(f"{(inside & chosen).sum()} of {chosen.sum()} {word}")
+        if chosen.any():
+            lines.append(f"{(inside & chosen).sum()} of {chosen.sum()} {word}")
+    corner = _freest_corner(ax, pinned, excess)
+    offset = (3 - 6 * corner[0], 3 - 6 * corner[1])
     look = {"xycoords": "axes fraction", "fontsize": large(7)}
-    drawing.say(ax, "\n".join(lines), (1, 1), (-3, -3), **look)
+    drawing.say(ax, "\n".join(lines), corner, offset, **look)
+
+
+def _freest_corner(ax: Axes, x: Array, y: Array) -> tuple[int, int]:
+    """The corner of a panel in which fewest points lie, as shares of it; the upper right one of
+    several."""
+    places = ax.transAxes.inverted().transform(ax.transData.transform(np.column_stack([x, y])))
+
+    def points_in(corner: tuple[int, int]) -> int:
+        near = np.abs(places - corner) < CORNER
+        return int(near.all(axis=1).sum())
+
+    return min(CORNERS, key=points_in)
 
 
 def _draw_enlarged(ax: Axes, motions: _Motions) -> None:
@@ -151,17 +169,10 @@ def _explain(figure: Figure, motions: _Motions, share: float) -> None:
         label = MODES.get(name, name)
         look = {"color": colour, "marker": shape, "linestyle": "", "markersize": mark(4)}
         handles.append(drawing.sample(label=label, **look))
-    hollow = f"no frequency carries {100 * share:g} % of height and contact force"
-    handles.append(
-        drawing.sample(
-            color=GREY,
-            marker="o",
-            linestyle="",
-            markersize=mark(4),
-            markerfacecolor="white",
-            label=hollow,
-        )
-    )
+    if not motions.single.all():
+        text = f"no frequency carries {100 * share:g} % of height and contact force"
+        look = {"color": GREY, "marker": "o", "linestyle": "", "markersize": mark(4)}
+        handles.append(drawing.sample(markerfacecolor="white", label=text, **look))
     from_flights = "(b) from flights: (π · time apart)²/8"
     handles.append(drawing.sample(color=BLACK, linewidth=wide(0.8), label=from_flights))
     figure_legend(figure, handles, loc="outside lower center", columns=2)

@@ -46,7 +46,8 @@ def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     parts = parts_along(study, plot.by, plot.names)
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
     figure, above, below = _panels(plot, len(parts))
-    letters([*above, *below], titles_of(parts))
+    subjects = dict(zip(above, titles_of(parts), strict=True))
+    letters(figure.axes, [subjects.get(ax, "") for ax in figure.axes])  # as they are read
 
     # cells and lines
     growth = growth_panels(figure, below, planes)

@@ -37,6 +37,7 @@ from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
 from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
 from disc_model.figures.legends import keep_height
+from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, of, picked
 from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
@@ -138,7 +139,7 @@ def _of_cases(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Drawn:
         text = fill(f"not shown: the case {reason}", 24)
         ax.text(0.5, 0.5, text, ha="center", va="center", in_layout=False)
     values = json.loads(cases[0].attrs.get("parameters", "{}"))
-    return Drawn(figure, "", what_case(values))
+    return Drawn(figure, "", with_ramps(what_case(values), values, cases[0]))
 
 
 # ---- Figures of grid studies
@@ -148,7 +149,7 @@ def _of_grid(plot: Any, inputs: Mapping[str, xr.DataTree]) -> Drawn:
     """Draw a study, the first input, and further ones by their roles."""
     study, *others = (tree.to_dataset() for tree in inputs.values())
     compares_others = isinstance(plot, Compared) and plot.by != NORM
-    if compares_others or not plot.several:
+    if NORM not in plot.dims and (compares_others or not plot.several):
         norm = normalizations(study)[0]
         study, *others = (of(dataset, norm) for dataset in (study, *others))
     overlays = dict(zip([*inputs][1:], others, strict=True))

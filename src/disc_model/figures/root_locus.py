@@ -10,7 +10,7 @@ from cmcrameri import cm
 from disc_model.figures.drawing import BLACK, GREY, halo, large, letters, mark, row_of_panels, wide
 from disc_model.figures.kinds.motions import RootLocus
 from disc_model.figures.names import Names, named_modes
-from disc_model.figures.selection import parts_along, titles_of
+from disc_model.figures.selection import parts_along, titles_of, without_single
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import measured
 
@@ -26,7 +26,7 @@ def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     width = plot.inches
     figure, axes = row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
     for ax, part in zip(axes, parts, strict=True):
-        points = _draw_panel(ax, part.data.squeeze())
+        points = _draw_panel(ax, without_single(part.data, "value", "mode"))
         ax.label_outer()
     letters(axes, titles_of(parts))
     label = measured(parts[0].data["value"]).label
@@ -98,7 +98,7 @@ def _side_of_name(study: xr.Dataset, modes: np.ndarray, length: int) -> tuple[in
     growth rate beside which it does."""
     every = study["mode_growth_rate"]
     rates = every.isel(value=0).values
-    ahead = every.isel(value=1).values - rates
+    ahead = every.isel(value=slice(2)).isel(value=-1).values - rates
     if ahead[modes].mean() > 0:
         return -1, float(rates[modes].min())
     ring = float(rates[modes].max())

@@ -46,7 +46,12 @@ def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
     p = parameters_of(case) if isinstance(case, xr.DataTree) else case
     values = stated_values(p, *varied)
     said = what_case(values)
-    ramps = ramps_of(case) if isinstance(case, xr.DataTree) else []
+    return with_ramps(said, values, case) if isinstance(case, xr.DataTree) else said
+
+
+def with_ramps(said: str, values: Mapping[str, Any], case: xr.DataTree) -> str:
+    """What is said of a case by some values, with the course of those that its ramps change."""
+    ramps = ramps_of(case)
     for name in {ramp.parameter for ramp in ramps}:
         said = said.replace(what_case({name: values[name]}), _course(name, ramps))
     return said
@@ -66,6 +71,8 @@ class Course(NamedTuple):
 def ramps_of(case: xr.DataTree) -> list[Course]:
     """The ramps of a run, in the order in which they begin."""
     ramps = json.loads(case.attrs.get("ramps", "[]"))
+    if not ramps:
+        return []
     values = parameters_of(case).numbers
     courses = []
     for ramp in sorted(ramps, key=itemgetter("start")):

@@ -55,6 +55,12 @@ def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
     return study.sel(words).sel(numbers, method="nearest").squeeze()
 
 
+def without_single(study: xr.Dataset, *kept: str) -> xr.Dataset:
+    """A study without dimensions of one value, but those that are kept."""
+    single = [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
+    return study.squeeze(single)
+
+
 def normalizations(study: xr.Dataset) -> list[str]:
     """Normalizations for which a grid study has values."""
     if NORM in study.coords:

@@ -23,8 +23,8 @@ from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import SlidingModes
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, name_of, named_modes
-from disc_model.figures.selection import parts_along, stretches, titles_of
-from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.selection import parts_along, stretches, titles_of, without_single
+from disc_model.figures.types import Array, Axes, Figure, Indices
 from disc_model.figures.words import measured
 
 DECAYS = 0.8  # width of the line of a mode that decays, points,
@@ -32,9 +32,12 @@ GROWS = 2.4  # and of one that grows
 FREE = 0.25  # of the largest growth rate, room above a line that is enough for its name
 NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
 RATES_APART = 0.1  # of that of growth rates
+LINE = 0.13  # and height of a line of names beside it, both over the largest rate
 EDGE = 0.05  # of the width of the panel, beside its ends, where names stand on the inner side
 BESIDE = ((-4, 3), (4, 3), (-4, 0), (4, 0), (0, 10))
-"""Offsets in points of the name of a growing mode where it has no room above its line."""
+"""Offsets in points of the name of a growing mode where it has no room above its line,"""
+BELOW = ((-4, -4), (4, -4), (-4, -12))
+"""and of one that grows so fast that there may be room below."""
 HEADROOM = 1.25  # upper end of that axis over the largest rate, whose name stands above it
 LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
 
@@ -57,7 +60,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     figure, axes = panels(width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row")
     tops = axes[:count]
     bottoms = axes[count:]
-    columns = [part.data.squeeze() for part in parts]
+    columns = [without_single(part.data, "value", "mode") for part in parts]
     limits = [_limits(column) for column in columns]
     greatest = max(high for _, high in limits)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
@@ -66,7 +69,8 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     across = measured(columns[0]["value"])
     tops[0].set_ylabel("Frequency in the slider's frame (Hz)")
     tops[0].set_ylim((0, highest))
-    tops[0].set_xlim(across.values[0], across.values[-1])
+    if across.values.size > 1:
+        tops[0].set_xlim(across.values[0], across.values[-1])
     bottoms[0].set_ylabel("Growth rate (1/s)")
     bottoms[0].set_ylim(min(low for low, _ in limits), HEADROOM * greatest)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
@@ -157,7 +161,11 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
             elif across > 1 - EDGE:
                 side = -1
             place = (float(along[i]), float(line.rate[i]))
-            named.append((place, line.name, [(3 * side, 3), *BESIDE]))
+            offsets: list[tuple[float, float]] = [(3 * side, 3), *BESIDE]
+            if place[1] > FREE * largest:
+                offsets += BELOW
+            named.append((place, line.name, offsets))
+    thick.append(np.column_stack([along, np.zeros(len(along))]))  # the line at zero
     names = Names(bottom, lines=np.concatenate(thick))
     for place, name, offsets in sorted(named, reverse=True, key=lambda each: each[0][1]):
         names.add(name, place, offsets, fontsize=large(7), path_effects=halo())
@@ -190,9 +198,30 @@ def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:
     rates = last["mode_growth_rate"].values
     shown = (rates < -ROUNDING) & (rates > -greatest)
     decay = np.where(shown, rates, np.nan)
+    blocks: list[Indices] = []
     for part in named_modes(last["diameters"].values, decay, RATES_APART * greatest):
-        height = float(decay[part.modes].mean())
-        # below each other as their lines are, which one name for several would not tell
-        descending = part.modes[np.argsort(-decay[part.modes])]
-        names = [name_of(int(number)) for number in last["diameters"].values[descending]]
-        say_beside(ax, height, "\n".join(dict.fromkeys(names)), 3, fontsize=large(7), color=GREY)
+        modes = part.modes
+        # below the former ones, unless the lines of both would meet
+        while blocks and _meet(blocks[-1], modes, last["diameters"].values, decay, LINE * greatest):
+            modes = np.concatenate([blocks.pop(), modes])
+        blocks.append(modes)
+    for modes in blocks:
+        height = float(decay[modes].mean())
+        text = "\n".join(_names_downwards(modes, last["diameters"].values, decay))
+        say_beside(ax, height, text, 3, fontsize=large(7), color=GREY)
+
+
+def _names_downwards(modes: Indices, diameters: Array, rates: Array) -> list[str]:
+    """Names of modes below each other as their lines are, which one name for several would not
+    tell."""
+    descending = modes[np.argsort(-rates[modes])]
+    return [*dict.fromkeys(name_of(int(number)) for number in diameters[descending])]
+
+
+def _meet(lower: Indices, upper: Indices, diameters: Array, rates: Array, line: float) -> bool:
+    """Whether names of modes, each set in the middle of its growth rates, would lie on each other.
+
+    line : height of a line of names, 1/s
+    """
+    lines = sum(len(_names_downwards(modes, diameters, rates)) for modes in (lower, upper))
+    return bool(rates[upper].mean() - rates[lower].mean() < 0.5 * lines * line)

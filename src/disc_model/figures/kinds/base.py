@@ -197,7 +197,7 @@ class Plot(Kind):
             shown = ", ".join(self.allowed)
             rule = f"can show {shown}, but not {', '.join(further)} as well"
             yield Fault.of(("kind",), self.kind, rule)
-        elif not self.several and len(values.get(NORM, ())) > 1:
+        elif not self.several and NORM not in self.dims and len(values.get(NORM, ())) > 1:
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
 
 
