@@ -12,6 +12,7 @@ from disc_model.data.variables import CycleStatus
 from disc_model.errors import ParameterError
 from disc_model.simulation.states import State
 from disc_model.stability.continuation import Branch, StepControl
+from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.return_map import ReturnMap
 from tests.blocks import RIG
 
@@ -612,3 +613,15 @@ def test_bounds_in_hertz_are_refused_with_the_reason() -> None:
     """The message was that they must be two ascending numbers."""
     with pytest.raises(ParameterError, match="Hz may mean turns or radians"):
         continue_cycle(FOLDED, "Omega", ("2.3 Hz", 16))
+
+
+@pytest.mark.parametrize(("name", "value"), [("contact_arc", 0.1), ("damping_ratio", 1e-4)])
+def test_a_branch_reaches_the_least_value_of_its_parameter(name: str, value: float) -> None:
+    """It ended above 0, where a difference of orbits on both sides needs a value below it."""
+    case = Parameters(N=385, Omega=14.9, n_diameters=1, **{name: value})
+    branch = continue_cycle(case, name, (0, 1.5 * value), values=[0], direction=-1)
+    assert f"the bound {value_text(name, 0.0)} was reached" in branch.ended
+    [last] = branch.at(0)
+    there = floquet(case.replace(**{name: 0}))
+    assert branch.period[last] == pytest.approx(there.period, rel=1e-9)
+    assert branch.growth_rate[last] == pytest.approx(there.growth_rate, abs=1e-6)
