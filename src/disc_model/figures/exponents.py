@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from disc_model.stability.lyapunov import Lyapunov
 
 EXPONENT = "Lyapunov exponent (1/s)"
+APART = 0.1  # distance between marks of several cases, in numbers of exponents
 
 
 def plot_exponents(
@@ -53,7 +54,9 @@ def plot_exponents(
         panels = [_marks(lyapunov)]
         axes = page.ax
         if not is_alone(page, overlaid):
-            stand_beside(page, overlaid, panels)
+            look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
+            filled = sample(label="filled: converged", color=GREY, **look)
+            stand_beside(page, overlaid, panels, [filled])
             axes.set_xticks(np.arange(1, axes.get_xlim()[1]))
             return axes
         for mask, face, word in (
@@ -95,15 +98,16 @@ def _marks(lyapunov: Lyapunov) -> Lines:
 
     def draw(ax: Axes, style: Style) -> Artist:
         look = style.marks(4)
+        places = number + APART * style.place
         bars: dict[str, Any] = {"fmt": "none", "ecolor": style.look.colour, "capsize": mark(3)}
-        ax.errorbar(number, exponents, errors, linewidth=wide(0.8), **bars)
-        ax.plot(number, exponents, **look)
+        ax.errorbar(places, exponents, errors, linewidth=wide(0.8), **bars)
+        ax.plot(places, exponents, **look)
         filled = {**look, "markerfacecolor": style.look.colour}
-        ax.plot(number[converged], exponents[converged], **filled)
+        ax.plot(places[converged], exponents[converged], **filled)
         ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
         ax.set_xlabel("Number")
         ax.set_ylabel(EXPONENT)
-        return sample(**filled)
+        return sample(**look)
 
     ends = np.concatenate([exponents - errors, exponents + errors, [0.0]])
     return Lines(draw, ((0.5, len(finite) + 0.5), limits_of(ends, 0.05)))

@@ -149,9 +149,12 @@ def stand_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:
         _PANELS[ax] = [Panel(case, lines, [ref(artist) for artist in drawn])]
 
 
-def stand_beside(page: Page, case: Case, panels: Sequence[Lines]) -> None:
+def stand_beside(
+    page: Page, case: Case, panels: Sequence[Lines], common: Sequence[Artist] = ()
+) -> None:
     """Draw a case beside those that its axes have, a look each, within limits that hold all. The
-    legend names them by what differs between them, or as the reader does."""
+    legend names them by what differs between them, or as the reader does, before entries that are
+    common to all."""
     former = [_panels_on(ax, case.kind) for ax in page.axes]
     places = [panel.case.place for row in former for panel in row]
     case.place = 1 + max(places, default=-1)
@@ -162,7 +165,8 @@ def stand_beside(page: Page, case: Case, panels: Sequence[Lines]) -> None:
         entries = entries or handles
         _PANELS[ax] = family
 
-    _explain(page, families[0], entries)
+    _name(families[0], entries)
+    _explain(page, families[0], [*entries, *common])
 
 
 def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
@@ -199,16 +203,20 @@ def _in_a_row(text: str) -> str:
     return without_font(text).replace("\n", " ")
 
 
+def _name(panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
+    """Name the entries of cases in the legend."""
+    names = names_of([panel.shown for panel in panels], NAME)
+    for entry, name in zip(entries, names, strict=True):
+        entry.set_label(name)
+
+
 def _explain(page: Page, panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
     """Set the entries of the legend, and let the title say what all cases have in common."""
     family = [panel.shown for panel in panels]
     replaced = {str(handle.get_label()) for each in family for handle in each.looks}
     replaced |= {*names_of(family[:-1], NAME)} if family[:-1] else set()
-    names = names_of(family, NAME)
-    for entry, name in zip(entries, names, strict=True):
-        entry.set_label(name)
     page.joins = True
-    page.replaced = replaced | {*names}
+    page.replaced = replaced | {str(entry.get_label()) for entry in entries}
     page.explain(entries)
     if len(family) > 1:
         retitle(page.figure, family, panels[0].case.title)
