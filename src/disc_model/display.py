@@ -83,7 +83,8 @@ class Drawn:
         returns the axes.
 
         `ax`, `legend`, `labels` and `title` are as in `Result.plot`. Several cases of `floquet`,
-        `steady_sliding` or `lyapunov_exponents` on the same axes have marks and a name each. Raises
+        `steady_sliding`, `lyapunov_exponents` or `neutral_curves` on the same axes have a look and
+        a name each. Raises
         `ParameterError` if one of them cannot be understood, or there is nothing to draw, and
         `CycleError` without a cycle.
 

@@ -139,3 +139,16 @@ def test_runs_are_told_apart_by_their_ramps() -> None:
     assert legend_texts(ax) == ["Ω = 15 to 16 rad/s", "Ω = 15 to 17 rad/s"]  # type: ignore[arg-type]
     assert ax.figure.get_suptitle().startswith("N = 385 N")  # type: ignore[attr-defined]
     assert "15 to" not in ax.figure.get_suptitle()  # type: ignore[attr-defined]
+
+
+def test_curves_of_several_cases_are_told_apart() -> None:
+    """Both were black, and those of the second case covered names of the first."""
+    bounds = {"Omega": (14.0, 15.5), "k_p": (1.9e4, 2.1e4)}
+    ax = None
+    for load in (385.0, 380.0):
+        curves = dm.neutral_curves(dm.Parameters(N=load, Omega=15), bounds, [2e4], points=5)
+        ax = curves.plot(ax=ax)
+    texts = legend_texts(ax)  # type: ignore[arg-type]
+    assert texts[:2] == ["N = 385 N", "N = 380 N"]
+    assert "cycle loses stability" in texts
+    assert {"#000000", "#009e73"} <= {to_hex(line.get_color()) for line in ax.lines}  # type: ignore[attr-defined]
