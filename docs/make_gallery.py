@@ -147,21 +147,21 @@ def draw_first_study() -> None:
     axes.figure.savefig(GALLERY / "my_growth.png", dpi=120)
 
 
-def figure_of_page(page: Path) -> Figure:
-    """Return the figure that the examples of a page draw, without the files that they write."""
+def names_of_page(page: Path) -> dict[str, Any]:
+    """Return what the examples of a page name, without the files that they write."""
     examples = DocTestParser().get_examples(page.read_text(encoding="utf-8"))
     source = "".join(example.source for example in examples)
     names: dict[str, Any] = {}
     with TemporaryDirectory() as folder, chdir(folder):
         exec(compile(source, page.name, "exec"), names)
-    figure: Figure = names["figure"]
-    return figure
+    return names
 
 
 def draw_own_figure() -> None:
-    """Draw the picture of the page on figures for a paper."""
-    figure = figure_of_page(DOCS / "howto" / "figures.md")
-    figure.savefig(GALLERY / "own_figure.png", dpi=120)
+    """Draw the pictures of the page on figures for a paper."""
+    names = names_of_page(DOCS / "howto" / "figures.md")
+    names["figure"].savefig(GALLERY / "own_figure.png", dpi=120)
+    names["panel"].figure.savefig(GALLERY / "two_runs.png", dpi=120)
 
 
 # ---- The page

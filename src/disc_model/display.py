@@ -82,8 +82,11 @@ class Drawn:
         """Draw the picture that the class describes, on axes of matplotlib or in a new figure;
         returns the axes.
 
-        `ax`, `legend`, `labels` and `title` are as in `Result.plot`. Raises `ParameterError` if one
-        of them cannot be understood, or there is nothing to draw, and `CycleError` without a cycle.
+        `ax`, `legend`, `labels` and `title` are as in `Result.plot`. Several cases of `floquet`,
+        `steady_sliding`, `lyapunov_exponents` or `neutral_curves` on the same axes have a look and
+        a name each. Raises
+        `ParameterError` if one of them cannot be understood, or there is nothing to draw, and
+        `CycleError` without a cycle.
 
         Examples
         --------

@@ -40,6 +40,9 @@ def plot(
     """Draw variables against time: the range in the whole run, and its last cycles over stick
     and separation.
 
+    Runs on the same axes have a look and a name in the legend each, and neither shades of phases and ramps nor
+    marks of first separations, which are those of one run.
+
     Parameters
     ----------
     windows : names of recorded windows, to draw these instead, a column each
@@ -50,7 +53,7 @@ def plot(
         or unit of a picture of this package are refused; labels that you have set yourself stay
     legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
     labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
-        the usual ones
+        the usual ones; by "case" the name of the run among several, otherwise what differs between them
     title : another title; "" for none
 
     Returns
@@ -90,8 +93,8 @@ def plot_phase_portrait(
     labels: Mapping[str, str] | None = None,
     title: str | None = None,
 ) -> Axes:
-    """Draw one variable over another, coloured by phase; of the last cycles if no window is
-    named.
+    """Draw one variable over another, coloured by phase, or by run if there are several on the same
+    axes; of the last cycles if no window is named.
 
     `ax`, `legend`, `labels` and `title` are as in `plot`. Returns the axes. Raises
     `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
@@ -127,7 +130,7 @@ def plot_spectrum(
 
     Up to five lines have their frequency beside the peak, or above it with a line to the peak: the
     strongest, and of the next four those that find room beside the names of stronger ones. A weaker
-    line has none.
+    line has none, nor has any of several spectra on the same axes, which have a colour and a width each.
 
     Without a named window it is that of the last 8 s, or of the second half of a shorter run,
     with 16 samples in a period of the highest mode. What vibrates faster than half a window's
@@ -170,6 +173,7 @@ def plot_poincare(
 ) -> NDArray[Any]:
     """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
     which it returns; of a `Poincare` that was recorded, or of the whole run if none is named.
+    Marks tell stages of the run apart, or runs if there are several on the same axes.
 
     `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` if the window was not
     recorded as a `Poincare` or has no sample, and unless `ax` is two axes.

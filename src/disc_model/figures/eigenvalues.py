@@ -8,16 +8,39 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, BLUE, COLUMN, GREY, SEPARATED, large, mark, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    COLUMN,
+    GREY,
+    SEPARATED,
+    large,
+    mark,
+    sample,
+    wide,
+)
+from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.runs import stated
-from disc_model.figures.types import Axes
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    limits_of,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.types import Array, Artist, Axes
 from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:
     from disc_model.stability.sliding import SteadySliding
 
+RATE = "Growth rate (1/s)"
+FREQUENCY = "Frequency (Hz)"
 BESIDE = ((4, 0), (4, 5), (4, -5), (-4, 0))  # points, of the names beside their marks
 ROOM = 1.25  # end of the axis of growth rates over the greatest
 
@@ -41,9 +64,17 @@ def plot_eigenvalues(
     grows = np.isin(values, sliding.growing)
     rests = np.isin(values, sliding.neutral)
     case = "" if sliding.parameters is None else stated(sliding.parameters)
+    name, labels = name_of_case(labels)
+    note = head_text(COLUMN, "", sliding.message)
+    known = {} if sliding.parameters is None else stated_values(sliding.parameters)
+    overlaid = Case("eigenvalues", Shown(name, known, 0, [], []), case, (note,))
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
-        page.show(Quantities("Growth rate (1/s)", "Frequency (Hz)"))
+        page.show(Quantities(RATE, FREQUENCY))
+        panels = [_marks(rate, frequency)]
         axes = page.ax
+        if not is_alone(page, overlaid):
+            stand_beside(page, overlaid, panels)
+            return axes
         axes.axvline(0, color=BLACK, linewidth=wide(0.6))
         for mask, shape, colour, name in (
             (~grows & ~rests, "o", BLUE, "decays"),
@@ -58,11 +89,27 @@ def plot_eigenvalues(
         for x, y in sorted(zip(rate[grows], frequency[grows], strict=True), reverse=True):
             names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
         span = max(map(abs, axes.get_xlim())) * ROOM
-        axes.set_xlabel("Growth rate (1/s)")
-        axes.set_ylabel("Frequency (Hz)")
+        axes.set_xlabel(RATE)
+        axes.set_ylabel(FREQUENCY)
         axes.set_xlim((-span, span))
         axes.set_ylim(bottom=0)
         axes.margins(y=0.08)
         page.explain(axes.get_legend_handles_labels()[0])
-        page.note = head_text(COLUMN, "", sliding.message)
+        stand_alone(page, overlaid, panels)
+        page.note = note
     return page.ax
+
+
+def _marks(rate: Array, frequency: Array) -> Lines:
+    """How eigenvalues are drawn beside others: in marks of one kind, whether they decay or grow,
+    which the axis tells."""
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        ax.axvline(0, color=BLACK, linewidth=wide(0.6))
+        ax.plot(rate, frequency, **style.marks(4))
+        ax.set_xlabel(RATE)
+        ax.set_ylabel(FREQUENCY)
+        return sample(**style.marks(4))
+
+    span = ROOM * float(np.abs(rate).max())
+    return Lines(draw, ((-span, span), (0.0, limits_of(frequency, 0.08)[1])))

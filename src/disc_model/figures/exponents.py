@@ -8,13 +8,27 @@ import numpy as np
 
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, wide
+from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, sample, wide
+from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.runs import stated
-from disc_model.figures.types import Axes
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    limits_of,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.types import Artist, Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.lyapunov import Lyapunov
+
+EXPONENT = "Lyapunov exponent (1/s)"
+APART = 0.1  # distance between marks of several cases, in numbers of exponents
 
 
 def plot_exponents(
@@ -30,10 +44,22 @@ def plot_exponents(
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite = np.isfinite(lyapunov.exponents)
     case = "" if lyapunov.parameters is None else stated(lyapunov.parameters)
+    known = {} if lyapunov.parameters is None else stated_values(lyapunov.parameters)
+    name, labels = name_of_case(labels)
+    lost = counted(lyapunov.separations, "separation")
+    note = f"over {lyapunov.duration:g} s, {lost}"
+    overlaid = Case("exponents", Shown(name, known, 0, [], []), case, (note,))
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=case) as page:
-        page.show(Quantities("Number", "Lyapunov exponent (1/s)"))
+        page.show(Quantities("Number", EXPONENT))
+        panels = [_marks(lyapunov)]
         axes = page.ax
-        for mask, face, name in (
+        if not is_alone(page, overlaid):
+            look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
+            filled = sample(label="filled: converged", color=GREY, **look)
+            stand_beside(page, overlaid, panels, [filled])
+            axes.set_xticks(np.arange(1, axes.get_xlim()[1]))
+            return axes
+        for mask, face, word in (
             (lyapunov.converged & finite, BLUE, "converged"),
             (~lyapunov.converged & finite, "white", "not converged"),
         ):
@@ -49,14 +75,39 @@ def plot_exponents(
                 markerfacecolor=face,
                 capsize=mark(3),
                 linewidth=wide(0.8),
-                label=name,
+                label=word,
             )
         axes.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
         axes.set_xlabel("Number")
-        axes.set_ylabel("Lyapunov exponent (1/s)")
+        axes.set_ylabel(EXPONENT)
         axes.set_xticks(number)
         axes.set_xlim((0.5, number[-1] + 0.5))
-        lost = counted(lyapunov.separations, "separation")
-        page.note = f"over {lyapunov.duration:g} s, {lost}"
+        page.note = note
         page.explain(axes.get_legend_handles_labels()[0])
+        stand_alone(page, overlaid, panels)
     return page.ax
+
+
+def _marks(lyapunov: Lyapunov) -> Lines:
+    """How exponents are drawn beside others: with their errors, those that have converged filled."""
+    finite = np.isfinite(lyapunov.exponents)
+    number = np.arange(1, len(finite) + 1)[finite]
+    exponents = lyapunov.exponents[finite]
+    errors = lyapunov.errors[finite]
+    converged = lyapunov.converged[finite]
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        look = style.marks(4)
+        places = number + APART * style.place
+        bars: dict[str, Any] = {"fmt": "none", "ecolor": style.look.colour, "capsize": mark(3)}
+        ax.errorbar(places, exponents, errors, linewidth=wide(0.8), **bars)
+        ax.plot(places, exponents, **look)
+        filled = {**look, "markerfacecolor": style.look.colour}
+        ax.plot(places[converged], exponents[converged], **filled)
+        ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+        ax.set_xlabel("Number")
+        ax.set_ylabel(EXPONENT)
+        return sample(**look)
+
+    ends = np.concatenate([exponents - errors, exponents + errors, [0.0]])
+    return Lines(draw, ((0.5, len(finite) + 0.5), limits_of(ends, 0.05)))

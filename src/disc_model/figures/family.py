@@ -160,10 +160,17 @@ def _what_differs(branch: Shown, family: Sequence[Shown]) -> str:
     return ", ".join(filter(None, said))
 
 
-def retitle(figure: Any, family: Sequence[Shown]) -> None:
-    """Let the title say what all branches have in common, unless the reader has given another."""
+def retitle(figure: Any, family: Sequence[Shown], first: str = "") -> None:
+    """Let the title say what all branches have in common, unless the reader has given another.
+
+    first : what it says of the first alone, if this is more than its values
+    """
     width = float(figure.get_size_inches()[0])
-    former = head_text(width, "", what_case(_common_values(family[:-1])), MOST_LINES)
+    before = family[:-1]
+    said = what_case(_common_values(before))
+    if first and len(before) == 1:
+        said = first
+    former = head_text(width, "", said, MOST_LINES)
     if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
         said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
         figure.suptitle(said, fontsize=large(8))

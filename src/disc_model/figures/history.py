@@ -10,13 +10,38 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.errors import require
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, letters, panels
+from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, letters, panels, sample
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.runs import TIME, ramps_of, sampled, show, spans_in, stated, window_of
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    limits_of,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import (
+    TIME,
+    end_of_ranges,
+    ramps_of,
+    sampled,
+    show,
+    spans_in,
+    stated,
+    told_apart,
+    window_of,
+)
 from disc_model.figures.shades import shade_phases, shade_ramps
 from disc_model.figures.types import Artist, Axes, Figure
+
+LINE = 0.8  # points, width of the lines of several runs,
+SAMPLE = 1.2  # and of those in the legend
+BAND = 0.2  # opacity of their ranges
+ROOM = 0.05  # free share of the values above and below them
 
 
 def draw(plot: History, case: xr.DataTree) -> Figure:
@@ -58,6 +83,7 @@ def plot_run(
     rows = len(variables)
     columns = len(windows)
     width = PAGE if columns > 1 else COLUMN
+    name, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
     height = 0.7 + 1.25 * rows
     with page_for(
@@ -71,14 +97,24 @@ def plot_run(
         sharey="row" if columns > 1 else False,
     ) as page:
         page.show(*_quantities(shown, variables))
-        entries: dict[str, Artist] = {}
+        apart = told_apart(case, name, window=f"window {windows[0]}")
+        overlaid = Case("run", apart, stated(case))
+        panels = [_lines(window, variable) for variable in variables for window in shown]
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
+        if not is_alone(page, overlaid):
+            stand_beside(page, overlaid, panels)
+            for column in grid.T:
+                _leave_to_last(column)
+                leave_to_first(column, grid[:, 0])
+            return grid.squeeze()[()]
+        entries: dict[str, Artist] = {}
         for column, window in zip(grid.T, shown, strict=True):
             handles = draw_history(column, case, window, variables)
             leave_to_first(column, grid[:, 0])
             handles += shade_ramps(column, ramps_of(case))
             entries |= {str(handle.get_label()): handle for handle in handles}
         page.explain([*entries.values()])
+        stand_alone(page, overlaid, panels)
         if page.own:
             page.figure.align_ylabels()
         else:
@@ -92,6 +128,20 @@ def _quantities(windows: Sequence[xr.Dataset], variables: Sequence[str]) -> list
     for name in variables:
         found += [Quantities(TIME, sampled(name, window)[0]) for window in windows]
     return found
+
+
+def _number_times(ax: Axes) -> None:
+    """Have few and whole numbers along the time."""
+    ax.locator_params(axis="x", nbins=6)
+    ax.ticklabel_format(axis="x", useOffset=False)
+
+
+def _leave_to_last(column: Sequence[Axes]) -> None:
+    """Leave the name and the numbers of the time to the last of the axes above each other."""
+    for ax in column:
+        if _stands_above(ax, column[-1]):
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
 
 
 def _stands_above(ax: Axes, other: Axes) -> bool:
@@ -110,6 +160,32 @@ def _share_heights(grid: Any) -> None:
             ax.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
+def _lines(window: xr.Dataset, name: str) -> Lines:
+    """How a variable in a window is drawn beside those of other runs: as a line, or as a band that
+    these show through, with edges in the look of the run."""
+    label, factor, _ = sampled(name, window)
+    time = window["time"].values
+    ranges = f"{name}_min" in window
+    ends = [f"{name}_min", f"{name}_max"] if ranges else [name, name]
+    low, high = (window[end].values * factor for end in ends)
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        line = style.look.line(LINE)
+        if ranges:
+            ax.fill_between(time, low, high, color=style.look.colour, alpha=BAND, linewidth=0)
+            ax.plot(time, low, **line)
+        ax.plot(time, high, **line)
+        ax.set_xlabel(TIME)
+        ax.set_ylabel(label)
+        _number_times(ax)
+        return sample(**style.look.line(SAMPLE))
+
+    across = (0.0, end_of_ranges(time)) if ranges else (float(time[0]), float(time[-1]))
+    return Lines(
+        draw, (across, limits_of(np.concatenate([low, high]), ROOM)), label.rpartition(" (")[0]
+    )
+
+
 def draw_history(
     axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]
 ) -> list[Artist]:
@@ -117,10 +193,7 @@ def draw_history(
     of a legend."""
     for ax, name in zip(axes, variables, strict=True):
         show(ax, case, window, name, named=ax is axes[0])
-        if _stands_above(ax, axes[-1]):
-            ax.set_xlabel("")
-            ax.tick_params(labelbottom=False)
-    axes[-1].locator_params(axis="x", nbins=6)
-    axes[-1].ticklabel_format(axis="x", useOffset=False)
+    _leave_to_last(axes)
+    _number_times(axes[-1])
 
     return shade_phases(axes, spans_in(case, window))

@@ -7,13 +7,26 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, wide
+from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, sample, wide
+from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.runs import stated
-from disc_model.figures.types import Axes
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    limits_of,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.types import Artist, Axes, ComplexArray
 
 if TYPE_CHECKING:
     from disc_model.stability.cycle import FloquetResult
+
+ROOM = 0.12  # free share of the multipliers and the circle on both sides of them
 
 
 def plot_multipliers(
@@ -26,15 +39,21 @@ def plot_multipliers(
 ) -> Axes:
     """Draw multipliers and the unit circle; raises `CycleError` without a cycle."""
     values = cycle.raise_for_status().multipliers
-    angle = np.linspace(0, 2 * np.pi, 200)
     outside = np.abs(values) > 1
+    name, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
-    with page_for(wishes, COLUMN, 3.2, title=stated(cycle.parameters)) as page:
+    case = stated(cycle.parameters)
+    note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
+    known = stated_values(cycle.parameters)
+    overlaid = Case("multipliers", Shown(name, known, 0, [], []), case, (note,))
+    with page_for(wishes, COLUMN, 3.2, title=case) as page:
         page.show(Quantities("Re κ", "Im κ"))
+        panels = [_marks(values)]
         axes = page.ax
-        axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=wide(0.8))
-        axes.axhline(0, color=GREY, linewidth=wide(0.4), zorder=0)
-        axes.axvline(0, color=GREY, linewidth=wide(0.4), zorder=0)
+        if not is_alone(page, overlaid):
+            stand_beside(page, overlaid, panels)
+            return axes
+        _draw_plane(axes)
         for mask, shape, colour, name in (
             (~outside, "o", BLUE, "decays"),
             (outside, "D", SEPARATED, "grows"),
@@ -44,15 +63,38 @@ def plot_multipliers(
                 axes.plot(
                     shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name
                 )
-        axes.set_xlabel("Re κ")
-        axes.set_ylabel("Im κ")
-        axes.set_aspect("equal")
-        axes.margins(0.12)
-        page.note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
+        axes.margins(ROOM)
+        page.note = note
         # not in the panel, where multipliers may lie anywhere
         largest = f"largest |κ| = {abs(values[0]):.5g}"
         page.explain(axes.get_legend_handles_labels()[0], title=largest)
+        stand_alone(page, overlaid, panels)
     return page.ax
+
+
+def _draw_plane(axes: Axes) -> None:
+    """Draw the unit circle and both axes of the complex plane, and name them."""
+    angle = np.linspace(0, 2 * np.pi, 200)
+    axes.plot(np.cos(angle), np.sin(angle), color=GREY, linewidth=wide(0.8))
+    axes.axhline(0, color=GREY, linewidth=wide(0.4), zorder=0)
+    axes.axvline(0, color=GREY, linewidth=wide(0.4), zorder=0)
+    axes.set_xlabel("Re κ")
+    axes.set_ylabel("Im κ")
+    axes.set_aspect("equal")
+
+
+def _marks(values: ComplexArray) -> Lines:
+    """How multipliers are drawn beside others: in marks of one kind, whether they decay or grow,
+    which the circle tells."""
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        _draw_plane(ax)
+        ax.plot(values.real, values.imag, **style.marks(4))
+        return sample(**style.marks(4))
+
+    across = limits_of(np.append(values.real, [-1, 1]), ROOM)
+    upward = limits_of(np.append(values.imag, [-1, 1]), ROOM)
+    return Lines(draw, (across, upward))
 
 
 def _stability(cycle: FloquetResult) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,17 +12,29 @@ from disc_model.data.variables import axis_of, typeset
 from disc_model.errors import require
 from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, halo, large, sample, wide
+from disc_model.figures.drawing import BLACK, COLUMN, GREY, SEPARATED, halo, large, sample, wide
+from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.runs import stated
-from disc_model.figures.types import Array, Axes
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.types import Array, Artist, Axes
 
 if TYPE_CHECKING:
     from disc_model.stability.curves import NeutralCurves, StabilityCurve
 
 KINDS = {"neutral": (BLACK, "cycle loses stability"), "fold": (SEPARATED, "cycle ends in a fold")}
 """Colours and names of the curves."""
+DASHES: dict[str, tuple[float, ...]] = {"neutral": (), "fold": (3, 1.5)}
+"""Dashes of the curves where colours tell cases apart."""
 UNSTABLE_BESIDE = "thin: unstable cycles on both sides"
 APART = (0.1, 0.2, 0.3, 0.4)
 """Shares of a curve from its middle at which its name may stand, too,"""
@@ -45,14 +58,22 @@ def plot_neutral_curves(
     factors = np.array([in_x, in_y])
     low, high = np.transpose([*curves.bounds.values()]) * factors
     case = stated(curves.parameters, *curves.bounds)
+    name, labels = name_of_case(labels)
+    known = stated_values(curves.parameters, *curves.bounds)
+    overlaid = Case("neutral curves", Shown(name, known, 0, [], []), case)
+    lines = [curve.values * factors for curve in curves]
+    limits = ((low[0], high[0]), (low[1], high[1]))
+    panels = [Lines(partial(_draw_beside, curves.curves, lines, (across, up)), limits)]
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
         page.show(Quantities(across, up))
         axes = page.ax
+        if not is_alone(page, overlaid):
+            stand_beside(page, overlaid, panels, _kinds_beside())
+            return axes
         axes.set_xlabel(across)
         axes.set_ylabel(up)
         axes.set_xlim((low[0], high[0]))
         axes.set_ylim((low[1], high[1]))
-        lines = [curve.values * factors for curve in curves]
         for curve, line in zip(curves, lines, strict=True):
             colour, _ = KINDS[curve.kind]
             stable = between(curve.adjoins_stable_cycle)
@@ -67,7 +88,35 @@ def plot_neutral_curves(
         if not all(curve.adjoins_stable_cycle.all() for curve in curves):
             handles.append(sample(color=BLACK, linewidth=wide(THIN), label=UNSTABLE_BESIDE))
         page.explain(handles)
+        stand_alone(page, overlaid, panels)
     return page.ax
+
+
+def _draw_beside(
+    curves: Sequence[StabilityCurve],
+    lines: Sequence[Array],
+    labels: tuple[str, str],
+    ax: Axes,
+    style: Style,
+) -> Artist:
+    """Draw curves beside those of other cases: in one colour, folds dashed; returns the entry of a
+    legend."""
+    colour = style.look.colour
+    for curve, line in zip(curves, lines, strict=True):
+        stable = between(curve.adjoins_stable_cycle)
+        draw_branch(ax, line[:, 0], line[:, 1], stable, Look(colour, DASHES[curve.kind]))
+    ax.set_xlabel(labels[0])
+    ax.set_ylabel(labels[1])
+    return sample(color=colour, linewidth=wide(STABLE))
+
+
+def _kinds_beside() -> list[Artist]:
+    """Entries of a legend for the kinds of curves of several cases."""
+    handles = []
+    for kind, (_, text) in KINDS.items():
+        look = Look(GREY, DASHES[kind])
+        handles.append(sample(label=text, **look.line(STABLE)))
+    return [*handles, sample(color=GREY, linewidth=wide(THIN), label=UNSTABLE_BESIDE)]
 
 
 def _name_curves(ax: Axes, curves: Sequence[StabilityCurve], lines: Sequence[Array]) -> None:

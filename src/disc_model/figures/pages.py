@@ -119,6 +119,14 @@ class Page:
         for ax, labels in zip(self.axes, self._labelled, strict=True):
             ax.set(**{f"{along}label": words for along, words in labels.items()})
 
+    def added(self) -> list[list[Artist]]:
+        """What the picture has drawn so far in each panel."""
+        found = []
+        for ax, before in zip(self.axes, self._before, strict=True):
+            known = {id(artist) for artist in before}
+            found.append([artist for artist in ax.get_children() if id(artist) not in known])
+        return found
+
     def remember(self) -> None:
         """Remember what the panels show, for further pictures on them."""
         for ax, shown, before, labelled in zip(
@@ -173,16 +181,18 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
         handle.set_label(labels.get(usual, usual))
 
 
-def _joined(ax: Axes, handles: Sequence[Artist], replaced: Collection[str]) -> list[Artist]:
+def _joined(
+    axes: Sequence[Axes], handles: Sequence[Artist], replaced: Collection[str]
+) -> list[Artist]:
     """The entries of the legend that axes have, or that their figure has of them alone, but some
     that are replaced, and others whose words are not among these; the legend is removed."""
-    figure: Any = ax.get_figure()
-    former: list[Any] = []
-    own = ax.get_legend()
-    if own is not None:
-        former.append(own)
-    if figure.axes == [ax]:
+    figure: Any = axes[0].get_figure()
+    former: list[Any] = [*filter(None, (ax.get_legend() for ax in axes))]
+    if set(figure.axes) <= set(axes):
         former += figure.legends
+    elif figure.get_gid() == OWN:  # other panels have the entries too
+        former += figure.legends
+        replaced = ()
     entries: dict[str, Artist] = {}
     for legend in former:
         for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
@@ -204,7 +214,7 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if not page.handles or legend is False:
         return
     if page.joins and not page.own:
-        page.handles = _joined(page.ax, page.handles, page.replaced)
+        page.handles = _joined(page.axes, page.handles, page.replaced)
     if isinstance(legend, Mapping):
         try:
             page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})

@@ -11,11 +11,29 @@ from numpy.typing import NDArray
 from disc_model.data import dataset
 from disc_model.data.variables import values_text
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, letters, new_figure
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    PAGE,
+    SEPARATED,
+    SKY,
+    letters,
+    new_figure,
+    sample,
+)
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.runs import sampled, show_thickness, stated
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import sampled, show_thickness, stated, told_apart
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
 from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 
@@ -74,12 +92,37 @@ def plot_poincare(
     title: str | None = None,
 ) -> NDArray[Any]:
     """Draw the sections of a run in a window on two axes, which are returned."""
+    called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
     with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case)) as page:
         samples = dataset.group(case, name)
         page.show(*_quantities(samples))
-        page.explain(draw_sections(page.axes, case, samples))
+        fate = stages_of(case, samples).fate
+        apart = told_apart(case, called, window=f"window {name}")
+        overlaid = Case("sections", apart, stated(case), (fate,))
+        panels = [_points(samples, of) for of in SECTIONS]
+        if is_alone(page, overlaid):
+            page.explain(draw_sections(page.axes, case, samples))
+            stand_alone(page, overlaid, panels)
+        else:
+            stand_beside(page, overlaid, panels)
     return np.array(page.axes)
+
+
+def _points(samples: xr.Dataset, name: str) -> Lines:
+    """How a section is drawn beside others: in marks of one kind, whatever the stage."""
+    x = _axis(name, samples, ())
+    y = _axis(f"{name}_velocity", samples, ())
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        look = style.marks(2.5)
+        many = x.values.size > MANY
+        ax.plot(x.values, y.values, rasterized=many, markeredgewidth=0.5, **look)
+        ax.set_xlabel(x.label)
+        ax.set_ylabel(y.label)
+        return sample(**style.marks(4))
+
+    return Lines(draw, ((x.low, x.high), (y.low, y.high)))
 
 
 def _quantities(samples: xr.Dataset) -> list[Quantities]:

@@ -12,7 +12,17 @@ from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, panel
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.runs import sampled, stated, window_of
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    limits_of,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import sampled, stated, told_apart, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
 LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}
@@ -23,6 +33,9 @@ EDGED = "stick"
 """The phase whose line has a black edge,"""
 EDGE = 0.4
 """and the width of this edge, points."""
+
+ROOM = 0.04
+"""Free share of the values on both sides of them."""
 
 
 def draw(plot: Portrait, case: xr.DataTree) -> Figure:
@@ -46,10 +59,33 @@ def plot_phase_portrait(
 ) -> Axes:
     """Draw a portrait of a run; returns the axes."""
     samples = window_of(case, window, ("x", x), ("y", y), samples=True)
+    name, labels = name_of_case(labels)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=stated(case)) as page:
-        page.show(Quantities(*(sampled(name, samples)[0] for name in (x, y))))
-        page.explain(draw_portrait(page.ax, samples, x, y))
+        page.show(Quantities(*(sampled(each, samples)[0] for each in (x, y))))
+        overlaid = Case("portrait", told_apart(case, name, window=f"window {window}"), stated(case))
+        panels = [_lines(samples, x, y)]
+        if is_alone(page, overlaid):
+            page.explain(draw_portrait(page.ax, samples, x, y))
+            stand_alone(page, overlaid, panels)
+        else:
+            stand_beside(page, overlaid, panels)
     return page.ax
+
+
+def _lines(samples: xr.Dataset, x: str, y: str) -> Lines:
+    """How a portrait is drawn beside others: as a line in one look, whatever the phase."""
+    across, in_x, _ = sampled(x, samples)
+    up, in_y, _ = sampled(y, samples)
+    values = (samples[x].values * in_x, samples[y].values * in_y)
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        ax.plot(*values, rasterized=True, **style.layered())
+        ax.set_xlabel(across)
+        ax.set_ylabel(up)
+        return sample(**style.layered())
+
+    across_limits, upward_limits = (limits_of(each, ROOM) for each in values)
+    return Lines(draw, (across_limits, upward_limits))
 
 
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
@@ -71,7 +107,7 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
             look["path_effects"] = halo(width + 2 * wide(EDGE), BLACK)
         ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
         handles.append(sample(linewidth=width + 0.5, **look))
-    ax.margins(0.04)
+    ax.margins(ROOM)
     ax.set_xlabel(across)
     ax.set_ylabel(up)
     return handles

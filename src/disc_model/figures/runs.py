@@ -15,7 +15,8 @@ from disc_model.data.variables import PHASES, SHOWN, axis_of, flag_names
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
-from disc_model.figures.types import Axes
+from disc_model.figures.family import Shown
+from disc_model.figures.types import Array, Axes
 from disc_model.figures.words import what_case
 from disc_model.parameters import Parameters
 
@@ -39,6 +40,14 @@ def stated_values(p: Parameters, *varied: str) -> dict[str, Any]:
     # what varies has the value of a number, so that the ratio of another is kept
     values = p.replace(**{name: p.numbers[name] for name in varied}).stated
     return {name: value for name, value in values.items() if name not in varied}
+
+
+def told_apart(case: xr.DataTree, name: str, **further: str) -> Shown:
+    """What tells a run from others on the same axes: the name that a reader gives it, or its values
+    and further words; a parameter that ramps change has its course for a value."""
+    ramps = ramps_of(case)
+    courses = {ramp.parameter: _course(ramp.parameter, ramps) for ramp in ramps}
+    return Shown(name, {**further, **stated_values(parameters_of(case)), **courses}, 0, [], [])
 
 
 def stated(case: Parameters | xr.DataTree, *varied: str) -> str:
@@ -198,8 +207,13 @@ def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: st
     _, factor, usual_colour = sampled(name)
     low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
     ax.fill_between(time, low, high, color=color or usual_colour, linewidth=0.5, label=label)
+    ax.set_xlim(0, end_of_ranges(time))
+
+
+def end_of_ranges(time: Array) -> float:
+    """Where the last of the ranges ends whose middles these times are, s."""
     bin_width = time[-1] - time[-2]
-    ax.set_xlim(0, round(time[-1] + bin_width / 2, 2))
+    return float(round(time[-1] + bin_width / 2, 2))
 
 
 def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:

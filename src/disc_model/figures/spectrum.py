@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import xarray as xr
 
@@ -11,12 +11,22 @@ from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, large, panels, wide
+from disc_model.figures.drawing import COLUMN, large, panels, sample, wide
 from disc_model.figures.kinds.cases import Spectrum
+from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.runs import sampled, span_of, stated, window_of
-from disc_model.figures.types import Axes, Figure
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    is_alone,
+    name_of_case,
+    stand_alone,
+    stand_beside,
+)
+from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
+from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.units import is_number
 
 FREQUENCY = "Frequency (Hz)"
@@ -58,11 +68,23 @@ def plot_spectrum(
     require((known, "highest", highest, "must be a number > 0, in Hz"))
     samples = window_of(case, window, ("variable", variable), samples=True)
     _check_range(samples, highest)
+    name, labels = name_of_case(labels)
     try:
         wishes = Wishes(ax, legend, labels, title)
         with page_for(wishes, COLUMN, 2.6, title=stated(case)) as page:
             page.show(Quantities(FREQUENCY, _amplitude(samples, variable)))
-            draw_spectrum(page.ax, samples, variable, highest)
+            apart = told_apart(case, name, window=f"window {window}")
+            overlaid = Case("spectrum", apart, stated(case))
+            if is_alone(page, overlaid):
+                found = draw_spectrum(page.ax, samples, variable, highest)
+                stand_alone(page, overlaid, [_beside(page.ax, samples, variable, found)])
+            else:
+                former = words_of(page.ax.xaxis.label)
+                found = amplitudes(samples, variable, highest)
+                lines_of = _beside(page.ax, samples, variable, found)
+                stand_beside(page, overlaid, [lines_of])
+                if words_of(page.ax.xaxis.label) != former:  # resolutions differ
+                    page.ax.set_xlabel(FREQUENCY)
     except Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return page.ax
@@ -90,11 +112,34 @@ def _check_range(samples: xr.Dataset, highest: float | None) -> None:
     require((within, "highest", highest, rule))
 
 
-def draw_spectrum(
-    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
-) -> None:
-    """Draw the amplitude of a variable over the frequency, up to one in Hz, or to where its lines
-    end; raises `Missing` if it does not vibrate."""
+class Amplitudes(NamedTuple):
+    """What is shown of a spectrum: frequencies, Hz, up to the highest, amplitudes in the unit of the
+    axis, the resolution, Hz, and all lines as frequencies and amplitudes."""
+
+    frequency: Array
+    amplitude: Array
+    resolution: float
+    peaks: list[tuple[float, float]]
+
+    @property
+    def highest(self) -> float:
+        return float(self.frequency[-1])
+
+    @property
+    def lowest(self) -> float:
+        """Lower end of the axis."""
+        greatest = self.amplitude.max()
+        return float(max(self.amplitude.min(), 10 ** (FLOOR / 20) * greatest)) / 2
+
+    def upper_end(self, ax: Axes) -> float:
+        """Upper end of the axis, with room for the name of the greatest amplitude."""
+        greatest = float(self.amplitude.max())
+        return _headroom(ax, greatest / self.lowest) * greatest
+
+
+def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None) -> Amplitudes:
+    """The spectrum of a variable up to a frequency in Hz, or to where its lines end; raises
+    `Missing` if it does not vibrate."""
     time = samples["time"].values
     values = samples[variable].values
     least = 4 * RESOLVED
@@ -103,9 +148,7 @@ def draw_spectrum(
             f"recorded {time.size} samples, and a spectrum takes {least}: a line is"
             f" {least // 2} bins wide"
         )
-
-    # what is shown
-    _, factor, colour = sampled(variable, samples)
+    _, factor, _ = sampled(variable, samples)
     frequency, amplitude = amplitude_spectrum(time, values)
     resolution = 1 / span_of(samples)
     if highest is None:
@@ -117,25 +160,48 @@ def draw_spectrum(
                 f" on, and what vibrates is below {highest:.3g} Hz"
             )
     shown = (frequency > 0) & (frequency <= highest)
-    frequency = frequency[shown]
     amplitude = factor * amplitude[shown]
     if not amplitude.any():
         raise Missing(f"did not vibrate at up to {highest:g} Hz")
-
-    # its drawing
-    ax.semilogy(frequency, amplitude, color=colour, linewidth=wide(0.7))
-    xlabel = FREQUENCY
-    if resolution >= SAID_FROM:
-        xlabel = f"{xlabel}, resolution {resolution:.2g} Hz"
-    ax.set_xlabel(xlabel)
-    ax.set_ylabel(_amplitude(samples, variable))
-    ax.set_xlim((0, frequency[-1]))
-    greatest = amplitude.max()
-    lowest = max(amplitude.min(), 10 ** (FLOOR / 20) * greatest)
-    ax.set_ylim(lowest / 2, _headroom(ax, 2 * greatest / lowest) * greatest)
     found = lines(time, values, above=RESOLVED * resolution, below=highest)
     peaks = [(line.frequency, factor * line.amplitude) for line in found]
-    name_lines(ax, peaks, resolution)
+    return Amplitudes(frequency[shown], amplitude, resolution, peaks)
+
+
+def draw_spectrum(
+    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
+) -> Amplitudes:
+    """Draw the amplitude of a variable over the frequency, up to one in Hz, or to where its lines
+    end; returns what is shown, and raises `Missing` if it does not vibrate."""
+    shown = amplitudes(samples, variable, highest)
+    colour = sampled(variable, samples)[2]
+    ax.semilogy(shown.frequency, shown.amplitude, color=colour, linewidth=wide(0.7))
+    _label(ax, samples, variable, shown)
+    ax.set_xlim((0, shown.highest))
+    ax.set_ylim(shown.lowest, shown.upper_end(ax))
+    name_lines(ax, shown.peaks, shown.resolution)
+    return shown
+
+
+def _label(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:
+    """Say what both axes show, and a coarse resolution."""
+    xlabel = FREQUENCY
+    if shown.resolution >= SAID_FROM:
+        xlabel = f"{xlabel}, resolution {shown.resolution:.2g} Hz"
+    ax.set_xlabel(xlabel)
+    ax.set_ylabel(_amplitude(samples, variable))
+
+
+def _beside(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> Lines:
+    """How a spectrum is drawn beside others on axes: as a line, without names of its peaks."""
+
+    def draw(ax: Axes, style: Style) -> Artist:
+        ax.semilogy(shown.frequency, shown.amplitude, **style.layered())
+        _label(ax, samples, variable, shown)
+        return sample(**style.layered())
+
+    limits = ((0.0, shown.highest), (shown.lowest, shown.upper_end(ax)))
+    return Lines(draw, limits, sampled(variable, samples)[0].rpartition(" (")[0])
 
 
 def _headroom(ax: Axes, below: float) -> float:

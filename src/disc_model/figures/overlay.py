@@ -1,0 +1,222 @@
+"""Several cases in pictures of one kind on the same axes: their looks, limits, and what the legend calls
+them.
+
+A case alone has the colours and marks of its picture. Beside others it is one line, or one kind of
+marks, in a look of its own: phases, first separations and frequencies beside peaks are not shown.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary, ref
+
+import numpy as np
+
+from disc_model.errors import require
+from disc_model.figures.branch_lines import Look
+from disc_model.figures.drawing import mark, wide
+from disc_model.figures.family import LOOKS, Shown, names_of, retitle
+from disc_model.figures.labels import without_font
+from disc_model.figures.named_axes import shown_on
+from disc_model.figures.pages import Page
+from disc_model.figures.types import Array, Artist, Axes
+
+NAME = "case"
+"""The label by which a reader names a case."""
+MARKERS = "osD^vP"
+WIDTHS = (0.6, 1.8, 3.2)
+"""Of whole lines that lie on each other, points."""
+Limits = tuple[tuple[float, float], tuple[float, float]]
+"""Of the horizontal and of the vertical axis."""
+
+
+class Style(NamedTuple):
+    """What sets a case apart from others, by its place in their order: colour and dashes of a line, or
+    colour and shape of marks."""
+
+    place: int
+
+    @property
+    def look(self) -> Look:
+        """Colour and dashes."""
+        return LOOKS[self.place % len(LOOKS)]
+
+    def layered(self) -> dict[str, Any]:
+        """Options of a whole line that is wider than the one before, and below it: dashes of lines
+        that go to and fro, or around, would fill their own gaps."""
+        return {
+            "color": self.look.colour,
+            "linewidth": wide(WIDTHS[self.place % len(WIDTHS)]),
+            "zorder": 2 - 0.01 * self.place,
+        }
+
+    def marks(self, points: float) -> dict[str, Any]:
+        """Options of open marks of a size in points: those below others show."""
+        return {
+            "linestyle": "",
+            "marker": MARKERS[self.place % len(MARKERS)],
+            "color": self.look.colour,
+            "markerfacecolor": "none",
+            "markersize": mark(points),
+        }
+
+
+class Lines(NamedTuple):
+    """How a case is drawn beside others in one panel.
+
+    draw : draws it on axes in a style; returns its entry of a legend, which has no label yet
+    limits : of the axes that show it
+    what : the name of what is drawn, if axes can show several in one unit
+    """
+
+    draw: Callable[[Axes, Style], Artist]
+    limits: Limits
+    what: str = ""
+
+
+@dataclass
+class Case:
+    """A case on axes.
+
+    Attributes
+    ----------
+    kind : of its picture; only those of one kind are drawn beside each other
+    shown : its name, if the reader gives one, and what tells it from others
+    title : what the title of a new figure says of it alone
+    notes : what stands above panels that show it alone
+    place : in the order of the cases
+    """
+
+    kind: str
+    shown: Shown
+    title: str
+    notes: Sequence[str] = ()
+    place: int = 0
+
+
+@dataclass
+class Panel:
+    """A case in one panel, and what was drawn of it there."""
+
+    case: Case
+    lines: Lines
+    drawn: list[ref[Any]] = field(default_factory=list)
+
+    @property
+    def shown(self) -> Shown:
+        """What tells the case from others in the panel."""
+        values = {"variable": self.lines.what, **self.case.shown.values}
+        return replace(self.case.shown, values=values)
+
+
+_PANELS: WeakKeyDictionary[Axes, list[Panel]] = WeakKeyDictionary()
+"""The cases that axes show."""
+
+
+def limits_of(values: Array, share: float) -> tuple[float, float]:
+    """Limits that leave a share of the values' range free on both sides."""
+    low = float(np.nanmin(values))
+    high = float(np.nanmax(values))
+    room = share * (high - low) or 1e-6 * max(abs(high), 1e-6)
+    return low - room, high + room
+
+
+def name_of_case(labels: Any) -> tuple[str, Any]:
+    """The name that a reader gives a case, "" for none, and the other labels."""
+    if not isinstance(labels, Mapping) or NAME not in labels:
+        return "", labels
+    name = labels[NAME]
+    require((isinstance(name, str), f"labels.{NAME}", name, "must be a text"))
+    return name, {word: text for word, text in labels.items() if word != NAME}
+
+
+def _panels_on(ax: Axes, kind: str) -> list[Panel]:
+    """The cases in pictures of a kind on axes from which they were not removed."""
+    panels = _PANELS.get(ax, []) if shown_on(ax).labels else []
+    return [panel for panel in panels if panel.case.kind == kind]
+
+
+def is_alone(page: Page, case: Case) -> bool:
+    """Whether a case is drawn as if no other may follow: it has neither a name nor others beside
+    it."""
+    return not (case.shown.name or any(_panels_on(ax, case.kind) for ax in page.axes))
+
+
+def stand_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:
+    """Remember a case that was drawn alone, with how it is drawn beside others in each panel."""
+    case.shown.looks[:] = page.handles
+    for ax, lines, drawn in zip(page.axes, panels, page.added(), strict=True):
+        _PANELS[ax] = [Panel(case, lines, [ref(artist) for artist in drawn])]
+
+
+def stand_beside(
+    page: Page, case: Case, panels: Sequence[Lines], common: Sequence[Artist] = ()
+) -> None:
+    """Draw a case beside those that its axes have, a look each, within limits that hold all. The
+    legend names them by what differs between them, or as the reader does, before entries that are
+    common to all."""
+    former = [_panels_on(ax, case.kind) for ax in page.axes]
+    places = [panel.case.place for row in former for panel in row]
+    case.place = 1 + max(places, default=-1)
+    families = [[*row, Panel(case, lines)] for row, lines in zip(former, panels, strict=True)]
+    entries: list[Artist] = []
+    for ax, family in zip(page.axes, families, strict=True):
+        handles = _draw(ax, family)
+        entries = entries or handles
+        _PANELS[ax] = family
+
+    _name(families[0], entries)
+    _explain(page, families[0], [*entries, *common])
+
+
+def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
+    """Draw all cases of a panel anew, the last for the first time; returns entries of a legend."""
+    limits = [family[-1].lines.limits]
+    if len(family) > 1:
+        limits.append((ax.get_xlim(), ax.get_ylim()))
+    handles = []
+    for panel in family:
+        _remove(ax, panel)
+        before = {id(artist) for artist in ax.get_children()}
+        handles.append(panel.lines.draw(ax, Style(panel.case.place)))
+        panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
+    ends = np.array(limits)
+    ax.set_xlim(ends[:, 0].min(), ends[:, 0].max())
+    ax.set_ylim(ends[:, 1].min(), ends[:, 1].max())
+    return handles
+
+
+def _remove(ax: Axes, panel: Panel) -> None:
+    """Remove what was drawn of a case, with the notes above the panel."""
+    for reference in panel.drawn:
+        artist = reference()
+        if artist is not None and artist.axes is ax:
+            artist.remove()
+    notes = {_in_a_row(note) for note in panel.case.notes}
+    for side in ("left", "right"):
+        if _in_a_row(ax.get_title(loc=side)) in notes:  # type: ignore[arg-type]  # a Literal
+            ax.set_title("", loc=side)  # type: ignore[arg-type]  # as well
+
+
+def _in_a_row(text: str) -> str:
+    """A text without the lines in which it stands."""
+    return without_font(text).replace("\n", " ")
+
+
+def _name(panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
+    """Name the entries of cases in the legend."""
+    names = names_of([panel.shown for panel in panels], NAME)
+    for entry, name in zip(entries, names, strict=True):
+        entry.set_label(name)
+
+
+def _explain(page: Page, panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
+    """Set the entries of the legend, and let the title say what all cases have in common."""
+    family = [panel.shown for panel in panels]
+    replaced = {str(handle.get_label()) for each in family for handle in each.looks}
+    replaced |= {*names_of(family[:-1], NAME)} if family[:-1] else set()
+    page.joins = True
+    page.replaced = replaced | {str(entry.get_label()) for entry in entries}
+    page.explain(entries)
+    if len(family) > 1:
+        retitle(page.figure, family, panels[0].case.title)

@@ -1,0 +1,154 @@
+"""Pictures of several cases on the same axes: all are seen, told apart and named."""
+
+import functools
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib import pyplot
+from matplotlib.colors import to_hex
+
+import disc_model as dm
+from tests.figures.test_wishes import legend_texts
+
+CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
+WINDOWS = {
+    "late": dm.Window(last=0.5, rate=1e4),
+    "all": dm.Window(rate=2000, envelope=100),
+    "turns": dm.Poincare(start=2),
+}
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+@functools.cache
+def run(speed: float) -> dm.Result:
+    return dm.simulate(CASE.replace(Omega=speed), 8, WINDOWS)
+
+
+def _exponents(speed: float) -> Any:
+    return dm.lyapunov_exponents(CASE.replace(Omega=speed), 0.5, count=2)
+
+
+DRAWN: dict[str, Callable[..., Any]] = {
+    "run": lambda speed, **wishes: run(speed).plot("late", variables=["u"], **wishes),
+    "rows": lambda speed, **wishes: run(speed).plot("late", **wishes),
+    "ranges": lambda speed, **wishes: run(speed).plot("all", variables=["u"], **wishes),
+    "portrait": lambda speed, **wishes: run(speed).plot_phase_portrait("late", **wishes),
+    "spectrum": lambda speed, **wishes: run(speed).plot_spectrum("late", **wishes),
+    "sections": lambda speed, **wishes: run(speed).plot_poincare("turns", **wishes),
+    "multipliers": lambda speed, **wishes: dm.floquet(CASE.replace(Omega=speed)).plot(**wishes),
+    "eigenvalues": lambda speed, **wishes: dm.steady_sliding(CASE.replace(Omega=speed)).plot(
+        **wishes
+    ),
+    "exponents": lambda speed, **wishes: _exponents(speed).plot(**wishes),
+}
+SPEEDS = (15.0, 25.0)
+NAMES = ["Ω = 15 rad/s", "Ω = 25 rad/s"]
+
+
+def colours(ax: Any) -> set[str]:
+    """Colours of the lines and marks that show values."""
+    shown = [line for line in ax.lines if np.size(line.get_xdata()) > 2]
+    return {to_hex(line.get_color()) for line in shown}
+
+
+@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize("name", DRAWN)
+def test_cases_have_looks_names_and_common_limits(name: str, own: bool) -> None:
+    """The second was cut off, in the colours of the first, and only its phases were in the legend."""
+    alone = [DRAWN[name](speed) for speed in SPEEDS]
+    first = np.ravel(alone[0])[0]
+    ends = [np.ravel(each)[0].get_ylim() for each in alone]
+    across = [np.ravel(each)[0].get_xlim() for each in alone]
+    axes: Any = alone[0]
+    if not own:
+        axes = pyplot.figure(layout="constrained").subplots(np.size(axes), 1, squeeze=False)[:, 0]
+        first = axes[0]
+        DRAWN[name](SPEEDS[0], ax=axes)
+    DRAWN[name](SPEEDS[1], ax=axes)
+    places = [text for ax in np.ravel(axes) for text in legend_texts(ax)]
+    common = ["filled: converged"] if name == "exponents" else []
+    assert [*dict.fromkeys(text.replace("\n", " ") for text in places)] == [*NAMES, *common]
+    slack = 0.16 * np.ptp(ends)  # an axis alone has room for names
+    assert first.get_ylim()[0] <= min(low for low, _ in ends) + slack
+    assert first.get_ylim()[1] >= max(high for _, high in ends) - slack
+    assert first.get_xlim()[0] == pytest.approx(min(low for low, _ in across), rel=0.16, abs=1e-2)
+    assert first.get_xlim()[1] == pytest.approx(max(high for _, high in across), rel=0.16)
+    found = colours(first) - {"#8a8a8a"}
+    assert {"#000000", "#009e73"} <= found or name == "exponents"
+    assert first.get_title(loc="left") == first.get_title(loc="right") == ""
+    if own:
+        assert first.figure.get_suptitle().startswith("N = 385 N")
+        assert "15 rad/s" not in first.figure.get_suptitle()
+
+
+def test_phases_and_separations_of_a_run_are_not_those_of_others() -> None:
+    """The shades of the first stayed, under a legend of the second."""
+    ax = DRAWN["run"](15.0)
+    assert ax.collections
+    DRAWN["run"](25.0, ax=ax)
+    assert len(ax.collections) == len(ax.texts) == 0
+    ax.clear()
+    DRAWN["run"](15.0, ax=ax)
+    assert ax.collections, "alone again"
+
+
+def test_a_reader_names_cases() -> None:
+    _, ax = pyplot.subplots(layout="constrained")
+    run(15.0).plot("late", variables=["u"], ax=ax, labels={"case": "slow"})
+    assert legend_texts(ax) == ["slow"]
+    run(25.0).plot("late", variables=["u"], ax=ax)
+    run(15.0).plot("all", variables=["u"], ax=ax, labels={"case": "its range"})
+    assert legend_texts(ax)[::2] == ["slow", "its range"]
+    assert "25 rad/s" in legend_texts(ax)[1]
+    with pytest.raises(dm.ParameterError, match=r"labels\.case"):
+        run(25.0).plot("late", variables=["u"], ax=ax, labels={"case": 3})  # type: ignore[dict-item]
+
+
+def test_what_a_reader_has_drawn_stays() -> None:
+    _, ax = pyplot.subplots(layout="constrained")
+    (measured,) = ax.plot([7.6, 7.9], [-80.0, 80.0], label="measured")
+    for speed in SPEEDS:
+        DRAWN["run"](speed, ax=ax)
+    assert measured in ax.lines
+    assert ax.get_ylim()[0] <= -80
+    assert ax.get_ylim()[1] >= 80
+
+
+def test_other_panels_keep_their_phases() -> None:
+    axes = run(15.0).plot("late")
+    run(25.0).plot("late", variables=["w"], ax=axes[1])
+    assert axes[0].collections
+    assert not axes[1].collections
+    assert len(axes[0].figure.legends) == 1
+    assert legend_texts(axes[0]) == ["stick", "slip", *NAMES]
+
+
+def test_runs_are_told_apart_by_their_ramps() -> None:
+    windows = {"all": dm.Window(rate=2000, envelope=100)}
+    ax = None
+    for end in (16.0, 17.0):
+        ramp = dm.Ramp(parameter="Omega", to=end, start=1, end=2)
+        ax = dm.simulate(CASE, 3, windows, ramps=ramp).plot("all", variables=["u"], ax=ax)
+    assert legend_texts(ax) == ["Ω = 15 to 16 rad/s", "Ω = 15 to 17 rad/s"]  # type: ignore[arg-type]
+    assert ax.figure.get_suptitle().startswith("N = 385 N")  # type: ignore[attr-defined]
+    assert "15 to" not in ax.figure.get_suptitle()  # type: ignore[attr-defined]
+
+
+def test_curves_of_several_cases_are_told_apart() -> None:
+    """Both were black, and those of the second case covered names of the first."""
+    bounds = {"Omega": (14.0, 15.5), "k_p": (1.9e4, 2.1e4)}
+    ax = None
+    for load in (385.0, 380.0):
+        curves = dm.neutral_curves(dm.Parameters(N=load, Omega=15), bounds, [2e4], points=5)
+        ax = curves.plot(ax=ax)
+    texts = legend_texts(ax)  # type: ignore[arg-type]
+    assert texts[:2] == ["N = 385 N", "N = 380 N"]
+    assert "cycle loses stability" in texts
+    assert {"#000000", "#009e73"} <= {to_hex(line.get_color()) for line in ax.lines}  # type: ignore[attr-defined]
