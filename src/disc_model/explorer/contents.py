@@ -78,8 +78,7 @@ def _study_contents(
     name: str, study: xr.Dataset, motions: xr.Dataset | None, stated: Stated
 ) -> dict[str, Any]:
     """Contents of a merged study, in the units that are set."""
-    numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
-    endless = [name for name, x in numbers.items() if np.isinf(x.values).any()]
+    endless = _endless(study)
     study = _as_texts(study.transpose(*study.sizes), endless)
     shown_motions = None
     if motions is not None:
@@ -104,6 +103,12 @@ def _study_contents(
         "messages": _messages(study),
         "motions": shown_motions,
     }
+
+
+def _endless(study: xr.Dataset) -> list[str]:
+    """Coordinates of numbers that are infinite somewhere."""
+    numbers = {str(name): x for name, x in study.coords.items() if x.dtype.kind == "f"}
+    return [name for name, x in numbers.items() if np.isinf(x.values).any()]
 
 
 def _start_of_all(study: xr.Dataset) -> dict[str, Any]:

@@ -37,7 +37,7 @@ from disc_model.figures.selection import (
     remaining,
     titles_of,
 )
-from disc_model.figures.types import Artist, Axes, Figure
+from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
@@ -185,12 +185,7 @@ def draw_lines(
     _forget_empty(ax)
     shows = _shows_numbers(ax)
     _scale_heights(ax, array, log)
-    if along.dtype.kind == "U":
-        _turn_words(ax, along)
-    else:
-        ax.set_xscale(scale(array[x]))
-        if ax.get_xscale() == "log":
-            plain_decades(ax.xaxis)
+    _scale_across(ax, array[x], along)
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
@@ -200,6 +195,16 @@ def draw_lines(
     _point_down(ax, study, array, x, colours)
     _mark_gaps(ax, study, array, x, marks, colours)
     return drawn
+
+
+def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
+    """Scale the horizontal axis for the values along it, or turn the words there."""
+    if along.dtype.kind == "U":
+        _turn_words(ax, along)
+        return
+    ax.set_xscale(scale(values))
+    if ax.get_xscale() == "log":
+        plain_decades(ax.xaxis)
 
 
 def _are_rates(array: xr.DataArray, log: bool) -> bool:

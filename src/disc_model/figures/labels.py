@@ -240,11 +240,8 @@ def spare_numbers(bar: Axes) -> None:
             each.hidden = []
     numbers = _numbers_beside(axis)
     values = [number for number, _ in numbers]
-    anchor = 0
-    for place in (0.0, *_shown(axis, axis.get_majorticklocs())):
-        if place in values:
-            anchor = values.index(place)
-            break
+    whole = [place for place in (0.0, *_shown(axis, axis.get_majorticklocs())) if place in values]
+    anchor = values.index(whole[0]) if whole else 0
 
     every = 1
     kept = numbers
@@ -254,10 +251,14 @@ def spare_numbers(bar: Axes) -> None:
     if every == 1:
         return
     known = [number for number, _ in kept]
-    hidden = [number for number in values if number not in known]
-    for each, replace in zip(
-        formatters, (axis.set_major_formatter, axis.set_minor_formatter), strict=True
-    ):
+    _hide_numbers(axis, [number for number in values if number not in known])
+
+
+def _hide_numbers(axis: Any, hidden: list[float]) -> None:
+    """Have formatters that leave out some numbers."""
+    major = axis.get_major_formatter()
+    minor = axis.get_minor_formatter()
+    for each, replace in ((major, axis.set_major_formatter), (minor, axis.set_minor_formatter)):
         sparing = each if isinstance(each, Sparing) else Sparing(each)
         sparing.hidden = hidden
         replace(sparing)

@@ -291,27 +291,21 @@ def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any
     the axis can be.
     """
     several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    raw = list(values) if several else [values]
+    raw = [_plain_value(value) for value in values] if several else [_plain_value(values)]
     if not raw:
         faults.append(Fault.of((*within, name), values, "must have one value or more"))
     if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
         faults.append(Fault.of((*within, name), values, "must be values in one dimension"))
         return raw
-    model: type[Strict] = SomeParameters
-    if name not in Parameters.model_fields:  # a ratio, or a number of a disc's mode
-        only: dict[str, Any] = {name: Finite}
-        model = create_model("Number", __base__=Strict, **only)
-
+    model = _model_of(name)
     checked: list[Any] = []
     impossible: list[list[Fault]] = []
     for row, value in enumerate(raw):
-        plain = value.item() if isinstance(value, np.generic) else value
         try:
-            checked.append(getattr(model(**{name: plain}), name))
+            checked.append(getattr(model(**{name: value}), name))
         except ParameterError as error:
-            place = (*within, f"{name}[{row}]" if several else name)
-            told = [Fault(place, fault.value, fault.rule) for fault in error.faults]
-            meant = _number_of(name, plain)
+            told = [_at_row(fault, (*within, name), row, several=several) for fault in error.faults]
+            meant = _number_of(name, value)
             checked.append(meant)
             if meant is None:
                 faults += told
@@ -320,6 +314,26 @@ def _values(name: str, values: Any, faults: list[str], *within: str) -> list[Any
     if impossible and len(impossible) == len(raw):
         faults += [fault for told in impossible for fault in told]
     return checked
+
+
+def _at_row(fault: Fault, path: tuple[str, ...], row: int, *, several: bool) -> Fault:
+    """The fault of one of several values, whose row it names, or of the only one."""
+    *within, name = path
+    place = f"{name}[{row}]" if several else name
+    return Fault((*within, place), fault.value, fault.rule)
+
+
+def _plain_value(value: Any) -> Any:
+    """A value without numpy's type."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _model_of(name: str) -> type[Strict]:
+    """The model that checks a value of a parameter, a ratio, or a number of a disc's mode."""
+    if name in Parameters.model_fields:
+        return SomeParameters
+    only: dict[str, Any] = {name: Finite}
+    return create_model("Number", __base__=Strict, **only)
 
 
 def _number_of(name: str, value: Any) -> float | None:

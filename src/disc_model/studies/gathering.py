@@ -150,6 +150,20 @@ def stacked(
     return stacked, fixed
 
 
+def _type_of(kinds: set[str], *, complete: bool) -> tuple[Any, Any]:
+    """The type that holds values of some of numpy's kinds, and what stands for missing ones: whole
+    numbers and truth have none unless all values are there."""
+    if kinds <= {"U"}:
+        return object, ""
+    if "c" in kinds:
+        return complex, math.nan
+    if kinds <= {"b"} and complete:
+        return bool, False
+    if kinds <= {"i", "u"} and complete:
+        return int, 0
+    return float, math.nan
+
+
 def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
     """Arrays of one number of dimensions as the rows of one array, shape (len(rows), ...); what is
     missing is nan, or "" among words."""
@@ -157,20 +171,7 @@ def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
     shapes = [row.shape for row in present]
     shape = tuple(max(sizes) for sizes in zip(*shapes, strict=True))
     complete = all(row is not None and row.shape == shape for row in rows)
-    kinds = {row.dtype.kind for row in present}
-    missing: Any = math.nan
-    dtype: Any = float
-    if kinds <= {"U"}:
-        missing = ""
-        dtype = object
-    elif "c" in kinds:
-        dtype = complex
-    elif kinds <= {"b"} and complete:
-        missing = False
-        dtype = bool
-    elif kinds <= {"i", "u"} and complete:
-        missing = 0
-        dtype = int
+    dtype, missing = _type_of({row.dtype.kind for row in present}, complete=complete)
     array = np.full((len(rows), *shape), missing, dtype)
     for i, row in enumerate(rows):
         if row is not None:
