@@ -152,3 +152,13 @@ def test_curves_of_several_cases_are_told_apart() -> None:
     assert texts[:2] == ["N = 385 N", "N = 380 N"]
     assert "cycle loses stability" in texts
     assert {"#000000", "#009e73"} <= {to_hex(line.get_color()) for line in ax.lines}  # type: ignore[attr-defined]
+
+
+def test_both_spectra_go_on_to_the_end_of_the_axis() -> None:
+    """One ended where its own lines do, as if it had nothing beyond, and had a line there."""
+    _, ax = pyplot.subplots()
+    for speed in SPEEDS:
+        run(speed).plot_spectrum("late", ax=ax)
+    ends = [line.get_xdata()[-1] for line in ax.lines if np.size(line.get_xdata()) > 2]
+    assert len(ends) == 2
+    assert min(ends) >= ax.get_xlim()[1]

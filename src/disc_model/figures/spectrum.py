@@ -114,12 +114,14 @@ def _check_range(samples: xr.Dataset, highest: float | None) -> None:
 
 class Amplitudes(NamedTuple):
     """What is shown of a spectrum: frequencies, Hz, up to the highest, amplitudes in the unit of the
-    axis, the resolution, Hz, and all lines as frequencies and amplitudes."""
+    axis, the resolution, Hz, all lines as frequencies and amplitudes, and the whole spectrum, of
+    which more is seen beside another one that goes further."""
 
     frequency: Array
     amplitude: Array
     resolution: float
     peaks: list[tuple[float, float]]
+    whole: tuple[Array, Array]
 
     @property
     def highest(self) -> float:
@@ -160,12 +162,13 @@ def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None)
                 f" on, and what vibrates is below {highest:.3g} Hz"
             )
     shown = (frequency > 0) & (frequency <= highest)
+    whole = (frequency[1:], factor * amplitude[1:])
     amplitude = factor * amplitude[shown]
     if not amplitude.any():
         raise Missing(f"did not vibrate at up to {highest:g} Hz")
     found = lines(time, values, above=RESOLVED * resolution, below=highest)
     peaks = [(line.frequency, factor * line.amplitude) for line in found]
-    return Amplitudes(frequency[shown], amplitude, resolution, peaks)
+    return Amplitudes(frequency[shown], amplitude, resolution, peaks, whole)
 
 
 def draw_spectrum(
@@ -196,7 +199,7 @@ def _beside(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> 
     """How a spectrum is drawn beside others on axes: as a line, without names of its peaks."""
 
     def draw(ax: Axes, style: Style) -> Artist:
-        ax.semilogy(shown.frequency, shown.amplitude, **style.layered())
+        ax.semilogy(*shown.whole, **style.layered())
         _label(ax, samples, variable, shown)
         return sample(**style.layered())
 

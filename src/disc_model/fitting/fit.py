@@ -131,7 +131,10 @@ def _number(value: object, unit: str, name: str, faults: list[str]) -> float:
     wrong: list[Fault] = []
     number = in_si(value, unit, wrong, (name,))
     if not wrong and not _is_finite(number):
-        wrong.append(Fault.of((name,), value, "must be a finite number"))
+        rule = "must be a finite number"
+        if isinstance(value, str) and unit:
+            rule = f"must be a number with its unit, such as '3 {unit}'"
+        wrong.append(Fault.of((name,), value, rule))
     faults += wrong
     return math.nan if wrong else float(number)
 

@@ -91,7 +91,9 @@ function chooseAxes() {
   if (!variablesShown().length) view.y = NONE;
   const fitting = variablesShown();
   const wanted = (one) => !one.name.endsWith("status");
-  const ranked = [growth, (one) => one.name.endsWith("outcome"), (one) => wanted(one) && !one.flags, wanted, () => true];
+  const answers = (one) => outcome(one) || one.name.endsWith("_outcome") || one.name === "kind";
+  const measures = (one) => wanted(one) && !one.flags && !COUNTS.test(one.label);
+  const ranked = [growth, answers, measures, wanted, () => true];
   const usual = ranked.map((kind) => fitting.find(kind)).find((one) => one);
   if (!fitting.includes(view.variable)) view.variable = usual;
   if (!chosenDots()) view.mark = NONE;
