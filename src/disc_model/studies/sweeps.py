@@ -90,11 +90,6 @@ def sweep(
     >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
     >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
     (('Omega', 'mu_k_over_mu_s'), 's-1')
-    >>> growth["status"].sel(Omega=10).values.tolist()
-    ['ok', 'ok']
-    >>> pairs = dm.sweep(dm.floquet, case, zip={"N": [385, 300], "Omega": [10, 12]})
-    >>> pairs["growth_rate"].sizes, pairs["N"].values
-    (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
