@@ -19,20 +19,18 @@ from disc_model.figures.drawing import (
     sample,
     wide,
 )
-from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
 from disc_model.figures.overlay import (
-    Case,
     Lines,
     Style,
+    case_of_result,
     is_alone,
     limits_of,
     name_of_case,
     stand_alone,
     stand_beside,
 )
-from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Array, Artist, Axes
 from disc_model.figures.words import head_text
 
@@ -63,12 +61,10 @@ def plot_eigenvalues(
     frequency = values.imag / (2 * np.pi)
     grows = np.isin(values, sliding.growing)
     rests = np.isin(values, sliding.neutral)
-    case = "" if sliding.parameters is None else stated(sliding.parameters)
     name, labels = name_of_case(labels)
     note = head_text(COLUMN, "", sliding.message)
-    known = {} if sliding.parameters is None else stated_values(sliding.parameters)
-    overlaid = Case("eigenvalues", Shown(name, known, 0, [], []), case, (note,))
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
+    overlaid = case_of_result("eigenvalues", name, sliding.parameters, notes=(note,))
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=overlaid.title) as page:
         page.show(Quantities(RATE, FREQUENCY))
         panels = [_marks(rate, frequency)]
         axes = page.ax

@@ -9,19 +9,17 @@ import numpy as np
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, sample, wide
-from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import (
-    Case,
     Lines,
     Style,
+    case_of_result,
     is_alone,
     limits_of,
     name_of_case,
     stand_alone,
     stand_beside,
 )
-from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Artist, Axes
 
 if TYPE_CHECKING:
@@ -43,13 +41,11 @@ def plot_exponents(
     left out."""
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite = np.isfinite(lyapunov.exponents)
-    case = "" if lyapunov.parameters is None else stated(lyapunov.parameters)
-    known = {} if lyapunov.parameters is None else stated_values(lyapunov.parameters)
     name, labels = name_of_case(labels)
     lost = counted(lyapunov.separations, "separation")
     note = f"over {lyapunov.duration:g} s, {lost}"
-    overlaid = Case("exponents", Shown(name, known, 0, [], []), case, (note,))
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=case) as page:
+    overlaid = case_of_result("exponents", name, lyapunov.parameters, notes=(note,))
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=overlaid.title) as page:
         page.show(Quantities("Number", EXPONENT))
         panels = [_marks(lyapunov)]
         axes = page.ax

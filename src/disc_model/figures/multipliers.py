@@ -8,19 +8,17 @@ import numpy as np
 
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, sample, wide
-from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import (
-    Case,
     Lines,
     Style,
+    case_of_result,
     is_alone,
     limits_of,
     name_of_case,
     stand_alone,
     stand_beside,
 )
-from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Artist, Axes, ComplexArray
 
 if TYPE_CHECKING:
@@ -42,11 +40,9 @@ def plot_multipliers(
     outside = np.abs(values) > 1
     name, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
-    case = stated(cycle.parameters)
     note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
-    known = stated_values(cycle.parameters)
-    overlaid = Case("multipliers", Shown(name, known, 0, [], []), case, (note,))
-    with page_for(wishes, COLUMN, 3.2, title=case) as page:
+    overlaid = case_of_result("multipliers", name, cycle.parameters, notes=(note,))
+    with page_for(wishes, COLUMN, 3.2, title=overlaid.title) as page:
         page.show(Quantities("Re κ", "Im κ"))
         panels = [_marks(values)]
         axes = page.ax

@@ -13,19 +13,17 @@ from disc_model.errors import require
 from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, SEPARATED, halo, large, sample, wide
-from disc_model.figures.family import Shown
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
 from disc_model.figures.overlay import (
-    Case,
     Lines,
     Style,
+    case_of_result,
     is_alone,
     name_of_case,
     stand_alone,
     stand_beside,
 )
-from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Array, Artist, Axes
 
 if TYPE_CHECKING:
@@ -57,14 +55,12 @@ def plot_neutral_curves(
     (across, in_x), (up, in_y) = (axis_of(name) for name in curves.bounds)
     factors = np.array([in_x, in_y])
     low, high = np.transpose([*curves.bounds.values()]) * factors
-    case = stated(curves.parameters, *curves.bounds)
     name, labels = name_of_case(labels)
-    known = stated_values(curves.parameters, *curves.bounds)
-    overlaid = Case("neutral curves", Shown(name, known, 0, [], []), case)
+    overlaid = case_of_result("neutral curves", name, curves.parameters, *curves.bounds)
     lines = [curve.values * factors for curve in curves]
     limits = ((low[0], high[0]), (low[1], high[1]))
     panels = [Lines(partial(_draw_beside, curves.curves, lines, (across, up)), limits)]
-    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=case) as page:
+    with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=overlaid.title) as page:
         page.show(Quantities(across, up))
         axes = page.ax
         if not is_alone(page, overlaid):

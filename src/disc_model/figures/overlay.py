@@ -19,7 +19,9 @@ from disc_model.figures.family import LOOKS, Shown, names_of, retitle
 from disc_model.figures.labels import without_font
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
+from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Array, Artist, Axes
+from disc_model.parameters import Parameters
 
 NAME = "case"
 """The label by which a reader names a case."""
@@ -119,6 +121,18 @@ def limits_of(values: Array, share: float) -> tuple[float, float]:
     high = float(np.nanmax(values))
     room = share * (high - low) or 1e-6 * max(abs(high), 1e-6)
     return low - room, high + room
+
+
+def case_of_result(
+    kind: str, name: str, p: Parameters | None, *varied: str, notes: Sequence[str] = ()
+) -> Case:
+    """The case of a result of some parameters, if they are known, but those that it varies.
+
+    name : that of the reader, "" for none
+    """
+    values = {} if p is None else stated_values(p, *varied)
+    title = "" if p is None else stated(p, *varied)
+    return Case(kind, Shown(name, values, 0, [], []), title, notes)
 
 
 def name_of_case(labels: Any) -> tuple[str, Any]:
