@@ -14,7 +14,7 @@ from matplotlib.patches import Rectangle
 from PIL import Image
 
 import disc_model as dm
-from disc_model.figures.spectrum import draw_spectrum
+from disc_model.figures.spectrum import amplitudes, draw_spectrum
 from disc_model.figures.sweep import OF_FUNCTIONS
 from tests.figures.reading import labels
 
@@ -96,7 +96,7 @@ def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
     )
     samples = xr.Dataset({"psi": ("time", signal)}, {"time": time})
     figure, ax = pyplot.subplots(figsize=(174 / 25.4, 4), layout="constrained")
-    draw_spectrum(ax, samples, "psi")
+    draw_spectrum(ax, samples, "psi", amplitudes(samples, "psi"))
     for width, height in ((174, 4.0), (84, 2.2)):
         figure.set_size_inches(width / 25.4, height)
         figure.draw_without_rendering()
@@ -366,7 +366,7 @@ def test_frequencies_of_peaks_have_the_digits_of_the_window(
     signal = 1e-3 * np.sin(math.tau * 2.4 * time) + 1e-3 * np.sin(math.tau * 137.8 * time)
     samples = xr.Dataset({"w_point": ("time", signal)}, {"time": time})
     figure, ax = pyplot.subplots()
-    draw_spectrum(ax, samples, "w_point", 400)
+    draw_spectrum(ax, samples, "w_point", amplitudes(samples, "w_point", 400))
     figure.draw_without_rendering()
     assert {text.get_text() for text in ax.texts if text.get_visible()} == named
     assert ax.get_xlabel() == label

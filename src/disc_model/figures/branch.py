@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.data.variables import axis_of
 from disc_model.errors import require
+from disc_model.figures.branch_family import NAME, SPECIAL_MARKS, join_family, next_look
 from disc_model.figures.branch_lines import (
     FLOOR,
     STABLE,
@@ -23,7 +24,7 @@ from disc_model.figures.branch_lines import (
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
-from disc_model.figures.family import SPECIAL_MARKS, Shown, join_family, name_and_labels, next_look
+from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Axes
@@ -52,7 +53,7 @@ def plot_branch(
     label, upward = _axis_upward(branch, y)
     values = _upward(branch, branch, y) * upward
     case = stated(branch.case, *branch.parameters)
-    name, labels = name_and_labels(labels)
+    name, labels = name_in(labels, NAME)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         page.show(Quantities(across, label))
         axes = page.ax
@@ -84,7 +85,7 @@ def plot_branch(
         page.explain([*handles, *special])
         page.joins = True
         values_of_case = stated_values(branch.case, *branch.parameters)
-        join_family(page, Shown(name, values_of_case, int(branch.releases[0]), handles, special))
+        join_family(page, Member(name, values_of_case, int(branch.releases[0]), handles, special))
     return page.ax
 
 

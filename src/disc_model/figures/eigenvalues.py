@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.errors import Fault, ParameterError
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -25,13 +25,11 @@ from disc_model.figures.overlay import (
     Lines,
     Style,
     case_of_result,
-    is_alone,
+    draw_case,
     limits_of,
     name_of_case,
-    stand_alone,
-    stand_beside,
 )
-from disc_model.figures.types import Array, Artist, Axes
+from disc_model.figures.types import Array, Artist, Axes, ComplexArray, Mask
 from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:
@@ -57,48 +55,56 @@ def plot_eigenvalues(
         rule = f"there are no eigenvalues: {sliding.message}"
         raise ParameterError(Fault(("status",), sliding.status.value, rule))
     values = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
-    rate = values.real
-    frequency = values.imag / (2 * np.pi)
-    grows = np.isin(values, sliding.growing)
-    rests = np.isin(values, sliding.neutral)
     name, labels = name_of_case(labels)
     note = head_text(COLUMN, "", sliding.message)
     overlaid = case_of_result("eigenvalues", name, sliding.parameters, notes=(note,))
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=overlaid.title) as page:
         page.show(Quantities(RATE, FREQUENCY))
-        panels = [_marks(rate, frequency)]
-        axes = page.ax
-        if not is_alone(page, overlaid):
-            stand_beside(page, overlaid, panels)
-            return axes
-        axes.axvline(0, color=BLACK, linewidth=wide(0.6))
-        for mask, shape, colour, name in (
-            (~grows & ~rests, "o", BLUE, "decays"),
-            (rests, "s", GREY, "neutral"),
-            (grows, "D", SEPARATED, "grows"),
-        ):
-            if mask.any():
-                axes.plot(
-                    rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
-                )
-        names = Names(axes)
-        for x, y in sorted(zip(rate[grows], frequency[grows], strict=True), reverse=True):
-            names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
-        span = max(map(abs, axes.get_xlim())) * ROOM
-        axes.set_xlabel(RATE)
-        axes.set_ylabel(FREQUENCY)
-        axes.set_xlim((-span, span))
-        axes.set_ylim(bottom=0)
-        axes.margins(y=0.08)
-        page.explain(axes.get_legend_handles_labels()[0])
-        stand_alone(page, overlaid, panels)
-        page.note = note
+        grows = np.isin(values, sliding.growing)
+        rests = np.isin(values, sliding.neutral)
+        alone = draw_case(
+            page, overlaid, [_marks(values)], lambda: _draw_alone(page, values, grows, rests)
+        )
+        if alone:
+            page.note = note
     return page.ax
 
 
-def _marks(rate: Array, frequency: Array) -> Lines:
+def _draw_alone(page: Page, values: ComplexArray, grows: Mask, rests: Mask) -> None:
+    """Draw eigenvalues by whether they decay or grow, those that grow with their frequencies."""
+    axes = page.ax
+    rate, frequency = _rate_and_frequency(values)
+    axes.axvline(0, color=BLACK, linewidth=wide(0.6))
+    for mask, shape, colour, name in (
+        (~grows & ~rests, "o", BLUE, "decays"),
+        (rests, "s", GREY, "neutral"),
+        (grows, "D", SEPARATED, "grows"),
+    ):
+        if mask.any():
+            axes.plot(
+                rate[mask], frequency[mask], shape, color=colour, markersize=mark(4), label=name
+            )
+    names = Names(axes)
+    for x, y in sorted(zip(rate[grows], frequency[grows], strict=True), reverse=True):
+        names.add(f"{y:.0f} Hz", (x, y), BESIDE, fontsize=large(7), color=SEPARATED)
+    span = max(map(abs, axes.get_xlim())) * ROOM
+    axes.set_xlabel(RATE)
+    axes.set_ylabel(FREQUENCY)
+    axes.set_xlim((-span, span))
+    axes.set_ylim(bottom=0)
+    axes.margins(y=0.08)
+    page.explain(axes.get_legend_handles_labels()[0])
+
+
+def _rate_and_frequency(values: ComplexArray) -> tuple[Array, Array]:
+    """Growth rates, 1/s, and frequencies, Hz, of eigenvalues."""
+    return values.real, values.imag / (2 * np.pi)
+
+
+def _marks(values: ComplexArray) -> Lines:
     """How eigenvalues are drawn beside others: in marks of one kind, whether they decay or grow,
     which the axis tells."""
+    rate, frequency = _rate_and_frequency(values)
 
     def draw(ax: Axes, style: Style) -> Artist:
         ax.axvline(0, color=BLACK, linewidth=wide(0.6))

@@ -7,18 +7,16 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.display import counted
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import (
     Lines,
     Style,
     case_of_result,
-    is_alone,
+    draw_case,
     limits_of,
     name_of_case,
-    stand_alone,
-    stand_beside,
 )
 from disc_model.figures.types import Artist, Axes
 
@@ -39,49 +37,51 @@ def plot_exponents(
 ) -> Axes:
     """Draw the exponents with their errors, those that have converged filled; what has vanished is
     left out."""
-    number = np.arange(1, len(lyapunov.exponents) + 1)
-    finite = np.isfinite(lyapunov.exponents)
     name, labels = name_of_case(labels)
     lost = counted(lyapunov.separations, "separation")
     note = f"over {lyapunov.duration:g} s, {lost}"
     overlaid = case_of_result("exponents", name, lyapunov.parameters, notes=(note,))
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=overlaid.title) as page:
         page.show(Quantities("Number", EXPONENT))
-        panels = [_marks(lyapunov)]
-        axes = page.ax
-        if not is_alone(page, overlaid):
-            look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
-            filled = sample(label="filled: converged", color=GREY, **look)
-            stand_beside(page, overlaid, panels, [filled])
-            axes.set_xticks(np.arange(1, axes.get_xlim()[1]))
-            return axes
-        for mask, face, word in (
-            (lyapunov.converged & finite, BLUE, "converged"),
-            (~lyapunov.converged & finite, "white", "not converged"),
-        ):
-            if not mask.any():
-                continue
-            axes.errorbar(
-                number[mask],
-                lyapunov.exponents[mask],
-                lyapunov.errors[mask],
-                fmt="o",
-                color=BLUE,
-                markersize=mark(4),
-                markerfacecolor=face,
-                capsize=mark(3),
-                linewidth=wide(0.8),
-                label=word,
-            )
-        axes.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
-        axes.set_xlabel("Number")
-        axes.set_ylabel(EXPONENT)
-        axes.set_xticks(number)
-        axes.set_xlim((0.5, number[-1] + 0.5))
-        page.note = note
-        page.explain(axes.get_legend_handles_labels()[0])
-        stand_alone(page, overlaid, panels)
+        look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
+        filled = sample(label="filled: converged", color=GREY, **look)
+        alone = draw_case(
+            page, overlaid, [_marks(lyapunov)], lambda: _draw_alone(page, lyapunov), [filled]
+        )
+        page.ax.set_xticks(np.arange(1, page.ax.get_xlim()[1]))
+        if alone:
+            page.note = note
     return page.ax
+
+
+def _draw_alone(page: Page, lyapunov: Lyapunov) -> None:
+    """Draw the exponents by whether they have converged."""
+    axes = page.ax
+    number = np.arange(1, len(lyapunov.exponents) + 1)
+    finite = np.isfinite(lyapunov.exponents)
+    for mask, face, word in (
+        (lyapunov.converged & finite, BLUE, "converged"),
+        (~lyapunov.converged & finite, "white", "not converged"),
+    ):
+        if not mask.any():
+            continue
+        axes.errorbar(
+            number[mask],
+            lyapunov.exponents[mask],
+            lyapunov.errors[mask],
+            fmt="o",
+            color=BLUE,
+            markersize=mark(4),
+            markerfacecolor=face,
+            capsize=mark(3),
+            linewidth=wide(0.8),
+            label=word,
+        )
+    axes.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+    axes.set_xlabel("Number")
+    axes.set_ylabel(EXPONENT)
+    axes.set_xlim((0.5, number[-1] + 0.5))
+    page.explain(axes.get_legend_handles_labels()[0])
 
 
 def _marks(lyapunov: Lyapunov) -> Lines:

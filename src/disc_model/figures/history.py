@@ -9,21 +9,12 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.errors import require
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, letters, panels, sample
 from disc_model.figures.kinds.cases import History
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import (
-    Case,
-    Lines,
-    Style,
-    is_alone,
-    limits_of,
-    name_of_case,
-    stand_alone,
-    stand_beside,
-)
+from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
 from disc_model.figures.runs import (
     TIME,
     end_of_ranges,
@@ -101,25 +92,34 @@ def plot_run(
         overlaid = Case("run", apart, stated(case))
         panels = [_lines(window, variable) for variable in variables for window in shown]
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
-        if not is_alone(page, overlaid):
-            stand_beside(page, overlaid, panels)
-            for column in grid.T:
-                _leave_to_last(column)
-                leave_to_first(column, grid[:, 0])
-            return grid.squeeze()[()]
-        entries: dict[str, Artist] = {}
-        for column, window in zip(grid.T, shown, strict=True):
-            handles = draw_history(column, case, window, variables)
+        alone = draw_case(
+            page, overlaid, panels, lambda: _draw_alone(page, grid, case, shown, variables)
+        )
+        for column in grid.T:
             leave_to_first(column, grid[:, 0])
-            handles += shade_ramps(column, ramps_of(case))
-            entries |= {str(handle.get_label()): handle for handle in handles}
-        page.explain([*entries.values()])
-        stand_alone(page, overlaid, panels)
-        if page.own:
-            page.figure.align_ylabels()
-        else:
-            _share_heights(grid)
+            if not alone:
+                _leave_to_last(column)
     return grid.squeeze()[()]
+
+
+def _draw_alone(
+    page: Page,
+    grid: Any,
+    case: xr.DataTree,
+    windows: Sequence[xr.Dataset],
+    variables: Sequence[str],
+) -> None:
+    """Draw variables of one run, with its phases and ramps, on a grid of axes."""
+    entries: dict[str, Artist] = {}
+    for column, window in zip(grid.T, windows, strict=True):
+        handles = draw_history(column, case, window, variables)
+        handles += shade_ramps(column, ramps_of(case))
+        entries.update({str(handle.get_label()): handle for handle in handles})
+    page.explain([*entries.values()])
+    if page.own:
+        page.figure.align_ylabels()
+    else:
+        _share_heights(grid)
 
 
 def _quantities(windows: Sequence[xr.Dataset], variables: Sequence[str]) -> list[Quantities]:

@@ -6,18 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import (
     Lines,
     Style,
     case_of_result,
-    is_alone,
+    draw_case,
     limits_of,
     name_of_case,
-    stand_alone,
-    stand_beside,
 )
 from disc_model.figures.types import Artist, Axes, ComplexArray
 
@@ -37,35 +35,33 @@ def plot_multipliers(
 ) -> Axes:
     """Draw multipliers and the unit circle; raises `CycleError` without a cycle."""
     values = cycle.raise_for_status().multipliers
-    outside = np.abs(values) > 1
     name, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
     note = f"{_stability(cycle)}, period {period_text(cycle.period)}"
     overlaid = case_of_result("multipliers", name, cycle.parameters, notes=(note,))
     with page_for(wishes, COLUMN, 3.2, title=overlaid.title) as page:
         page.show(Quantities("Re κ", "Im κ"))
-        panels = [_marks(values)]
-        axes = page.ax
-        if not is_alone(page, overlaid):
-            stand_beside(page, overlaid, panels)
-            return axes
-        _draw_plane(axes)
-        for mask, shape, colour, name in (
-            (~outside, "o", BLUE, "decays"),
-            (outside, "D", SEPARATED, "grows"),
-        ):
-            if mask.any():
-                shown = values[mask]
-                axes.plot(
-                    shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name
-                )
-        axes.margins(ROOM)
-        page.note = note
-        # not in the panel, where multipliers may lie anywhere
-        largest = f"largest |κ| = {abs(values[0]):.5g}"
-        page.explain(axes.get_legend_handles_labels()[0], title=largest)
-        stand_alone(page, overlaid, panels)
+        if draw_case(page, overlaid, [_marks(values)], lambda: _draw_alone(page, values)):
+            page.note = note
     return page.ax
+
+
+def _draw_alone(page: Page, values: ComplexArray) -> None:
+    """Draw multipliers by whether they decay or grow, with the magnitude of the largest."""
+    axes = page.ax
+    outside = np.abs(values) > 1
+    _draw_plane(axes)
+    for mask, shape, colour, name in (
+        (~outside, "o", BLUE, "decays"),
+        (outside, "D", SEPARATED, "grows"),
+    ):
+        if mask.any():
+            shown = values[mask]
+            axes.plot(shown.real, shown.imag, shape, color=colour, markersize=mark(4), label=name)
+    axes.margins(ROOM)
+    # not in the panel, where multipliers may lie anywhere
+    largest = f"largest |κ| = {abs(values[0]):.5g}"
+    page.explain(axes.get_legend_handles_labels()[0], title=largest)
 
 
 def _draw_plane(axes: Axes) -> None:

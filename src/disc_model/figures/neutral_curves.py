@@ -11,19 +11,11 @@ import numpy as np
 from disc_model.data.variables import axis_of, typeset
 from disc_model.errors import require
 from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, SEPARATED, halo, large, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.overlay import (
-    Lines,
-    Style,
-    case_of_result,
-    is_alone,
-    name_of_case,
-    stand_alone,
-    stand_beside,
-)
+from disc_model.figures.overlay import Limits, Lines, Style, case_of_result, draw_case, name_of_case
 from disc_model.figures.types import Array, Artist, Axes
 
 if TYPE_CHECKING:
@@ -59,41 +51,47 @@ def plot_neutral_curves(
     overlaid = case_of_result("neutral curves", name, curves.parameters, *curves.bounds)
     lines = [curve.values * factors for curve in curves]
     limits = ((low[0], high[0]), (low[1], high[1]))
-    panels = [Lines(partial(_draw_beside, curves.curves, lines, (across, up)), limits)]
+    panels = [Lines(partial(_draw_beside, curves.curves, lines), limits)]
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 3.0, title=overlaid.title) as page:
         page.show(Quantities(across, up))
-        axes = page.ax
-        if not is_alone(page, overlaid):
-            stand_beside(page, overlaid, panels, _kinds_beside())
-            return axes
-        axes.set_xlabel(across)
-        axes.set_ylabel(up)
-        axes.set_xlim((low[0], high[0]))
-        axes.set_ylim((low[1], high[1]))
-        for curve, line in zip(curves, lines, strict=True):
-            colour, _ = KINDS[curve.kind]
-            stable = between(curve.adjoins_stable_cycle)
-            draw_branch(axes, line[:, 0], line[:, 1], stable, Look(colour))
-        _name_curves(axes, curves.curves, lines)
-        present = {curve.kind for curve in curves}
-        handles = [
-            sample(color=colour, linewidth=wide(STABLE), label=text)
-            for kind, (colour, text) in KINDS.items()
-            if kind in present
-        ]
-        if not all(curve.adjoins_stable_cycle.all() for curve in curves):
-            handles.append(sample(color=BLACK, linewidth=wide(THIN), label=UNSTABLE_BESIDE))
-        page.explain(handles)
-        stand_alone(page, overlaid, panels)
+        page.ax.set_xlabel(across)
+        page.ax.set_ylabel(up)
+        draw_case(
+            page,
+            overlaid,
+            panels,
+            lambda: _draw_alone(page, curves.curves, lines, limits),
+            _kinds_beside(),
+        )
     return page.ax
 
 
+def _draw_alone(
+    page: Page, curves: Sequence[StabilityCurve], lines: Sequence[Array], limits: Limits
+) -> None:
+    """Draw curves in the colours of their kinds, with their resonances."""
+    axes = page.ax
+    axes.set_xlim(limits[0])
+    axes.set_ylim(limits[1])
+    for curve, line in zip(curves, lines, strict=True):
+        colour, _ = KINDS[curve.kind]
+        stable = between(curve.adjoins_stable_cycle)
+        draw_branch(axes, line[:, 0], line[:, 1], stable, Look(colour))
+    _name_curves(axes, curves, lines)
+
+    present = {curve.kind for curve in curves}
+    handles = [
+        sample(color=colour, linewidth=wide(STABLE), label=text)
+        for kind, (colour, text) in KINDS.items()
+        if kind in present
+    ]
+    if not all(curve.adjoins_stable_cycle.all() for curve in curves):
+        handles.append(sample(color=BLACK, linewidth=wide(THIN), label=UNSTABLE_BESIDE))
+    page.explain(handles)
+
+
 def _draw_beside(
-    curves: Sequence[StabilityCurve],
-    lines: Sequence[Array],
-    labels: tuple[str, str],
-    ax: Axes,
-    style: Style,
+    curves: Sequence[StabilityCurve], lines: Sequence[Array], ax: Axes, style: Style
 ) -> Artist:
     """Draw curves beside those of other cases: in one colour, folds dashed; returns the entry of a
     legend."""
@@ -101,8 +99,6 @@ def _draw_beside(
     for curve, line in zip(curves, lines, strict=True):
         stable = between(curve.adjoins_stable_cycle)
         draw_branch(ax, line[:, 0], line[:, 1], stable, Look(colour, DASHES[curve.kind]))
-    ax.set_xlabel(labels[0])
-    ax.set_ylabel(labels[1])
     return sample(color=colour, linewidth=wide(STABLE))
 
 

@@ -5,17 +5,16 @@ A case alone has the colours and marks of its picture. Beside others it is one l
 marks, in a look of its own: phases, first separations and frequencies beside peaks are not shown.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import mark, wide
-from disc_model.figures.family import LOOKS, Shown, names_of, retitle
+from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
 from disc_model.figures.labels import without_font
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
@@ -90,7 +89,7 @@ class Case:
     """
 
     kind: str
-    shown: Shown
+    shown: Member
     title: str
     notes: Sequence[str] = ()
     place: int = 0
@@ -105,7 +104,7 @@ class Panel:
     drawn: list[ref[Any]] = field(default_factory=list)
 
     @property
-    def shown(self) -> Shown:
+    def shown(self) -> Member:
         """What tells the case from others in the panel."""
         values = {"variable": self.lines.what, **self.case.shown.values}
         return replace(self.case.shown, values=values)
@@ -132,16 +131,12 @@ def case_of_result(
     """
     values = {} if p is None else stated_values(p, *varied)
     title = "" if p is None else stated(p, *varied)
-    return Case(kind, Shown(name, values, 0, [], []), title, notes)
+    return Case(kind, Member(name, values), title, notes)
 
 
 def name_of_case(labels: Any) -> tuple[str, Any]:
     """The name that a reader gives a case, "" for none, and the other labels."""
-    if not isinstance(labels, Mapping) or NAME not in labels:
-        return "", labels
-    name = labels[NAME]
-    require((isinstance(name, str), f"labels.{NAME}", name, "must be a text"))
-    return name, {word: text for word, text in labels.items() if word != NAME}
+    return name_in(labels, NAME)
 
 
 def _panels_on(ax: Axes, kind: str) -> list[Panel]:
@@ -150,21 +145,37 @@ def _panels_on(ax: Axes, kind: str) -> list[Panel]:
     return [panel for panel in panels if panel.case.kind == kind]
 
 
-def is_alone(page: Page, case: Case) -> bool:
-    """Whether a case is drawn as if no other may follow: it has neither a name nor others beside
-    it."""
-    return not (case.shown.name or any(_panels_on(ax, case.kind) for ax in page.axes))
+def draw_case(
+    page: Page,
+    case: Case,
+    panels: Sequence[Lines],
+    draw_alone: Callable[[], None],
+    common: Sequence[Artist] = (),
+) -> bool:
+    """Draw a case on a page, and return whether it stands alone there: it has neither a name nor
+    others beside it.
+
+    panels : how it is drawn beside others in each panel
+    draw_alone : draws it in the colours and marks of its picture, with their legend
+    common : entries of the legend that serve all cases beside each other
+    """
+    if case.shown.name or any(_panels_on(ax, case.kind) for ax in page.axes):
+        _stand_beside(page, case, panels, common)
+        return False
+    draw_alone()
+    _remember_alone(page, case, panels)
+    return True
 
 
-def stand_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:
+def _remember_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:
     """Remember a case that was drawn alone, with how it is drawn beside others in each panel."""
     case.shown.looks[:] = page.handles
     for ax, lines, drawn in zip(page.axes, panels, page.added(), strict=True):
         _PANELS[ax] = [Panel(case, lines, [ref(artist) for artist in drawn])]
 
 
-def stand_beside(
-    page: Page, case: Case, panels: Sequence[Lines], common: Sequence[Artist] = ()
+def _stand_beside(
+    page: Page, case: Case, panels: Sequence[Lines], common: Sequence[Artist]
 ) -> None:
     """Draw a case beside those that its axes have, a look each, within limits that hold all. The
     legend names them by what differs between them, or as the reader does, before entries that are

@@ -24,15 +24,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.cases import PoincareSections
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import (
-    Case,
-    Lines,
-    Style,
-    is_alone,
-    name_of_case,
-    stand_alone,
-    stand_beside,
-)
+from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
 from disc_model.figures.runs import sampled, show_thickness, stated, told_apart
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
 from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
@@ -101,11 +93,9 @@ def plot_poincare(
         apart = told_apart(case, called, window=f"window {name}")
         overlaid = Case("sections", apart, stated(case), (fate,))
         panels = [_points(samples, of) for of in SECTIONS]
-        if is_alone(page, overlaid):
-            page.explain(draw_sections(page.axes, case, samples))
-            stand_alone(page, overlaid, panels)
-        else:
-            stand_beside(page, overlaid, panels)
+        draw_case(
+            page, overlaid, panels, lambda: page.explain(draw_sections(page.axes, case, samples))
+        )
     return np.array(page.axes)
 
 

@@ -12,16 +12,7 @@ from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, panel
 from disc_model.figures.kinds.cases import Portrait
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import (
-    Case,
-    Lines,
-    Style,
-    is_alone,
-    limits_of,
-    name_of_case,
-    stand_alone,
-    stand_beside,
-)
+from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
 from disc_model.figures.runs import sampled, stated, told_apart, window_of
 from disc_model.figures.types import Artist, Axes, Figure
 
@@ -64,11 +55,9 @@ def plot_phase_portrait(
         page.show(Quantities(*(sampled(each, samples)[0] for each in (x, y))))
         overlaid = Case("portrait", told_apart(case, name, window=f"window {window}"), stated(case))
         panels = [_lines(samples, x, y)]
-        if is_alone(page, overlaid):
-            page.explain(draw_portrait(page.ax, samples, x, y))
-            stand_alone(page, overlaid, panels)
-        else:
-            stand_beside(page, overlaid, panels)
+        draw_case(
+            page, overlaid, panels, lambda: page.explain(draw_portrait(page.ax, samples, x, y))
+        )
     return page.ax
 
 

@@ -15,7 +15,7 @@ from disc_model.data.variables import PHASES, SHOWN, axis_of, flag_names
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
-from disc_model.figures.family import Shown
+from disc_model.figures.family import Member
 from disc_model.figures.types import Array, Axes
 from disc_model.figures.words import what_case
 from disc_model.parameters import Parameters
@@ -42,12 +42,12 @@ def stated_values(p: Parameters, *varied: str) -> dict[str, Any]:
     return {name: value for name, value in values.items() if name not in varied}
 
 
-def told_apart(case: xr.DataTree, name: str, **further: str) -> Shown:
+def told_apart(case: xr.DataTree, name: str, **further: str) -> Member:
     """What tells a run from others on the same axes: the name that a reader gives it, or its values
     and further words; a parameter that ramps change has its course for a value."""
     ramps = ramps_of(case)
     courses = {ramp.parameter: _course(ramp.parameter, ramps) for ramp in ramps}
-    return Shown(name, {**further, **stated_values(parameters_of(case)), **courses}, 0, [], [])
+    return Member(name, {**further, **stated_values(parameters_of(case)), **courses})
 
 
 def stated(case: Parameters | xr.DataTree, *varied: str) -> str:

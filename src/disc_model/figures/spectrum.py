@@ -16,15 +16,7 @@ from disc_model.figures.kinds.cases import Spectrum
 from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.overlay import (
-    Case,
-    Lines,
-    Style,
-    is_alone,
-    name_of_case,
-    stand_alone,
-    stand_beside,
-)
+from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
 from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
 from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.units import is_number
@@ -48,7 +40,8 @@ MOST_DECIMALS = 1  # of the frequency beside a peak
 def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
     """Draw the spectrum of a variable in the whole of a window."""
     figure, [ax] = panels(plot.inches, 2.4)
-    draw_spectrum(ax, dataset.samples(case, plot.window), plot.variable, plot.highest)
+    samples = dataset.samples(case, plot.window)
+    draw_spectrum(ax, samples, plot.variable, amplitudes(samples, plot.variable, plot.highest))
     return figure
 
 
@@ -75,16 +68,16 @@ def plot_spectrum(
             page.show(Quantities(FREQUENCY, _amplitude(samples, variable)))
             apart = told_apart(case, name, window=f"window {window}")
             overlaid = Case("spectrum", apart, stated(case))
-            if is_alone(page, overlaid):
-                found = draw_spectrum(page.ax, samples, variable, highest)
-                stand_alone(page, overlaid, [_beside(page.ax, samples, variable, found)])
-            else:
-                former = words_of(page.ax.xaxis.label)
-                found = amplitudes(samples, variable, highest)
-                lines_of = _beside(page.ax, samples, variable, found)
-                stand_beside(page, overlaid, [lines_of])
-                if words_of(page.ax.xaxis.label) != former:  # resolutions differ
-                    page.ax.set_xlabel(FREQUENCY)
+            axes = page.ax
+            former = words_of(axes.xaxis.label)
+            found = amplitudes(samples, variable, highest)
+            panels = [_beside(axes, samples, variable, found)]
+            alone = draw_case(
+                page, overlaid, panels, lambda: draw_spectrum(axes, samples, variable, found)
+            )
+            resolutions_differ = words_of(axes.xaxis.label) != former
+            if not alone and resolutions_differ:
+                axes.set_xlabel(FREQUENCY)
     except Missing as reason:
         raise ParameterError(Fault.of(("window",), window, str(reason))) from None
     return page.ax
@@ -171,19 +164,14 @@ def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None)
     return Amplitudes(frequency[shown], amplitude, resolution, peaks, whole)
 
 
-def draw_spectrum(
-    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
-) -> Amplitudes:
-    """Draw the amplitude of a variable over the frequency, up to one in Hz, or to where its lines
-    end; returns what is shown, and raises `Missing` if it does not vibrate."""
-    shown = amplitudes(samples, variable, highest)
+def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:
+    """Draw the amplitude of a variable over the frequency, with the names of its lines."""
     colour = sampled(variable, samples)[2]
     ax.semilogy(shown.frequency, shown.amplitude, color=colour, linewidth=wide(0.7))
     _label(ax, samples, variable, shown)
     ax.set_xlim((0, shown.highest))
     ax.set_ylim(shown.lowest, shown.upper_end(ax))
     name_lines(ax, shown.peaks, shown.resolution)
-    return shown
 
 
 def _label(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:

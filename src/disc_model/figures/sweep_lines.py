@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.family import LOOKS, Shown, names_of, retitle
+from disc_model.figures.family import LOOKS, Member, names_of, retitle
 from disc_model.figures.named_axes import Quantities, shown_on, unit_in
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes
@@ -38,7 +38,7 @@ class Lines:
     across: str
     label: str
     phrase: str
-    shown: Shown
+    shown: Member
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
 
@@ -71,7 +71,7 @@ def lines_of(
     case : values of the case that do not vary
     """
     phrase = named(study[variable]).name
-    return Lines(*labels, phrase, Shown(name, {"variable": phrase, **case}, 0, [], []))
+    return Lines(*labels, phrase, Member(name, {"variable": phrase, **case}))
 
 
 def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:

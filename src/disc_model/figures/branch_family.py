@@ -1,0 +1,78 @@
+"""Several branches of cycles on the same axes: the entries of their legend, and their title."""
+
+from collections.abc import Sequence
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from disc_model.figures.branch_lines import Look
+from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, sample
+from disc_model.figures.family import LOOKS, Member, names_of, retitle
+from disc_model.figures.named_axes import shown_on
+from disc_model.figures.pages import Page
+from disc_model.figures.types import Axes
+
+NAME = "branch"
+"""The label by which a reader names a branch."""
+SPECIAL_MARKS = {
+    "fold": ("s", SEPARATED, "fold"),
+    "period_doubling": ("D", BLUE, "period doubling"),
+    "neimark_sacker": ("o", BLUE, "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", BLACK, "branch point"),
+    "grazing": ("X", SEPARATED, "grazing"),
+    "hopf": ("^", BLUE, "Hopf point"),
+}
+"""Kinds of special points, with their mark, colour and name in the legend."""
+WIDTH = 1.4  # points, of their lines in the legend
+
+
+_BRANCHES: WeakKeyDictionary[Axes, list[Member]] = WeakKeyDictionary()
+"""The branches that axes have."""
+
+
+def _branches_on(ax: Axes) -> list[Member]:
+    """The branches on axes from which they were not removed, as by ``ax.clear()``."""
+    return _BRANCHES.get(ax, []) if shown_on(ax).labels else []
+
+
+def next_look(ax: Axes) -> Look:
+    """The look of the next branch on axes."""
+    return LOOKS[len(_branches_on(ax)) % len(LOOKS)]
+
+
+def join_family(page: Page, new: Member) -> None:
+    """Add a branch to those on its axes. Of several, the legend names each by what differs between
+    their cases and between their periods, and each kind of special points once; the title of a
+    figure of this package says what all have in common."""
+    family = [*_branches_on(page.ax), new]
+    _BRANCHES[page.ax] = family
+    if len(family) > 1 or new.name:
+        _explain(page, family)
+    if len(family) > 1:
+        retitle(page.figure, family)
+
+
+def _explain(page: Page, family: Sequence[Member]) -> None:
+    """Set the entries of the legend, which replace those of each branch alone."""
+    alone = [handle for each in family for handle in (*each.looks, *each.special)]
+    replaced = {str(handle.get_label()) for handle in alone}
+    replaced |= {*names_of(family[:-1], NAME)}  # a further branch may differ in something else
+
+    handles: list[Any] = []
+    for number, text in enumerate(names_of(family, NAME)):
+        look = LOOKS[number % len(LOOKS)]
+        handles.append(sample(label=text, **look.line(WIDTH)))
+    looks: dict[str, Any] = {}
+    marks: dict[str, Any] = {}
+    for each in family:
+        looks |= {str(handle.get_label()): handle for handle in each.looks}
+    for handle in looks.values():
+        handle.set_color(GREY)  # black would be that of a branch
+    for each in family:
+        marks |= {str(handle.get_marker()): handle for handle in each.special}
+    for sign, _, name in SPECIAL_MARKS.values():
+        if sign in marks:
+            marks[sign].set_label(name)
+
+    handles += [*looks.values(), *marks.values()]
+    page.replaced = replaced | {str(handle.get_label()) for handle in handles}
+    page.explain(handles)
