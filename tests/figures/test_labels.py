@@ -7,7 +7,7 @@ from matplotlib.text import Text
 
 import disc_model as dm
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
-from disc_model.figures.spectrum import name_lines
+from disc_model.figures.peak_names import name_lines
 from disc_model.figures.words import head_text, what_case
 from tests.figures.reading import assert_numbers_are_apart
 

@@ -14,7 +14,8 @@ from matplotlib.patches import Rectangle
 from PIL import Image
 
 import disc_model as dm
-from disc_model.figures.spectrum import amplitudes, draw_spectrum
+from disc_model.figures.amplitudes import amplitudes
+from disc_model.figures.spectrum import draw_spectrum
 from disc_model.figures.sweep import OF_FUNCTIONS
 from tests.figures.reading import labels
 

@@ -1,7 +1,5 @@
 """The explorer's page: contents of studies with pictures, style and script in one file."""
 
-import base64
-import io
 import json
 from collections.abc import Mapping, Sequence
 from importlib.resources import files
@@ -12,16 +10,13 @@ from typing import Any, NamedTuple
 import jinja2
 from cmcrameri import cm
 from matplotlib.colors import Colormap, to_hex
-from PIL import Image, ImageOps
 
+from disc_model.explorer.embedding import embedded
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.figures.selection import WITHOUT_CYCLE
 from disc_model.parameters import RATIOS, Parameters
 
-PICTURE_WIDTH = 1100  # width of a page-wide figure, pixels; narrower ones are scaled alike
-PAGE_WIDTH = 2055  # width of such a figure as drawn, pixels
-QUALITY = 80
 SCRIPTS = (
     "contents",
     "view",
@@ -73,17 +68,6 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
 def _colours(scale: Colormap) -> list[str]:
     """Return the colours of a scale as texts, in equal steps."""
     return [to_hex(colour) for colour in scale(range(256))]
-
-
-def embedded(file: Path) -> str:
-    """A picture, reduced in size, as a data URL."""
-    with Image.open(file) as picture:
-        small = ImageOps.scale(
-            picture.convert("RGB"), PICTURE_WIDTH / PAGE_WIDTH, Image.Resampling.LANCZOS
-        )
-    buffer = io.BytesIO()
-    small.save(buffer, "WEBP", quality=QUALITY, method=6)
-    return f"data:image/webp;base64,{base64.b64encode(buffer.getvalue()).decode('ascii')}"
 
 
 def _part(name: str) -> str:

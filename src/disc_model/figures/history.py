@@ -7,12 +7,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data import dataset
 from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, letters, panels, sample
-from disc_model.figures.kinds.cases import History
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
 from disc_model.figures.runs import (
@@ -27,30 +24,12 @@ from disc_model.figures.runs import (
     window_of,
 )
 from disc_model.figures.shades import shade_phases, shade_ramps
-from disc_model.figures.types import Artist, Axes, Figure
+from disc_model.figures.types import Artist, Axes
 
 LINE = 0.8  # points, width of the lines of several runs,
 SAMPLE = 1.2  # and of those in the legend
 BAND = 0.2  # opacity of their ranges
 ROOM = 0.05  # free share of the values above and below them
-
-
-def draw(plot: History, case: xr.DataTree) -> Figure:
-    """Draw variables of a case in a window, one above the other."""
-    rows = len(plot.variables)
-    width = plot.inches
-    figure, axes = panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
-    end = math.inf if plot.until is None else plot.until
-    shown = dataset.group(case, plot.window).sel(time=slice(None, end))
-    if shown.sizes["time"] < 2:  # the run ended before it
-        raise dataset.Missing(
-            f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed"
-        )
-    letters(axes)
-    handles = draw_history(axes, case, shown, plot.variables)
-    figure_legend(figure, [*handles, *shade_ramps(axes, ramps_of(case))])
-    figure.align_ylabels()
-    return figure
 
 
 def plot_run(

@@ -1,6 +1,5 @@
 """Poincaré sections of slider and disc, in the colours of the stages of a run."""
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
@@ -9,25 +8,13 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data import dataset
-from disc_model.data.variables import values_text
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import (
-    BLACK,
-    GREY,
-    PAGE,
-    SEPARATED,
-    SKY,
-    letters,
-    new_figure,
-    sample,
-)
-from disc_model.figures.kinds.cases import PoincareSections
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, sample
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
 from disc_model.figures.runs import sampled, show_thickness, stated, told_apart
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
-from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
+from disc_model.figures.types import Array, Artist, Axes, Mask
 
 HOLLOW = {"s": 8, "linewidths": 0.5}
 LOOKS: dict[str, dict[str, Any]] = {
@@ -49,29 +36,6 @@ drawn."""
 SMALL = 0.2  # share of both common axes below which a section has axes of its own
 BESIDE_LETTER = 0.09  # share of the axes' width
 MANY = 2000  # points from which marks are drawn as pixels
-
-
-def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
-    """Draw the sections of cases, a row each, on common axes."""
-    width = plot.inches
-    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
-    figure = new_figure(width, height * len(cases))
-    rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
-    sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
-    differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
-    for row, case, samples, values in zip(rows, cases, sections, differing, strict=True):
-        axes = list(np.ravel(row.subplots(rows_of_case, 2 // rows_of_case)))
-        handles = draw_sections(axes, case, samples, sections, values_text(values))
-        figure_legend(row, handles, handletextpad=0.2)
-    letters(figure.axes)
-    return figure
-
-
-def _differing(parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Of each case, the parameters that it does not share with all others."""
-    first = parameters[0]
-    names = [name for name in first if any(p[name] != first[name] for p in parameters)]
-    return [{name: p[name] for name in names} for p in parameters]
 
 
 def plot_poincare(

@@ -5,16 +5,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data import dataset
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, panels, sample, wide
-from disc_model.figures.kinds.cases import Portrait
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
 from disc_model.figures.runs import sampled, stated, told_apart, window_of
-from disc_model.figures.types import Artist, Axes, Figure
+from disc_model.figures.types import Artist, Axes
 
 LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}
 """Widths of the lines of phases, points: where slip lies on stick, both show."""
@@ -27,14 +24,6 @@ EDGE = 0.4
 
 ROOM = 0.04
 """Free share of the values on both sides of them."""
-
-
-def draw(plot: Portrait, case: xr.DataTree) -> Figure:
-    """Draw a portrait of the samples in a window."""
-    figure, [ax] = panels(plot.inches, 2.7)
-    samples = dataset.samples(case, plot.window)
-    figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
-    return figure
 
 
 def plot_phase_portrait(

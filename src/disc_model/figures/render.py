@@ -14,15 +14,13 @@ from disc_model.figures import (
     bifurcation,
     branches,
     campbell,
+    case_figures,
     critical_speed,
     curve,
     escape,
     heat_map,
-    history,
     late_range,
     locking,
-    poincare,
-    portrait,
     ramps,
     range_law,
     region_map,
@@ -31,7 +29,6 @@ from disc_model.figures import (
     sliding_modes,
     sliding_outcome,
     spectrogram,
-    spectrum,
 )
 from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
@@ -53,11 +50,11 @@ DRAWINGS: Drawings = {
     "curve": curve.draw,
     "escape": escape.draw,
     "heat_map": heat_map.draw,
-    "history": history.draw,
+    "history": case_figures.history,
     "late_range": late_range.draw,
     "phase_map": locking.draw_map,
-    "poincare": poincare.draw,
-    "portrait": portrait.draw,
+    "poincare": case_figures.sections_of_cases,
+    "portrait": case_figures.portrait,
     "ramps": ramps.draw,
     "range_law": range_law.draw,
     "region_map": region_map.draw,
@@ -66,7 +63,7 @@ DRAWINGS: Drawings = {
     "sliding_modes": sliding_modes.draw,
     "sliding_outcome": sliding_outcome.draw,
     "spectrogram": spectrogram.draw,
-    "spectrum": spectrum.draw,
+    "spectrum": case_figures.spectrum,
     "staircase": locking.draw_staircase,
 }
 """Functions that draw a kind: from the figure, its study and further ones by their roles, or from the

@@ -1,48 +1,28 @@
 """Spectra: the amplitude of a variable over the frequency."""
 
-import math
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import xarray as xr
 
-from disc_model.analysis.spectra import RESOLVED, amplitude_spectrum, highest_line, lines
-from disc_model.data import dataset
 from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, require
+from disc_model.figures.amplitudes import Amplitudes, amplitudes
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN, large, panels, sample, wide
-from disc_model.figures.kinds.cases import Spectrum
+from disc_model.figures.drawing import COLUMN, sample, wide
 from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.names import Names
 from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
+from disc_model.figures.peak_names import name_lines
 from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
-from disc_model.figures.types import Array, Artist, Axes, Figure
+from disc_model.figures.types import Artist, Axes
 from disc_model.units import is_number
 
 FREQUENCY = "Frequency (Hz)"
-FLOOR = -100.0  # least amplitude shown, dB below the greatest
-WEAKEST = 0.01  # amplitude over that of the strongest line, of lines that have to be on the axis
-ROOM_BEYOND = 1.15  # highest frequency shown over that of the highest such line
 HEADROOM = 6.0  # upper end of the axis over the greatest amplitude: room for its name,
 NAME_HEIGHT = 15.0  # points, which has a low panel too,
 MOST_HEADROOM = 0.4  # and at most as a share of the panel's height
-MOST_NAMED = 5  # lines whose frequencies are written
-BESIDE = ((3, 2), (-3, 2))  # points, of the names beside their peaks,
-BELOW = ((3, -3), (-3, -3))  # where there is no room, beside their lines,
-ABOVE = tuple((across, up) for up in (5, 13, 21, 29, 37) for across in (0, -2, 2))  # and else above
-ROUNDING = 1e-9  # relative, of half the rate of a window; and of the decade of a resolution
+ROUNDING = 1e-9  # relative, of half the rate of a window
 SAID_FROM = 1.0  # Hz, resolution from which the axis states it
-MOST_DECIMALS = 1  # of the frequency beside a peak
-
-
-def draw(plot: Spectrum, case: xr.DataTree) -> Figure:
-    """Draw the spectrum of a variable in the whole of a window."""
-    figure, [ax] = panels(plot.inches, 2.4)
-    samples = dataset.samples(case, plot.window)
-    draw_spectrum(ax, samples, plot.variable, amplitudes(samples, plot.variable, plot.highest))
-    return figure
 
 
 def plot_spectrum(
@@ -105,72 +85,13 @@ def _check_range(samples: xr.Dataset, highest: float | None) -> None:
     require((within, "highest", highest, rule))
 
 
-class Amplitudes(NamedTuple):
-    """What is shown of a spectrum: frequencies, Hz, up to the highest, amplitudes in the unit of the
-    axis, the resolution, Hz, all lines as frequencies and amplitudes, and the whole spectrum, of
-    which more is seen beside another one that goes further."""
-
-    frequency: Array
-    amplitude: Array
-    resolution: float
-    peaks: list[tuple[float, float]]
-    whole: tuple[Array, Array]
-
-    @property
-    def highest(self) -> float:
-        return float(self.frequency[-1])
-
-    @property
-    def lowest(self) -> float:
-        """Lower end of the axis."""
-        greatest = self.amplitude.max()
-        return float(max(self.amplitude.min(), 10 ** (FLOOR / 20) * greatest)) / 2
-
-    def upper_end(self, ax: Axes) -> float:
-        """Upper end of the axis, with room for the name of the greatest amplitude."""
-        greatest = float(self.amplitude.max())
-        return _headroom(ax, greatest / self.lowest) * greatest
-
-
-def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None) -> Amplitudes:
-    """The spectrum of a variable up to a frequency in Hz, or to where its lines end; raises
-    `Missing` if it does not vibrate."""
-    time = samples["time"].values
-    values = samples[variable].values
-    least = 4 * RESOLVED
-    if time.size < least:
-        raise Missing(
-            f"recorded {time.size} samples, and a spectrum takes {least}: a line is"
-            f" {least // 2} bins wide"
-        )
-    _, factor, _ = sampled(variable, samples)
-    frequency, amplitude = amplitude_spectrum(time, values)
-    resolution = 1 / span_of(samples)
-    if highest is None:
-        highest = min(ROOM_BEYOND * highest_line(time, values, WEAKEST), float(frequency[-1]))
-        least_shown = RESOLVED * resolution
-        if highest < least_shown:
-            raise Missing(
-                f"lasts {span_of(samples):.3g} s, too short: lines show from {least_shown:.3g} Hz"
-                f" on, and what vibrates is below {highest:.3g} Hz"
-            )
-    shown = (frequency > 0) & (frequency <= highest)
-    whole = (frequency[1:], factor * amplitude[1:])
-    amplitude = factor * amplitude[shown]
-    if not amplitude.any():
-        raise Missing(f"did not vibrate at up to {highest:g} Hz")
-    found = lines(time, values, above=RESOLVED * resolution, below=highest)
-    peaks = [(line.frequency, factor * line.amplitude) for line in found]
-    return Amplitudes(frequency[shown], amplitude, resolution, peaks, whole)
-
-
 def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:
     """Draw the amplitude of a variable over the frequency, with the names of its lines."""
     colour = sampled(variable, samples)[2]
     ax.semilogy(shown.frequency, shown.amplitude, color=colour, linewidth=wide(0.7))
     _label(ax, samples, variable, shown)
     ax.set_xlim((0, shown.highest))
-    ax.set_ylim(shown.lowest, shown.upper_end(ax))
+    ax.set_ylim(shown.lowest, _upper_end(ax, shown))
     name_lines(ax, shown.peaks, shown.resolution)
 
 
@@ -191,8 +112,14 @@ def _beside(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> 
         _label(ax, samples, variable, shown)
         return sample(**style.layered())
 
-    limits = ((0.0, shown.highest), (shown.lowest, shown.upper_end(ax)))
+    limits = ((0.0, shown.highest), (shown.lowest, _upper_end(ax, shown)))
     return Lines(draw, limits, sampled(variable, samples)[0].rpartition(" (")[0])
+
+
+def _upper_end(ax: Axes, shown: Amplitudes) -> float:
+    """Upper end of the axis of amplitudes, with room for the name of the greatest."""
+    greatest = float(shown.amplitude.max())
+    return _headroom(ax, greatest / shown.lowest) * greatest
 
 
 def _headroom(ax: Axes, below: float) -> float:
@@ -201,30 +128,3 @@ def _headroom(ax: Axes, below: float) -> float:
     height = 72 * ax.get_window_extent().height / figure.dpi
     share = min(NAME_HEIGHT / height, MOST_HEADROOM)
     return max(HEADROOM, below ** (share / (1 - share)))
-
-
-def name_lines(ax: Axes, peaks: Sequence[tuple[float, float]], resolution: float = 0.1) -> None:
-    """Write the frequencies, Hz, of the strongest lines beside their peaks, on the side away from
-    the nearest other line if there is room, or above, with a line to the peak. The stronger
-    comes first; without room for the strongest there is none. They have no more digits than the
-    resolution, Hz, and a tenth at most."""
-    names = Names(ax, stems=peaks, first_needed=True)
-    every = [frequency for frequency, _ in peaks]
-    for frequency, height in sorted(peaks, key=lambda peak: -peak[1])[:MOST_NAMED]:
-        sides = (*BESIDE, *BELOW)
-        if _nearest(frequency, every) > frequency:
-            sides = (*BESIDE[::-1], *BELOW[::-1])
-        text = frequency_text(frequency, resolution)
-        names.add(text, (frequency, height), sides, ABOVE, fontsize=large(7))
-
-
-def frequency_text(frequency: float, resolution: float) -> str:
-    """A frequency in Hz, rounded to the place of the first digit of the resolution, or to a tenth."""
-    places = min(-math.floor(math.log10(resolution) + ROUNDING), MOST_DECIMALS)
-    return f"{round(frequency, places):.{max(places, 0)}f} Hz"
-
-
-def _nearest(frequency: float, every: Sequence[float]) -> float:
-    """The frequency of the line nearest another one; zero without any."""
-    others = [other for other in every if other != frequency]
-    return min(others, key=lambda other: abs(other - frequency), default=0.0)

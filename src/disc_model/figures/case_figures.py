@@ -1,0 +1,80 @@
+"""Figures of single cases as a study file describes them: histories, portraits, sections and spectra."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data import dataset
+from disc_model.data.variables import values_text
+from disc_model.figures.amplitudes import amplitudes
+from disc_model.figures.drawing import PAGE, letters, new_figure, panels
+from disc_model.figures.history import draw_history
+from disc_model.figures.kinds.cases import History, PoincareSections, Portrait, Spectrum
+from disc_model.figures.legends import figure_legend
+from disc_model.figures.poincare import draw_sections
+from disc_model.figures.portrait import draw_portrait
+from disc_model.figures.runs import ramps_of
+from disc_model.figures.shades import shade_ramps
+from disc_model.figures.spectrum import draw_spectrum
+from disc_model.figures.types import Figure
+
+
+def history(plot: History, case: xr.DataTree) -> Figure:
+    """Draw variables of a case in a window, one above the other."""
+    rows = len(plot.variables)
+    width = plot.inches
+    figure, axes = panels(width, 0.8 + 1.3 * rows, rows, sharex=True)
+    end = math.inf if plot.until is None else plot.until
+    shown = dataset.group(case, plot.window).sel(time=slice(None, end))
+    if shown.sizes["time"] < 2:  # the run ended before it
+        raise dataset.Missing(
+            f"has {shown.sizes['time']} samples in {plot.window}, at least 2 are needed"
+        )
+    letters(axes)
+    handles = draw_history(axes, case, shown, plot.variables)
+    figure_legend(figure, [*handles, *shade_ramps(axes, ramps_of(case))])
+    figure.align_ylabels()
+    return figure
+
+
+def portrait(plot: Portrait, case: xr.DataTree) -> Figure:
+    """Draw a portrait of the samples in a window."""
+    figure, [ax] = panels(plot.inches, 2.7)
+    samples = dataset.samples(case, plot.window)
+    figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
+    return figure
+
+
+def sections_of_cases(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
+    """Draw the sections of cases, a row each, on common axes."""
+    width = plot.inches
+    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
+    figure = new_figure(width, height * len(cases))
+    rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
+    sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
+    differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
+    for row, case, samples, values in zip(rows, cases, sections, differing, strict=True):
+        axes = list(np.ravel(row.subplots(rows_of_case, 2 // rows_of_case)))
+        handles = draw_sections(axes, case, samples, sections, values_text(values))
+        figure_legend(row, handles, handletextpad=0.2)
+    letters(figure.axes)
+    return figure
+
+
+def _differing(parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
+    """Of each case, the parameters that it does not share with all others."""
+    first = parameters[0]
+    names = [name for name in first if any(p[name] != first[name] for p in parameters)]
+    return [{name: p[name] for name in names} for p in parameters]
+
+
+def spectrum(plot: Spectrum, case: xr.DataTree) -> Figure:
+    """Draw the spectrum of a variable in the whole of a window."""
+    figure, [ax] = panels(plot.inches, 2.4)
+    samples = dataset.samples(case, plot.window)
+    draw_spectrum(ax, samples, plot.variable, amplitudes(samples, plot.variable, plot.highest))
+    return figure

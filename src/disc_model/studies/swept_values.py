@@ -1,0 +1,97 @@
+"""The values along an axis of a sweep: what a table may hold, in SI units, and what is wrong with them."""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from pydantic import create_model
+
+from disc_model.errors import Fault, ParameterError
+from disc_model.parameters import Disc, Parameters
+from disc_model.simulation.case import SomeParameters
+from disc_model.units import Finite, Strict, in_si, number
+
+
+def is_missing(value: Any) -> bool:
+    """Whether this is what a table has for a missing word: None, nan, or pandas.NA."""
+    is_nan = isinstance(value, float) and math.isnan(value)
+    return value is None or is_nan or type(value).__name__ == "NAType"
+
+
+def checked_values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:
+    """The values of an axis in SI units; what is wrong with them, each by itself, is added to the
+    faults, whose path begins with the names `within` which the axis stands.
+
+    A number that breaks a rule, nan among them, stays: it makes its points fail, unless no value of
+    the axis can be.
+    """
+    several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
+    raw = [_plain_value(value) for value in values] if several else [_plain_value(values)]
+    if not raw:
+        faults.append(Fault.of((*within, name), values, "must have one value or more"))
+    if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
+        faults.append(Fault.of((*within, name), values, "must be values in one dimension"))
+        return raw
+    model = _model_of(name)
+    checked: list[Any] = []
+    impossible: list[list[Fault]] = []
+    for row, value in enumerate(raw):
+        try:
+            checked.append(getattr(model(**{name: value}), name))
+        except ParameterError as error:
+            told = [_at_row(fault, (*within, name), row, several=several) for fault in error.faults]
+            meant = _number_of(name, value)
+            checked.append(meant)
+            if meant is None:
+                faults += told
+            else:
+                impossible.append(told)
+    if impossible and len(impossible) == len(raw):
+        faults += [fault for told in impossible for fault in told]
+    return checked
+
+
+def _at_row(fault: Fault, path: tuple[str, ...], row: int, *, several: bool) -> Fault:
+    """The fault of one of several values, whose row it names, or of the only one."""
+    *within, name = path
+    place = f"{name}[{row}]" if several else name
+    return Fault((*within, place), fault.value, fault.rule)
+
+
+def _plain_value(value: Any) -> Any:
+    """A value without numpy's type."""
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _model_of(name: str) -> type[Strict]:
+    """The model that checks a value of a parameter, a ratio, or a number of a disc's mode."""
+    if name in Parameters.model_fields:
+        return SomeParameters
+    only: dict[str, Any] = {name: Finite}
+    return create_model("Number", __base__=Strict, **only)
+
+
+def _number_of(name: str, value: Any) -> float | None:
+    """The number in SI units that is given for a number of the case, whatever its size, nan for what
+    a table has for a missing one; None for all else, and where the case takes a word."""
+    unit = "1"
+    if name in Parameters.model_fields:
+        unit = Parameters.unit(name)
+    if not unit:
+        return None
+    try:
+        return math.nan if is_missing(value) else float(number(in_si(value, unit, [], ())))
+    except ValueError:
+        return None
+
+
+def faults_of_repeated(name: str, values: Sequence[Any]) -> Iterator[Fault]:
+    """Yield a fault for each number or word that stands along an axis once more."""
+    known = set()
+    for row, value in enumerate(values):
+        if not isinstance(value, float | int | str):
+            continue
+        if value in known:
+            yield Fault.of((f"{name}[{row}]",), value, "must not be given twice along an axis")
+        known.add(value)
