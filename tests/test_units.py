@@ -9,18 +9,10 @@ import pint
 import pytest
 import xarray as xr
 
-from disc_model import (
-    ParameterError,
-    Parameters,
-    Ramp,
-    Window,
-    deflection,
-    floquet,
-    simulate,
-    snapshots,
-)
+from disc_model import Parameters, Ramp, Window, deflection, floquet, simulate, snapshots
 from disc_model.errors import Fault
 from disc_model.units import in_si
+from tests.refusals import refusal
 from tests.studies.refused import parse_grid
 
 
@@ -82,7 +74,7 @@ def test_a_unit_that_is_another_than_it_seems_is_refused_with_what_is_meant(
 
 @pytest.mark.parametrize("text", ["2 Hz", "2 1/s", "2 s-1", "2 kHz", "2 min"])
 def test_a_speed_of_rotation_says_whether_it_counts_turns_or_radians(text: str) -> None:
-    with pytest.raises(ParameterError, match=r"Omega=.* such as rpm; Hz may mean turns or radians"):
+    with refusal(r"Omega=.* such as rpm; Hz may mean turns or radians"):
         Parameters(N=1, Omega=text)
 
 
@@ -121,10 +113,10 @@ def test_units_of_other_libraries_count() -> None:
         ("N", xr.DataArray(1.0, attrs={"units": "s"})),
         ("Omega", UNITS.Quantity(2, "Hz")),
     ):
-        with pytest.raises(ParameterError, match=rf"^{name}=.* or with a unit of its kind"):
+        with refusal(rf"^{name}=.* or with a unit of its kind"):
             Parameters(**{"N": 1, "Omega": 1, name: wrong})
     for wrong in (np.array([1.0]), np.array(True), np.array("x"), UNITS.Quantity([1.0, 2.0], "N")):
-        with pytest.raises(ParameterError, match=r"^N=.*: must be a number"):
+        with refusal(r"^N=.*: must be a number"):
             Parameters(N=wrong, Omega=1)
 
 
@@ -145,7 +137,7 @@ def test_arguments_of_functions_are_such_numbers_too() -> None:
     assert at.equals(deflection(p, states, 0.1, 1.5707963267949))
     run = simulate(p, 0.01, ramps=Ramp(parameter="N", to=100, start=0, end=0.01))
     assert run.value_at("N", UNITS.Quantity(5, "ms")) == pytest.approx(150)
-    with pytest.raises(ParameterError, match=r"^times=.*: must be finite"):
+    with refusal(r"^times=.*: must be finite"):
         snapshots(p, UNITS.Quantity([1.0], "kg"))
     short = np.float32(1e-10)
     of_numpy = floquet(p, tol=short)
@@ -159,7 +151,7 @@ MS = {"units": "ms"}
 def test_python_takes_units_everywhere() -> None:
     assert Parameters(N="0.2 kN", Omega=20, E="150 GPa").key == Parameters(N=200, Omega=20).key
     assert simulate(Parameters(N=200, Omega=20), "10 ms").t_end == 0.01
-    with pytest.raises(ParameterError, match="t_end='10 kg': must be finite, in s or as '2 min'"):
+    with refusal("t_end='10 kg': must be finite, in s or as '2 min'"):
         simulate(Parameters(N=200, Omega=20), "10 kg")
     assert Window(last="30 ms", rate="2 kHz") == Window(last=0.03, rate=2000)
     assert Ramp(parameter="N", to="1 kN", start="1 min", end="2 min") == Ramp(

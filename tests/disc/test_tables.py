@@ -19,6 +19,7 @@ from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import load_study
 from tests.disc.table import disc_table
+from tests.refusals import refusal
 from tests.test_cli import Command
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -111,7 +112,7 @@ def test_shapes_of_a_table_give_the_deflection_of_the_plate(tmp_path: Path) -> N
     np.testing.assert_allclose(
         under[1], under[0], rtol=1e-12
     )  # there they are the amplitudes themselves
-    with pytest.raises(dm.ParameterError, match=r"r=0\.13: must be within 0\.044 and 0\.12"):
+    with refusal(r"r=0\.13: must be within 0\.044 and 0\.12"):
         dm.deflection(table, state, 0.13, 0.0)
 
 
@@ -128,12 +129,12 @@ def test_a_table_is_read_as_a_spreadsheet_writes_it(tmp_path: Path) -> None:
 
 def test_faults_of_columns_are_named() -> None:
     given = {"diameters": [2, 2], "omega": [100, 100.5], "amplitude": [1, 1]}
-    with pytest.raises(dm.ParameterError, match=r"omega.1=100.5: modes 1 and 2 .* 0.5 % apart"):
+    with refusal(r"omega.1=100.5: modes 1 and 2 .* 0.5 % apart"):
         dm.Disc(**given)
     assert dm.Disc(**given, circles=[0, 1]).damping_ratio == (0, 0)
-    with pytest.raises(dm.ParameterError, match="omega=1 values: must be as many as diameters, 2"):
+    with refusal("omega=1 values: must be as many as diameters, 2"):
         dm.Disc(diameters=[2, 3], omega=[100], amplitude=[2, 1])
-    with pytest.raises(dm.ParameterError, match="diameters=9000 modes: must be 1 to 1000 modes"):
+    with refusal("diameters=9000 modes: must be 1 to 1000 modes"):
         dm.Disc(
             diameters=[2] * 9000, omega=range(100, 9100), amplitude=[1] * 9000
         )  # circles are not counted before

@@ -14,6 +14,7 @@ from disc_model.disc.plate import mode_shapes
 from tests import needs
 from tests.disc.bricks import Ring, brick_modes, export
 from tests.disc.universal import END, MODES, R_0, RADII, Dialect, Half, begin, halves, whole
+from tests.refusals import refusal
 from tests.test_cli import Command
 
 RECORDS = ((55, 15), (55, 2411), (2414, 15), (2414, 2411))
@@ -126,20 +127,20 @@ def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
     assert_right(dm.Disc.from_uff(file, R_0))
     metres = millimetres.replace("         5mm", "         1mm")
     file.write_text(metres + millimetres + text)
-    with pytest.raises(dm.ParameterError, match="must have one system of units"):
+    with refusal("must have one system of units"):
         dm.Disc.from_uff(file, R_0)
     file.write_text(millimetres.replace("         5mm", "        77mm") + text)
-    with pytest.raises(dm.ParameterError, match="must have the factors of its units, or a code"):
+    with refusal("must have the factors of its units, or a code"):
         dm.Disc.from_uff(file, R_0)
 
 
 def test_units_may_be_stated_where_the_file_has_none(tmp_path: Path) -> None:
     dialect = Dialect(length=1e3, force=1.0)
     assert_right(read(tmp_path, dialect, units=("mm", "N")))
-    with pytest.raises(dm.ParameterError, match=r"nodes at 80, 100, 130 m"):
+    with refusal(r"nodes at 80, 100, 130 m"):
         read(tmp_path, dialect)
     rule = "units=.*: must be left out: the file states its units in dataset 164"
-    with pytest.raises(dm.ParameterError, match=rule):
+    with refusal(rule):
         read(tmp_path, Dialect(units=True), units=("mm", "N"))
 
 
@@ -319,7 +320,7 @@ def test_poles_in_hertz_are_noticed(tmp_path: Path) -> None:
 def test_shapes_without_a_scale_are_refused_or_taken_as_normalised(tmp_path: Path) -> None:
     for analysis, name in ((0, "modal mass=0: must be > 0"), (3, "modal A=0: must not be 0")):
         dialect = Dialect(complex=analysis, stated=False)
-        with pytest.raises(dm.ParameterError, match=rf"{name} .*modal_mass=1"):
+        with refusal(rf"{name} .*modal_mass=1"):
             read(tmp_path, dialect)
         assert_right(read(tmp_path, dialect, modal_mass=1))
         assert_right(read(tmp_path, Dialect(complex=analysis), modal_mass=7))
@@ -328,9 +329,7 @@ def test_shapes_without_a_scale_are_refused_or_taken_as_normalised(tmp_path: Pat
 def test_shapes_that_are_not_in_phase_are_left_out(tmp_path: Path) -> None:
     """A modal A of the wrong sign would mean a negative modal mass; a phase of 0.3 rad is that of a
     slightly complex mode, and the report has it."""
-    with pytest.raises(
-        dm.ParameterError, match=r"7 x mode whose motion is not in phase by its modal A"
-    ):
+    with refusal(r"7 x mode whose motion is not in phase by its modal A"):
         read(tmp_path, Dialect(complex=3, turned_by=np.pi / 2))
     disc = read(tmp_path, Dialect(complex=3, turned_by=0.3))
     np.testing.assert_allclose(
@@ -345,9 +344,7 @@ def test_shapes_that_are_not_in_phase_are_left_out(tmp_path: Path) -> None:
 def test_a_disc_that_grows_by_itself_is_refused(tmp_path: Path) -> None:
     for analysis in (0, 3):
         dialect = Dialect(complex=analysis)
-        with pytest.raises(
-            dm.ParameterError, match=r"has a pole with a positive real part, the mode at"
-        ):
+        with refusal(r"has a pole with a positive real part, the mode at"):
             read(tmp_path, dialect, halves(MODES, damping=-1e-3))
 
 
@@ -456,10 +453,10 @@ def test_numbers_that_touch_are_read(tmp_path: Path) -> None:
 def test_what_is_no_universal_file_is_refused(content: bytes, tmp_path: Path) -> None:
     x_path = tmp_path / "x.uff"
     x_path.write_bytes(content)
-    with pytest.raises(dm.ParameterError, match=r"x\.uff: "):
+    with refusal(r"x\.uff: "):
         dm.Disc.from_uff(x_path, R_0)
     none_path = tmp_path / "none.uff"
-    with pytest.raises(dm.ParameterError, match=r"must be a universal file that can be read"):
+    with refusal(r"must be a universal file that can be read"):
         dm.Disc.from_uff(none_path, R_0)
 
 

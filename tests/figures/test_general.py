@@ -10,7 +10,6 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
-from disc_model.errors import ParameterError
 from disc_model.figures import curve, heat_map, selection
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
@@ -18,6 +17,7 @@ from disc_model.figures.legends import LEAST_MAP
 from disc_model.figures.style import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
+from tests.refusals import refusal
 
 
 @pytest.fixture
@@ -92,7 +92,7 @@ def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None
             shown = float(text.get_text())
             assert shown == pytest.approx(expected, rel=1e-5)
             assert float(text.get_text()) % 2.5 == pytest.approx(0, abs=1e-6), "round numbers"
-    with pytest.raises(ParameterError, match=r"units.N='1 rpm': must be a number in N"):
+    with refusal(r"units.N='1 rpm': must be a number in N"):
         draw("heat_map", speeds, variable="drift", x="Omega", y="N", units={"N": "rpm"})
 
 
@@ -124,7 +124,7 @@ def test_limits_end_the_scale_of_a_map(study: xr.Dataset) -> None:
     assert bar.extend == "max"
     rates = mesh(mapped(study, "growth_rate", limits=[-0.2, -0.1])).norm
     assert (rates.vmin, rates.vmax) == (-0.2, -0.1)
-    with pytest.raises(ParameterError, match=r"limits=.*: is for maps of numbers"):
+    with refusal(r"limits=.*: is for maps of numbers"):
         mapped(study, "status", limits=[0.0, 1.0])
 
 

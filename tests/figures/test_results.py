@@ -18,6 +18,7 @@ from disc_model.figures.amplitudes import amplitudes
 from disc_model.figures.spectrum import draw_spectrum
 from disc_model.figures.sweep import OF_FUNCTIONS
 from tests.figures.reading import labels
+from tests.refusals import refusal
 
 P = dm.Parameters(N=385, Omega=15.1)
 
@@ -72,18 +73,12 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
     ranges = dm.simulate(
         P, 0.1, {"all": dm.Window(rate=1e4, envelope=100), "few": dm.Window(last=0.1, rate=100)}
     )
-    with pytest.raises(
-        dm.ParameterError, match="window='few': recorded 11 samples, and a spectrum takes 16"
-    ):
+    with refusal("window='few': recorded 11 samples, and a spectrum takes 16"):
         ranges.plot_spectrum("few")
     for draw in (ranges.plot_phase_portrait, ranges.plot_spectrum):
-        with pytest.raises(
-            dm.ParameterError, match="window='all': must hold samples, not their ranges"
-        ):
+        with refusal("window='all': must hold samples, not their ranges"):
             draw("all")
-    with pytest.raises(
-        dm.ParameterError, match=r"ax=.*: must be 6 axes of matplotlib, one for each panel"
-    ):
+    with refusal(r"ax=.*: must be 6 axes of matplotlib, one for each panel"):
         run().plot(ax=axes[0])
 
 
@@ -191,7 +186,7 @@ def test_a_film_has_its_frames(tmp_path: Path) -> None:
 
 
 def test_a_film_takes_its_window_by_position_as_plots_do() -> None:
-    with pytest.raises(dm.ParameterError, match="window='late': was not recorded"):
+    with refusal("window='late': was not recorded"):
         run().animate(None, "late", frames=2)
 
 
@@ -276,11 +271,9 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     )
     named = labels(dm.plot_sweep(outcomes, "outcome").figure)
     assert named == ["quiet", "separation", "unresolved", "Outcome"]
-    with pytest.raises(
-        dm.ParameterError, match="variable='perod': must be one over the grid, did you mean period"
-    ):
+    with refusal("variable='perod': must be one over the grid, did you mean period"):
         dm.plot_sweep(plane, "perod")
-    with pytest.raises(dm.ParameterError, match="study='c, Omega, N': must vary along at most two"):
+    with refusal("study='c, Omega, N': must vary along at most two"):
         dm.plot_sweep(plane.expand_dims(c=[0.0, 0.1]), "period")
     counted = {
         "growth_rate": (("branch", "branch_point"), np.ones((2, 3))),
@@ -346,7 +339,7 @@ def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     assert repr(disc.first(1)) == "Disc(1 mode, 159.15 Hz)"
     assert "318.31" in disc._repr_html_()
     assert len(dm.plot_modes(P.replace(disc=disc))) == 2
-    with pytest.raises(dm.ParameterError, match="no eigenvalues: The disc is not driven"):
+    with refusal("no eigenvalues: The disc is not driven"):
         dm.steady_sliding(P.replace(Omega=0)).plot()
     with pytest.raises(dm.DiscModelError, match=r"no cycle of .* by disc_model\.continue_cycle\."):
         dm.floquet(P).plot()

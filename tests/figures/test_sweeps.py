@@ -17,6 +17,7 @@ from disc_model.figures.words import unit_text
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
 from tests.figures.reading import assert_numbers_are_apart, labels
+from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
@@ -482,7 +483,7 @@ def test_paired_samples_have_a_mark_for_each_value_of_an_axis_beside_them() -> N
     ax = dm.plot_sweep(pairs, x="mu_k")
     assert len({line.get_marker() for line in ax.lines[:2]}) == 2
     assert ax.get_xlabel().startswith("Kinetic friction")
-    with pytest.raises(dm.ParameterError, match="x='Omega': must be one of N, mu_k"):
+    with refusal("x='Omega': must be one of N, mu_k"):
         dm.plot_sweep(pairs, x="Omega")
     pyplot.close("all")
 
@@ -530,9 +531,9 @@ def test_a_map_of_numbers_takes_other_colours_and_its_bar_too() -> None:
     of_bar = mesh.colorbar.cmap
     assert of_map.name == "magma"
     assert of_bar.name == "magma"
-    with pytest.raises(dm.ParameterError, match="cmap='magma': is for maps of numbers"):
+    with refusal("cmap='magma': is for maps of numbers"):
         dm.plot_sweep(outcomes(), "outcome", cmap="magma")
-    with pytest.raises(dm.ParameterError, match="cmap='magmas': must be a colour map"):
+    with refusal("cmap='magmas': must be a colour map"):
         dm.plot_sweep(outcomes(), "first_separation", cmap="magmas")
     pyplot.close("all")
 
@@ -541,7 +542,7 @@ def test_a_sweep_of_three_dimensions_is_to_be_narrowed_by_its_reader() -> None:
     axes = {"N": [1.0, 2.0], "Omega": [1.0, 2.0], "m": [1.0, 2.0]}
     rates = [*axes], np.zeros((2, 2, 2))
     study = xr.Dataset({"growth_rate": rates}, axes)
-    with pytest.raises(dm.ParameterError, match=r"study='N, Omega, m': must vary along at most"):
+    with refusal(r"study='N, Omega, m': must vary along at most"):
         dm.plot_sweep(study)
 
 
@@ -575,7 +576,7 @@ def test_a_logarithmic_scale_leaves_no_cell_or_point_blank() -> None:
     colours = ax.collections[0].to_rgba(ax.collections[0].get_array())
     expected = found["cycle_rate"].transpose("N", "Omega").notnull()
     np.testing.assert_array_equal(colours[..., 3] > 0, expected)
-    with pytest.raises(dm.ParameterError, match="bar"):
+    with refusal("bar"):
         dm.plot_sweep(found.isel(N=0), "cycle_rate", labels={"bar": "My rate"})
     line = dm.plot_sweep(found.isel(N=0), "cycle_rate", log=True)
     assert line.get_yscale() == "symlog"
@@ -744,10 +745,10 @@ def test_points_at_numbers_that_are_not_finite_have_no_place() -> None:
 
 
 def test_what_cannot_be_drawn_says_how_it_can() -> None:
-    with pytest.raises(dm.ParameterError, match="study='a single point': must have two points"):
+    with refusal("study='a single point': must have two points"):
         dm.plot_sweep(dm.sweep(rate, CASE))
     spectra = dm.sweep(lambda case: {"line": np.arange(3) * case.N}, CASE, N=LOADS)
-    with pytest.raises(dm.ParameterError, match=r"by study.isel\(line_index=0\)$"):
+    with refusal(r"by study.isel\(line_index=0\)$"):
         dm.plot_sweep(spectra, "line")
     dm.plot_sweep(spectra.isel(line_index=1), "line")
     pyplot.close("all")

@@ -15,6 +15,7 @@ from scipy.stats import binom
 import disc_model as dm
 from disc_model.fitting.fit import _Problem
 from disc_model.fitting.prediction import Prediction
+from tests.refusals import refusal
 
 DISC = dm.Parameters(N=385, Omega=15, n_diameters=2)
 BLOCK = dm.Parameters(N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
@@ -332,7 +333,7 @@ GOOD: dict[str, Any] = {"case": DISC, "vary": ["E"], "measured": {"frequency_2_0
     ],
 )
 def test_wrong_input_is_named(changes: dict[str, Any], message: str) -> None:
-    with pytest.raises(dm.ParameterError, match=re.escape(message)):
+    with refusal(re.escape(message)):
         dm.fit(**(GOOD | changes))
 
 
@@ -346,21 +347,21 @@ def test_wrong_input_is_named(changes: dict[str, Any], message: str) -> None:
 )
 def test_wrong_settings_are_named(at: dict[str, Any], message: str) -> None:
     measured = [dm.Measurement("frequency_2_0", 290.0, 1.0, at=at)]
-    with pytest.raises(dm.ParameterError, match=re.escape(message)):
+    with refusal(re.escape(message)):
         dm.fit(DISC, ["E"], measured)
 
 
 def test_parameters_that_act_alike_are_told_apart_from_others() -> None:
     """Frequencies depend on E / rho alone."""
     measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
-    with pytest.raises(dm.ParameterError, match="cannot be determined") as error:
+    with refusal("cannot be determined") as error:
         dm.fit(DISC, ["E", "rho"], measured)
     assert "'E', 'rho'" in str(error.value)
 
 
 def test_a_parameter_without_effect_is_named() -> None:
     measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
-    with pytest.raises(dm.ParameterError, match=r"\['mu_s'\]: cannot be determined"):
+    with refusal(r"\['mu_s'\]: cannot be determined"):
         dm.fit(DISC, ["E", "mu_s"], measured)
 
 

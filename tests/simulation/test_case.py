@@ -13,6 +13,7 @@ from disc_model import ParameterError, Parameters, Poincare, Ramp, Window, simul
 from disc_model.simulation import collector
 from disc_model.simulation.case import CaseSpec, Start, resolved_windows
 from disc_model.simulation.states import perturb, static_start
+from tests.refusals import refusal
 
 P = Parameters(N=200, Omega=50, n_diameters=1)
 
@@ -50,9 +51,7 @@ def test_a_window_has_the_samples_within_it(begin, duration, start, length, unti
     )
     window = Window(rate=16, envelope=envelope, **{name: time / 64 for name, time in times.items()})
     if (until == "end" and start >= end) or (until == "stop" and start > end):
-        with pytest.raises(
-            ParameterError, match=rf"^windows\.w\.start={start / 64:.9g}: must be <.*{end / 64:.9g}"
-        ):
+        with refusal(rf"^windows\.w\.start={start / 64:.9g}: must be <.*{end / 64:.9g}"):
             resolved_windows({"w": window}, begin / 64, end / 64)
         return
     resolved = resolved_windows({"w": window}, begin / 64, end / 64)["w"]
@@ -226,10 +225,10 @@ def test_a_window_longer_than_the_run_is_an_error_of_both_times():
     """It was cut to the run, without a word."""
     windows = {"late": Window(last=2, rate=1e3)}
     rule = re.escape("windows.late.last=2: must be <= 1 s, the length of the run")
-    with pytest.raises(ParameterError, match=rule):
+    with refusal(rule):
         simulate(P, 1.0, windows)
     begun = simulate(P, 0.02).final_state
-    with pytest.raises(ParameterError, match=r"late\.last=2: must be <= 1 s"):
+    with refusal(r"late\.last=2: must be <= 1 s"):
         simulate(P, duration=1, windows=windows, initial_state=begun)
     # a window as long as the run, rounded
     duration = 0.1 + 0.2

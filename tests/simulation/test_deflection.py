@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import ParameterError, Parameters, Ramp, Window, deflection, simulate, snapshots
+from disc_model import Parameters, Ramp, Window, deflection, simulate, snapshots
+from tests.refusals import refusal
 
 P = Parameters(N=200, Omega=20)
 
@@ -69,7 +70,7 @@ def test_on_a_ramp_the_drive_has_turned_by_less_than_omega_times_the_time() -> N
         there = deflection(P, state, P.r_0, 1.0).item()
         # pieces of a run differ from the whole run by truncation errors
         assert there == pytest.approx(run.samples["w"]["w_point"][i], rel=1e-8)
-    with pytest.raises(ParameterError, match=r"^ramps="):
+    with refusal(r"^ramps="):
         snapshots(P, [0.0], ramps="x")  # type: ignore[arg-type]
 
 
@@ -88,7 +89,7 @@ def test_a_point_of_the_disc_does_not_jump_where_the_speed_of_the_drive_does(
     turned = first.final_state.replace(time=0.0)
     assert turned.drive_angle is None
     assert turned.slider_angle(P) == -turned.psi
-    with pytest.raises(ParameterError, match=r"^drive_angle=nan: must be a finite number, or None"):
+    with refusal(r"^drive_angle=nan: must be a finite number, or None"):
         turned.replace(drive_angle=float("nan"))
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model import Disc, Execution, ParameterError, Parameters, Window, simulate
+from disc_model import Disc, Execution, Parameters, Window, simulate
 from disc_model.figures.disc import Motion
 from disc_model.simulation.states import (
     engine_case,
@@ -21,6 +21,7 @@ from tests.contact_laws import COMPILES
 from tests.references import stored, taylor
 from tests.references.printed import P as LIVELY
 from tests.references.printed import lively
+from tests.refusals import refusal
 
 BRAKE = Disc.from_csv(Path("config/discs/brake.csv"))
 PAD = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
@@ -197,7 +198,7 @@ def test_a_sticking_slider_moves_with_the_surface() -> None:
     end = result.final_state
     assert end.phase == "stick"
     assert slip_rate(p, end) == pytest.approx(0.0, abs=1e-12)
-    with pytest.raises(ParameterError, match="in stick, the angular speed of the disc's surface"):
+    with refusal("in stick, the angular speed of the disc's surface"):
         simulate(p, 1e-6, initial_state=start.replace(f=0.0))
 
 
@@ -205,7 +206,7 @@ def test_a_slip_to_the_other_side_of_the_surface_is_refused() -> None:
     p = LIVELY.replace(friction_offset=0.02)
     start = lively("slip", 1, p)
     slow = start.replace(f=surface_rate(p, start) - 1.0)
-    with pytest.raises(ParameterError, match="less the surface's"):
+    with refusal("less the surface's"):
         simulate(p, 1e-6, initial_state=slow)
 
 

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import Disc, ParameterError, Parameters, Window, deflection, plate_modes, simulate
+from disc_model import Disc, Parameters, Window, deflection, plate_modes, simulate
 from disc_model.disc.plate import mode_arrays, modes_at_point, tangential_amplitudes
 from disc_model.simulation.states import transfer_state
 from disc_model.stability.sliding import steady_sliding
 from tests.references import taylor
 from tests.references.growth import pad_means, steady_eigenvalues
+from tests.refusals import refusal
 from tests.test_mode_choice import STEEL
 
 BRAKE = Disc.from_csv(Path("config/discs/brake.csv"))
@@ -57,7 +58,7 @@ def test_a_pad_of_no_arc_is_a_point() -> None:
     ],
 )
 def test_an_arc_that_is_none_is_refused(value: object, phrase: str) -> None:
-    with pytest.raises(ParameterError, match=phrase):
+    with refusal(phrase):
         PLATE.replace(contact_arc=value)
 
 
@@ -66,7 +67,7 @@ def test_degrees_are_understood() -> None:
 
 
 def test_residual_flexibility_under_a_pad_is_not_known_for_a_table() -> None:
-    with pytest.raises(ParameterError, match="must be a number beside contact_arc"):
+    with refusal("must be a number beside contact_arc"):
         Parameters(N=8000, Omega=80, disc=BRAKE, contact_arc=0.2, contact_compliance="residual")
 
 

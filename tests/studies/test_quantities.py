@@ -11,7 +11,7 @@ import pytest
 
 from disc_model import floquet
 from disc_model.data.variables import Variable, flag_names
-from disc_model.errors import ParameterError, Status
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.costs import PAPER
@@ -28,6 +28,7 @@ from disc_model.studies.quantity import (
 )
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
+from tests.refusals import refusal
 from tests.studies.conftest import compute, computed
 
 SCAN = {"start": 10, "stop": 20, "count": 2}
@@ -263,7 +264,7 @@ def test_an_axis_has_a_hundred_thousand_values_at_most() -> None:
     made = Range(start=0, stop=1, count=100_000)
     assert made.intervals == 99_999
     rule = "must be at most 100000 values"
-    with pytest.raises(ParameterError, match=rule):
+    with refusal(rule):
         Range(start=0, stop=1, count=100_001)
-    with pytest.raises(ParameterError, match=rule):
+    with refusal(rule):
         Range(start=0, stop=1, step=1e-5)

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model.errors import ParameterError
 from disc_model.stability.continuation.curve import (
     CurvePoint,
     Rejected,
@@ -18,6 +17,7 @@ from disc_model.stability.continuation.curve import (
     interpolate,
     predict,
 )
+from tests.refusals import refusal
 
 
 def point(z: Any, tangent: Any) -> CurvePoint:
@@ -126,5 +126,5 @@ def test_a_watch_ends_a_curve_and_the_most_points_do() -> None:
 
 
 def test_steps_can_be_halved() -> None:
-    with pytest.raises(ParameterError, match=r"shortest=0\.5: must be at most step and longest"):
+    with refusal(r"shortest=0\.5: must be at most step and longest"):
         StepControl(shortest=0.5)
