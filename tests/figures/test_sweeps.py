@@ -11,7 +11,10 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures import curve
 from disc_model.figures.classes import name_of
+from disc_model.figures.curve import OPEN
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.words import unit_text
 from tests.blocks import RIG
@@ -458,6 +461,45 @@ def test_growth_of_steady_sliding_is_one_line() -> None:
         heights = dm.plot_sweep(study).lines[0].get_ydata()
         assert np.isnan(heights).sum() == pieces - 1
         pyplot.close("all")
+
+
+def said_above(ax: Any) -> list[str]:
+    """The words above a panel that say what its marks there mean, from the lowest row on."""
+    return [" ".join(row.words.get_text().split()) for row in rows_above(ax)]
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int) -> None:
+    speeds = np.arange(14.0, 18.1, 0.5).tolist()
+    growth = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=speeds)
+    rates = growth["growth_rate"].values
+    gone = np.isnan(rates)
+    assert 0 < gone.sum() < 3
+    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(growth, "growth_rate", ax=ax)
+    assert said_above(ax) == ["no cycle found", OPEN]
+    assert "another cycle" in OPEN
+    [row] = rows_above(ax)[1].rows
+    scaled = np.arcsinh(rates / curve.LINEAR)
+    [place] = np.flatnonzero(np.abs(np.diff(scaled)) > curve.STEP)
+    assert row.get_xdata() == [speeds[place] + 0.25], "between both points, as none lies there"
+    figure.draw_without_rendering()
+    top = rows_above(ax)[1].words.get_window_extent()
+    assert top.y1 <= figure.bbox.y1
+    assert top.x1 <= figure.bbox.x1
+
+
+def test_a_smooth_line_of_growth_rates_is_not_open() -> None:
+    """Nor are points without order, steady sliding, which is one equilibrium, or a logarithmic scale
+    of rates of one sign."""
+    smooth = dm.sweep(dm.floquet, CASE, Omega=[12, 12.5, 13])
+    assert said_above(dm.plot_sweep(smooth, "growth_rate")) == []
+    rates = xr.DataArray([0.2, 5.0, 80.0], {"mu_s": [0.1, 0.2, 0.3]}, name="growth_rate")
+    study = rates.to_dataset()
+    assert said_above(dm.plot_sweep(study)) == [OPEN]
+    assert said_above(dm.plot_sweep(study, log=True)) == []
+    study["growth_rate"].attrs["long_name"] = "growth rate of steady sliding"
+    assert said_above(dm.plot_sweep(study)) == []
 
 
 @pytest.mark.parametrize("x", PAIRS)

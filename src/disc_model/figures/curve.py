@@ -55,6 +55,8 @@ LINEAR = 0.1
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
+OPEN = "line open: another cycle, or too wide a step"
+"""What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 PLAIN = Look(BLACK)
@@ -194,6 +196,8 @@ def draw_lines(
     # what is no value, or none that was found
     _point_down(ax, study, array, x, colours)
     _mark_gaps(ax, study, array, x, marks, colours)
+    if jumps:
+        _mark_jumps(ax, parts, along, colours)
     return drawn
 
 
@@ -258,7 +262,12 @@ def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndar
     """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
     if not jumps:
         return [along, heights]
-    return broken(along, heights, STEP, np.arcsinh(heights / LINEAR))
+    return broken(along, heights, STEP, _on_scale(heights))
+
+
+def _on_scale(rates: Array) -> Array:
+    """Heights of growth rates on their scale."""
+    return np.arcsinh(rates / LINEAR)
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -391,6 +400,24 @@ def _mark_gaps(
             if mask.any():
                 look = {"marker": marks[part.name], "color": colours[part.name], **_look()}
                 add_row(ax, reason, across[mask], **look)
+
+
+def _mark_jumps(
+    ax: Axes,
+    parts: Sequence[Part[xr.DataArray]],
+    along: Array,
+    colours: Mapping[str, Any],
+) -> None:
+    """Mark the gaps of lines between growth rates above the panel by strokes halfway between their
+    points, in the colours of the lines: no points lie there."""
+    middle = 0.5 * (along[:-1] + along[1:])
+    if ax.get_xscale() == "log":
+        middle = np.sqrt(along[:-1] * along[1:])
+    for part in parts:
+        is_gap = np.abs(np.diff(_on_scale(part.data.values))) > STEP
+        if is_gap.any():
+            look = {"marker": "|", "markersize": mark(5), "color": colours[part.name]}
+            add_row(ax, OPEN, middle[is_gap], **look)
 
 
 def scale_rates(ax: Axes) -> None:
