@@ -452,6 +452,58 @@ def test_points_without_a_separation_are_no_points_without_a_value() -> None:
     pyplot.close("all")
 
 
+def settling(*, longer: bool) -> xr.Dataset:
+    """Sweeps of the speed at two loads, of which one motion in contact at 300 N settles only in
+    longer stays; separation begins nowhere at 200 N."""
+    dims = ("N", "direction", "sweep_Omega")
+    rates = np.zeros((2, 2, 3))
+    rates[1, :, 2] = 9.0
+    settled = np.full(rates.shape, "settled", dtype="U9")
+    if not longer:
+        settled[:, 0, 1] = "undecided"
+    data = {
+        "separation_rate": (dims, rates),
+        "range": (dims, rates + 0.1),
+        "sweep_settled": (dims, settled),
+        "onset_speed": ("N", [np.nan, 14.0], {"units": "rad s-1"}),
+        "offset_speed": ("N", [np.nan, 14.0], {"units": "rad s-1"}),
+    }
+    coords = {"N": [200.0, 300.0], "direction": ["up", "down"], "sweep_Omega": [10.0, 12.0, 14.0]}
+    return xr.Dataset(data, coords)
+
+
+def filled_points(ax: Any) -> list[tuple[float, float]]:
+    """The points of a panel with a filled mark."""
+    filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
+    return [
+        (x, y)
+        for line in filled
+        for x, y in line.get_xydata().tolist()
+        if line.get_marker() in "os"
+    ]
+
+
+@pytest.mark.parametrize("longer", [False, True])
+def test_points_that_rest_on_motions_which_had_not_settled_are_filled(longer: bool) -> None:
+    """The message of `hysteresis` said so, and the picture did not."""
+    words = "not settled within max_dwell"
+    sweep = settling(longer=longer)
+    ax = dm.plot_sweep(sweep.sel(N=300), "range")
+    assert filled_points(ax) == ([] if longer else [(12.0, 0.1)])
+    assert (words in labels(ax.figure)) == (not longer)
+
+    axes = dm.plot_sweep(sweep, ["onset_speed", "offset_speed"])
+    assert filled_points(axes) == ([] if longer else [(300.0, 14.0)])
+    assert (words in labels(axes.figure)) == (not longer)
+    said = said_above(axes)
+    assert any(words in each for each in said) == (not longer), "nor may that there is none"
+
+    plane = dm.plot_sweep(sweep.sel(direction="up"), "range")
+    hatched = [patch for patch in plane.patches if patch.get_hatch()]
+    assert len(hatched) == (not longer)
+    assert (words in labels(plane.figure)) == (not longer)
+
+
 def test_growth_of_steady_sliding_is_one_line() -> None:
     """Steps of more than 0.1/s had broken it into points by themselves, as those of cycles."""
     rates = [0.01, 0.3, 1.0, 2.0, 3.0]
