@@ -56,13 +56,14 @@ drawn."""
 
 SMALL = 0.2  # share of both common axes below which a section has axes of its own
 BESIDE_LETTER = 0.09  # share of the axes' width
+STACKED = 2.3  # inch, height of each of two sections below each other
 MANY = 2000  # points from which marks are drawn as pixels
 
 
 def draw(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     """Draw the sections of cases, a row each, on common axes."""
     width = plot.inches
-    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
+    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 2 * STACKED)
     figure = new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
     sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
@@ -94,7 +95,7 @@ def plot_poincare(
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
-    with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case)) as page:
+    with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case), stacked=STACKED) as page:
         samples = dataset.group(case, name)
         page.show(*_quantities(samples))
         fate = stages_of(case, samples).fate
