@@ -153,6 +153,38 @@ def test_separation_that_persists_at_the_lowest_speed_points_to_lower_ones() -> 
     assert "at or below the lower bound" not in lines(ax)
 
 
+def test_speeds_that_rest_on_motions_which_had_not_settled_are_filled() -> None:
+    """The onset at 200 N rests on all stays below it, and the end on the first one that keeps
+    contact; nothing showed that either may change with longer stays."""
+    speeds = [10.0, 12.0, 14.0, 16.0]
+    rates = np.zeros((2, 2, 4))
+    rates[:, 0, 3] = 9.0
+    rates[:, 1, 2:] = 9.0
+    settled = np.full(rates.shape, "settled", dtype=object)
+    settled[:, :, 3] = "changing"  # separates
+    settled[0, 0, 0] = "undecided"
+    settled[0, 1, 0] = "changing"  # below the stay that ends separation
+    settled[1, 1, 1] = "changing"
+    sweep = swept([14.0, 14.0], lost=False).drop_vars(["separation_rate", "sweep_Omega"])
+    sweep["onset_speed"] = ("N", [16.0, 16.0])
+    dims = ("N", "direction", "sweep_Omega")
+    sweep = sweep.assign_coords(sweep_Omega=speeds)
+    sweep = sweep.assign(separation_rate=(dims, rates), sweep_settled=(dims, settled.astype(str)))
+    ax = pyplot.figure().subplots()
+    swept_speeds.draw_sweeps(ax, sweep, None, None)
+    assert "not settled within max_dwell" in lines(ax)
+    filled = [line for line in ax.lines if line.get_markerfacecolor() == line.get_color()]
+    found = [
+        (line.get_marker(), *line.get_xydata().ravel()) for line in filled if line.get_xdata().size
+    ]
+    assert found == [("^", 16.0, 200.0), ("v", 14.0, 400.0)]
+
+    longer = sweep.assign(sweep_settled=(dims, np.full(rates.shape, "settled")))
+    ax = pyplot.figure().subplots()
+    swept_speeds.draw_sweeps(ax, longer, None, None)
+    assert "not settled within max_dwell" not in lines(ax)
+
+
 def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:
     """The cycle is stable everywhere, but the sweep says nothing beyond its loads and speeds."""
     ax = pyplot.figure().subplots()

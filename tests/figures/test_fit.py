@@ -1,5 +1,6 @@
 """Measurements beside what a fitted case computes of them, in percent and in standard deviations."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -8,6 +9,7 @@ import pytest
 from matplotlib import pyplot
 
 from disc_model.figures.fit import plot_fit
+from disc_model.figures.sizes import COLUMN
 
 
 def made_up(**changes: Any) -> Any:
@@ -71,4 +73,26 @@ def test_rows_of_readers_panels_are_level_and_named_once(beside: bool) -> None:
     assert shown is not beside
     if shown:
         assert named == ["first", "second", "third"]
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("shared", [True, False])
+@pytest.mark.parametrize("layout", ["constrained", None])
+def test_panels_beside_each_other_are_stacked_in_a_column(layout: Any, shared: bool) -> None:
+    """In 84 mm they were 10 mm wide each, and their labels lay over each other."""
+    size = (COLUMN, 60 / 25.4)
+    figure, axes = pyplot.subplots(1, 2, figsize=size, layout=layout, sharey=shared)
+    upper, lower = plot_fit(made_up(), ax=axes)
+    figure.draw_without_rendering()
+    assert figure.get_figwidth() == COLUMN
+    assert lower.bbox.y1 < upper.bbox.y0
+    labels = upper.xaxis.get_tightbbox()
+    title = lower.title.get_window_extent()
+    for ax in (upper, lower):
+        assert ax.bbox.width > 0.4 * figure.bbox.width
+        assert ax.yaxis.get_tick_params()["labelleft"], "each names its rows"
+        boxes = [text.get_window_extent() for text in ax.get_yticklabels()]
+        assert all(above.y0 >= below.y1 for above, below in pairwise(boxes))
+    assert labels.y0 >= title.y1 - 1
+    assert lower.get_legend().get_window_extent().y0 >= 0
     pyplot.close("all")

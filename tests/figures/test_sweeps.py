@@ -11,7 +11,10 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures import curve
 from disc_model.figures.classes import name_of
+from disc_model.figures.curve import OPEN
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.words import unit_text
 from tests.blocks import RIG
@@ -450,6 +453,58 @@ def test_points_without_a_separation_are_no_points_without_a_value() -> None:
     pyplot.close("all")
 
 
+def settling(*, longer: bool) -> xr.Dataset:
+    """Sweeps of the speed at two loads, of which one motion in contact at 300 N settles only in
+    longer stays; separation begins nowhere at 200 N."""
+    dims = ("N", "direction", "sweep_Omega")
+    rates = np.zeros((2, 2, 3))
+    rates[1, :, 2] = 9.0
+    settled = np.full(rates.shape, "settled", dtype="U9")
+    if not longer:
+        settled[:, 0, 1] = "undecided"
+    data = {
+        "separation_rate": (dims, rates),
+        "range": (dims, rates + 0.1),
+        "sweep_settled": (dims, settled),
+        "onset_speed": ("N", [np.nan, 14.0], {"units": "rad s-1"}),
+        "offset_speed": ("N", [np.nan, 14.0], {"units": "rad s-1"}),
+    }
+    coords = {"N": [200.0, 300.0], "direction": ["up", "down"], "sweep_Omega": [10.0, 12.0, 14.0]}
+    return xr.Dataset(data, coords)
+
+
+def filled_points(ax: Any) -> list[tuple[float, float]]:
+    """The points of a panel with a filled mark."""
+    filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
+    return [
+        (x, y)
+        for line in filled
+        for x, y in line.get_xydata().tolist()
+        if line.get_marker() in "os"
+    ]
+
+
+@pytest.mark.parametrize("longer", [False, True])
+def test_points_that_rest_on_motions_which_had_not_settled_are_filled(longer: bool) -> None:
+    """The message of `hysteresis` said so, and the picture did not."""
+    words = "not settled within max_dwell"
+    sweep = settling(longer=longer)
+    ax = dm.plot_sweep(sweep.sel(N=300), "range")
+    assert filled_points(ax) == ([] if longer else [(12.0, 0.1)])
+    assert (words in labels(ax.figure)) == (not longer)
+
+    axes = dm.plot_sweep(sweep, ["onset_speed", "offset_speed"])
+    assert filled_points(axes) == ([] if longer else [(300.0, 14.0)])
+    assert (words in labels(axes.figure)) == (not longer)
+    said = said_above(axes)
+    assert any(words in each for each in said) == (not longer), "nor may that there is none"
+
+    plane = dm.plot_sweep(sweep.sel(direction="up"), "range")
+    hatched = [patch for patch in plane.patches if patch.get_hatch()]
+    assert len(hatched) == (not longer)
+    assert (words in labels(plane.figure)) == (not longer)
+
+
 def test_growth_of_steady_sliding_is_one_line() -> None:
     """Steps of more than 0.1/s had broken it into points by themselves, as those of cycles."""
     rates = [0.01, 0.3, 1.0, 2.0, 3.0]
@@ -459,6 +514,45 @@ def test_growth_of_steady_sliding_is_one_line() -> None:
         heights = dm.plot_sweep(study).lines[0].get_ydata()
         assert np.isnan(heights).sum() == pieces - 1
         pyplot.close("all")
+
+
+def said_above(ax: Any) -> list[str]:
+    """The words above a panel that say what its marks there mean, from the lowest row on."""
+    return [" ".join(row.words.get_text().split()) for row in rows_above(ax)]
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int) -> None:
+    speeds = np.arange(14.0, 18.1, 0.5).tolist()
+    growth = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=speeds)
+    rates = growth["growth_rate"].values
+    gone = np.isnan(rates)
+    assert 0 < gone.sum() < 3
+    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(growth, "growth_rate", ax=ax)
+    assert said_above(ax) == ["no cycle found", OPEN]
+    assert "another cycle" in OPEN
+    [row] = rows_above(ax)[1].rows
+    scaled = np.arcsinh(rates / curve.LINEAR)
+    [place] = np.flatnonzero(np.abs(np.diff(scaled)) > curve.STEP)
+    assert row.get_xdata() == [speeds[place] + 0.25], "between both points, as none lies there"
+    figure.draw_without_rendering()
+    top = rows_above(ax)[1].words.get_window_extent()
+    assert top.y1 <= figure.bbox.y1
+    assert top.x1 <= figure.bbox.x1
+
+
+def test_a_smooth_line_of_growth_rates_is_not_open() -> None:
+    """Nor are points without order, steady sliding, which is one equilibrium, or a logarithmic scale
+    of rates of one sign."""
+    smooth = dm.sweep(dm.floquet, CASE, Omega=[12, 12.5, 13])
+    assert said_above(dm.plot_sweep(smooth, "growth_rate")) == []
+    rates = xr.DataArray([0.2, 5.0, 80.0], {"mu_s": [0.1, 0.2, 0.3]}, name="growth_rate")
+    study = rates.to_dataset()
+    assert said_above(dm.plot_sweep(study)) == [OPEN]
+    assert said_above(dm.plot_sweep(study, log=True)) == []
+    study["growth_rate"].attrs["long_name"] = "growth rate of steady sliding"
+    assert said_above(dm.plot_sweep(study)) == []
 
 
 @pytest.mark.parametrize("x", PAIRS)

@@ -336,6 +336,76 @@ def test_a_panel_beside_a_bar_has_eight_millimetres_at_least() -> None:
         check_room(narrow)
 
 
+def test_panels_of_a_row_are_stacked_where_they_are_alone_in_a_narrow_figure() -> None:
+    size = (COLUMN, 60 / 25.4)
+    windows = {"turns": dm.Poincare(start=0.5), "late": dm.Window(last=0.5, rate=1e4)}
+    short = dm.simulate(CASE, 6, windows)
+    draw = short.plot_poincare
+    figure, axes = pyplot.subplots(1, 2, figsize=size, layout="constrained")
+    upper, lower = draw("turns", ax=axes)
+    figure.draw_without_rendering()
+    assert lower.bbox.y1 < upper.bbox.y0
+    assert min(upper.bbox.height, lower.bbox.height) > 0.9 * figure.dpi
+    assert (
+        max(ax.get_legend().get_window_extent().x1 for ax in axes if ax.get_legend())
+        < figure.bbox.x1
+    )
+
+    wide, axes = pyplot.subplots(1, 2, figsize=(PAGE, 60 / 25.4), layout="constrained")
+    assert is_row(draw("turns", ax=axes))
+    assert wide.get_figheight() == pytest.approx(60 / 25.4)
+    _, axes = pyplot.subplots(2, 2, figsize=(COLUMN, 3), layout="constrained")
+    assert is_row(draw("turns", ax=axes[0])), "others have their places"
+    single, ax = pyplot.subplots(figsize=(2, 1.5), layout="constrained")
+    short.plot("late", variables=["P"], ax=ax)
+    assert single.get_figheight() == 1.5
+    _, axes = pyplot.subplots(1, 2, figsize=size, layout="constrained")
+    assert not is_row(short.plot(["late", "late"], variables=["P"], ax=axes)), "columns of a run"
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("layout", ["constrained", None])
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+def test_pictures_on_twin_axes_have_one_legend_that_covers_neither(
+    width: float, layout: Any
+) -> None:
+    """The legend of the second lay over that of the first, over its lines, and below narrow axes over
+    the label that both share."""
+    figure, ax = pyplot.subplots(figsize=(width, 60 / 25.4), layout=layout)
+    branch().plot("range", ax=ax)
+    alone = [text.get_text() for text in ax.get_legend().get_texts()]
+    twin = ax.twinx()
+    branch().plot("growth_rate", ax=twin)
+    figure.draw_without_rendering()
+    assert ax.get_legend() is None
+    legend = twin.get_legend()
+    assert [text.get_text() for text in legend.get_texts()] == alone, "as the lines look alike"
+    box = legend.get_window_extent()
+    assert not box.overlaps(ax.xaxis.get_tightbbox())
+    curves = [line for line in (*ax.lines, *twin.lines) if len(line.get_xdata()) > 2]
+    assert not any(_line_on_page(line).intersects_bbox(box, filled=False) for line in curves)
+    assert box.y0 >= 0
+    pyplot.close("all")
+
+
+def test_a_legend_on_twin_axes_stands_clear_of_one_that_its_reader_has_placed() -> None:
+    figure, ax = pyplot.subplots(figsize=(PAGE, 3), layout="constrained")
+    placed = {"loc": "center left"}
+    branch().plot("range", ax=ax, legend=placed)
+    twin = ax.twinx()
+    branch().plot("growth_rate", ax=twin)
+    figure.draw_without_rendering()
+    own, other = (each.get_legend().get_window_extent() for each in (ax, twin))
+    assert not own.overlaps(other)
+    pyplot.close("all")
+
+
+def is_row(axes: Any) -> bool:
+    """Whether two panels stand beside each other."""
+    left, right = (ax.get_subplotspec() for ax in np.ravel(axes))
+    return bool(left.rowspan == right.rowspan and left.colspan != right.colspan)
+
+
 @pytest.mark.parametrize("tight", [False, True])
 @pytest.mark.parametrize("name", ["map", "words", "line"])
 @pytest.mark.parametrize("placed", [False, True])

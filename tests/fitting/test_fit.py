@@ -3,6 +3,7 @@
 import dataclasses
 import math
 import re
+import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -13,6 +14,7 @@ from matplotlib import pyplot
 from scipy.stats import binom
 
 import disc_model as dm
+from disc_model.disc.plausibility import ImplausibleValue, warn_of_measured
 from disc_model.fitting.fit import _Problem
 from disc_model.fitting.prediction import Prediction
 from tests.refusals import refusal
@@ -503,3 +505,60 @@ def test_a_mode_that_is_missing_is_no_matter_of_the_start() -> None:
         dm.fit(DISC, ["E"], {"frequency_9_0": (1, 1)})
     assert "start" not in str(error.value)
     assert "=''" not in str(error.value)
+
+
+@pytest.mark.parametrize(
+    ("value", "said"),
+    [
+        (239.0, ""),
+        (
+            0.239,
+            "frequency_0_0 = 0.239 Hz is 1/990 of the 237.4 Hz that the case gives: was 239 Hz meant?",
+        ),
+        (
+            2.39e5,
+            "frequency_0_0 = 239000 Hz is 1000 times the 237.4 Hz that the case gives: was 239 Hz meant?",
+        ),
+    ],
+)
+def test_a_measured_value_in_another_unit_is_doubted(value: float, said: str) -> None:
+    """What was fitted to it was far from any disc, and only that was said."""
+    case = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        dm.fit(case, ["E"], {"frequency_0_0": (value, 0.5e-3 * value)})
+    texts = [str(each.message) for each in caught if str(each.message).startswith("measured.")]
+    assert texts == ([f"measured.{said}"] if said else [])
+
+
+@pytest.mark.parametrize(
+    ("value", "given", "unit", "said"),
+    [
+        (15.73, 0.0157, "s", "was 15.73 ms meant?"),
+        (15.73e-6, 0.0157, "s", "was 15.73 ms meant?"),
+        (15730.0, 0.0157, "s", "was 15.73 ms meant?"),
+        (0.5, 0.4e-6, "m", "was 500 nm meant?"),
+        (15.73, 0.05, "s", "was 15.73 ms meant?"),
+        (1.0, 1e-4, "m", "meant?"),
+        (1.5, 0.0157, "s", ""),
+        (-5.0, 0.02, "1/s", ""),
+        (-3.0, 0.02, "s", ""),
+        (0.01, 1e-6, "1", ""),
+        (5.0, 0.01, "", ""),
+    ],
+)
+def test_the_value_that_was_meant_has_a_unit_of_its_size(
+    value: float, given: float, unit: str, said: str
+) -> None:
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        warn_of_measured([("period", value, unit)], [given])
+    assert [str(each.message).endswith(said) for each in caught] == ([True] if said else [])
+
+
+def test_several_measured_values_in_another_unit_are_one_warning() -> None:
+    named = [("period (Omega=12)", 16.3, "s"), ("period", 15.7, "s"), ("slip_time", 0.01, "s")]
+    with pytest.warns(
+        ImplausibleValue, match=r"period \(Omega=12\) = 16.3 s .*; 1 other measured value alike"
+    ):
+        warn_of_measured(named, [0.0163, 0.0157, 0.0105])

@@ -5,6 +5,8 @@ from typing import NamedTuple
 
 import xarray as xr
 
+from disc_model.data.variables import flag_names
+
 
 class SweptSpeeds(NamedTuple):
     """Speeds of a study of sweeps (rad/s), nan where there are none, by its further axes.
@@ -13,12 +15,16 @@ class SweptSpeeds(NamedTuple):
         where contact is lost there already, or still
     onset_at_bound, end_at_bound : bool, whether contact is, so that the speed is the given one or
         a lower one
+    onset_unsettled, end_unsettled : bool, whether the speed, or that there is none, rests on a stay
+        in contact that ended before the motion had settled: a longer one may give another speed
     """
 
     onset: xr.DataArray
     end: xr.DataArray
     onset_at_bound: xr.DataArray
     end_at_bound: xr.DataArray
+    onset_unsettled: xr.DataArray
+    end_unsettled: xr.DataArray
 
 
 def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
@@ -29,10 +35,34 @@ def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
     falling = apart.sel(direction="down", drop=True)
     begins_at_bound = rising.isel(sweep_Omega=0, drop=True)
     persists_to_bound = falling.all("sweep_Omega")
-    lowest = float(sweep["sweep_Omega"].min())
+    speeds = sweep["sweep_Omega"]
+    lowest = float(speeds.min())
+    onset = sweep["onset_speed"].where(~begins_at_bound, lowest)
+    doubtful = doubtful_contact(sweep)
+    before_onset = (speeds < onset) | onset.isnull()
+    doubtful_up = doubtful.sel(direction="up", drop=True) & before_onset
+    first_kept = speeds.where(~falling).max("sweep_Omega")
+    doubtful_down = doubtful.sel(direction="down", drop=True) & (speeds == first_kept)
     return SweptSpeeds(
-        onset=sweep["onset_speed"].where(~begins_at_bound, lowest),
+        onset=onset,
         end=sweep["offset_speed"].where(~persists_to_bound, lowest),
         onset_at_bound=begins_at_bound,
         end_at_bound=persists_to_bound,
+        onset_unsettled=doubtful_up.any("sweep_Omega"),
+        end_unsettled=doubtful_down.any("sweep_Omega"),
     )
+
+
+def doubtful_contact(sweep: xr.Dataset) -> xr.DataArray:
+    """Stays at whose end contact was kept by a motion that had not settled, bool: it may yet be lost.
+    None where a sweep does not say what has settled."""
+    kept = sweep["separation_rate"] == 0
+    if "sweep_settled" not in sweep:
+        return xr.zeros_like(kept)
+    return kept & ~has_settled(sweep)
+
+
+def has_settled(sweep: xr.Dataset) -> xr.DataArray:
+    """Whether it is shown that the motion of each stay of a sweep had settled at its end, bool."""
+    settled = sweep["sweep_settled"]
+    return settled.copy(data=flag_names(settled) == "settled")

@@ -15,7 +15,7 @@ from disc_model.figures.legends import keep_height
 from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
 from disc_model.figures.pages import Wishes as Wishes
-from disc_model.figures.placing import check_room
+from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.style import readers_style
 from disc_model.figures.words import head_text
@@ -30,17 +30,22 @@ def page_for(
     columns: int = 1,
     *,
     title: str = "",
+    stacked: float = 0.0,
     **shared: Any,
 ) -> Iterator[Page]:
     """The page of a picture, which is finished by its legend, labels and title.
 
     A new figure has a size in inches, the style of this package where the reader has none, and a
-    title with the values of a case. A reader's axes keep their figure's title.
+    title with the values of a case. A reader's axes keep their figure's title. Those of a row in a
+    narrow figure without others are set below each other, each of a height `stacked` in inches, if
+    there is one.
     """
     wishes.check()
     if wishes.ax is not None:
         asked = wishes.labels or {}
         page = Page(given_axes(wishes.ax, rows * columns), own=False, asked=asked)
+        if stacked:
+            stack_narrow(page.axes, stacked)
         figure: Any = page.ax.get_figure(root=True)
         before = set(figure.axes)
         # what is added to a figure of this package has its style

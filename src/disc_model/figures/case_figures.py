@@ -15,7 +15,7 @@ from disc_model.figures.drawing import PAGE, letters, new_figure, panels
 from disc_model.figures.history import draw_history
 from disc_model.figures.kinds.cases import History, PoincareSections, Portrait, Spectrum
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.poincare import draw_sections
+from disc_model.figures.poincare import STACKED, draw_sections
 from disc_model.figures.portrait import draw_portrait
 from disc_model.figures.runs import ramps_of
 from disc_model.figures.shades import shade_ramps
@@ -52,7 +52,7 @@ def portrait(plot: Portrait, case: xr.DataTree) -> Figure:
 def sections_of_cases(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     """Draw the sections of cases, a row each, on common axes."""
     width = plot.inches
-    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 4.6)
+    rows_of_case, height = (1, 2.75) if width == PAGE else (2, 2 * STACKED)
     figure = new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
     sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]

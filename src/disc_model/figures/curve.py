@@ -10,7 +10,7 @@ from matplotlib.ticker import AutoLocator, NullLocator
 
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.branch_lines import THIN, Look
-from disc_model.figures.classes import AT_BOUND, name_of
+from disc_model.figures.classes import AT_BOUND, UNSETTLED, name_of
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import (
     BLACK,
@@ -36,6 +36,7 @@ from disc_model.figures.selection import (
     picked,
     remaining,
     titles_of,
+    unsettled,
 )
 from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import (
@@ -55,6 +56,8 @@ LINEAR = 0.1
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
+OPEN = "line open: another cycle, or too wide a step"
+"""What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 PLAIN = Look(BLACK)
@@ -116,7 +119,7 @@ def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: 
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        marked = AT_BOUND.label in names
+        marked = not {AT_BOUND.label, UNSETTLED.label}.isdisjoint(names)
         if names and (in_legend or marked or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)
@@ -193,7 +196,10 @@ def draw_lines(
 
     # what is no value, or none that was found
     _point_down(ax, study, array, x, colours)
+    _fill_unsettled(ax, study, array, x, marks, colours)
     _mark_gaps(ax, study, array, x, marks, colours)
+    if jumps:
+        _mark_jumps(ax, parts, along, colours)
     return drawn
 
 
@@ -258,7 +264,12 @@ def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndar
     """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
     if not jumps:
         return [along, heights]
-    return broken(along, heights, STEP, np.arcsinh(heights / LINEAR))
+    return broken(along, heights, STEP, _on_scale(heights))
+
+
+def _on_scale(rates: Array) -> Array:
+    """Heights of growth rates on their scale."""
+    return np.arcsinh(rates / LINEAR)
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -370,6 +381,31 @@ def _point_down(
             draw_arrows(ax, along[here], heights, colours[part.name], "down", ARROW)
 
 
+def _fill_unsettled(
+    ax: Axes,
+    study: xr.Dataset,
+    array: xr.DataArray,
+    x: str,
+    marks: Mapping[str, str],
+    colours: Mapping[str, Any],
+) -> None:
+    """Fill the marks of points that rest on a motion which had not settled; those of a panel have one
+    entry in the legend."""
+    mask = unsettled(study, str(array.name))
+    if mask is None or not (mask & array.notnull()).any():
+        return
+    look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
+    if UNSETTLED.label not in ax.get_legend_handles_labels()[1]:
+        ax.plot([], [], color=GREY, marker="o", label=UNSETTLED.label, **look)
+    by = remaining(array, [x])
+    along = _along(array[x]).values
+    for part, chosen in zip(parts_along(array, by), parts_along(mask, by), strict=True):
+        here = chosen.data.values & np.isfinite(part.data.values)
+        if here.any():
+            look |= {"marker": marks[part.name], "color": colours[part.name]}
+            ax.plot(along[here], part.data.values[here], label="_nolegend_", **look)
+
+
 def _mark_gaps(
     ax: Axes,
     study: xr.Dataset,
@@ -382,15 +418,44 @@ def _mark_gaps(
     of the lines."""
     by = remaining(array, [x])
     across = _along(array[x]).values
-    for name, gone in gaps(study, array).items():
-        reason = name
-        if name == name_of(NO_VALUE):
-            reason = missing_text(study, str(array.name))
+    for reason, gone in _reasons_of_gaps(study, array).items():
         for part in parts_along(gone, by):
             mask = part.data.values
             if mask.any():
                 look = {"marker": marks[part.name], "color": colours[part.name], **_look()}
                 add_row(ax, reason, across[mask], **look)
+
+
+def _reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points without a value, by the words that say why: also where longer stays may give one."""
+    found = {}
+    doubtful = unsettled(study, str(array.name))
+    for name, gone in gaps(study, array).items():
+        if name != name_of(NO_VALUE):
+            found[name] = gone
+            continue
+        reason = missing_text(study, str(array.name))
+        if doubtful is None:
+            found[reason] = gone
+            continue
+        found[reason] = gone & ~doubtful
+        found[f"{reason}, {UNSETTLED.label}"] = gone & doubtful
+    return found
+
+
+def _mark_jumps(
+    ax: Axes, parts: Sequence[Part[xr.DataArray]], along: Array, colours: Mapping[str, Any]
+) -> None:
+    """Mark the gaps of lines between growth rates above the panel by strokes halfway between their
+    points, in the colours of the lines: no points lie there."""
+    middle = 0.5 * (along[:-1] + along[1:])
+    if ax.get_xscale() == "log":
+        middle = np.sqrt(along[:-1] * along[1:])
+    for part in parts:
+        is_gap = np.abs(np.diff(_on_scale(part.data.values))) > STEP
+        if is_gap.any():
+            look = {"marker": "|", "markersize": mark(5), "color": colours[part.name]}
+            add_row(ax, OPEN, middle[is_gap], **look)
 
 
 def scale_rates(ax: Axes) -> None:

@@ -38,8 +38,8 @@ def plot_fit(
     """Draw computed over measured values, both relative to the measured ones, and their deviations
     in standard deviations; two panels with a row for each measurement, the first on top."""
     wishes = Wishes(ax, legend, labels, title)
-    height = 1.2 + ROW * len(fit.measurements)
-    with page_for(wishes, PAGE, height, 1, 2, sharey=True) as page:
+    rows = ROW * len(fit.measurements)
+    with page_for(wishes, PAGE, 1.2 + rows, 1, 2, stacked=1.9 + rows, sharey=True) as page:
         page.show(Quantities(DIFFERENCE, ROWS), Quantities(DEVIATION, ROWS))
         left, right = page.axes
         _draw_differences(left, fit)

@@ -17,7 +17,7 @@ from disc_model.figures.cells import (
     paint,
     scale_of,
 )
-from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED
+from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED, UNSETTLED
 from disc_model.figures.colours import USUAL, ColourWishes, colours_of, draw_bar, is_growth
 from disc_model.figures.drawing import COLUMN, letter, panels, plain_decades, set_label
 from disc_model.figures.growth import growth_panels
@@ -36,6 +36,7 @@ from disc_model.figures.selection import (
     statuses,
     statuses_like,
     titles_of,
+    unsettled,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
 from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
@@ -179,14 +180,16 @@ def number_panels(
         missing = classes_of_gaps(plane, array)
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
-        bound = at_lower_bound(plane, variable)
-        if bound is not None and bound.any():
-            cells = bound.transpose(*array.dims).values
-            lay_over(ax, edges, cells, AT_BOUND, mesh.to_rgba(values))
-            used.add(AT_BOUND.label)
+        marked = {AT_BOUND: at_lower_bound(plane, variable), UNSETTLED: unsettled(plane, variable)}
+        for look, mask in marked.items():
+            if mask is not None and mask.any():
+                cells = mask.transpose(*array.dims).values
+                lay_over(ax, edges, cells, look, mesh.to_rgba(values))
+                used.add(look.label)
 
     unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
-    looks = {**MARKED, NO_VALUE: unvalued, AT_BOUND.label: AT_BOUND}
+    looks = {**MARKED, NO_VALUE: unvalued}
+    looks |= {look.label: look for look in (AT_BOUND, UNSETTLED)}
     if not has_values(planes, variable):
         return entries(used, looks)
     draw_bar(figure, axes, mesh, colours, label)

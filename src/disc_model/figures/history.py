@@ -56,6 +56,9 @@ def plot_run(
     name, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
     height = 0.7 + 1.25 * rows
+    stacked = 0.0
+    if rows == 1:
+        stacked = height
     with page_for(
         wishes,
         width,
@@ -63,6 +66,7 @@ def plot_run(
         rows,
         columns,
         title=stated(case),
+        stacked=stacked,
         sharex="col",
         sharey="row" if columns > 1 else False,
     ) as page:

@@ -169,8 +169,28 @@ def _covers(legend: Legend, ax: Axes) -> bool:
     frame = ax.get_window_extent()
     if frame.count_contains(box.corners()) < len(box.corners()):
         return True
-    if box.width > INSIDE * frame.width:
+    if box.width > INSIDE * frame.width or box.count_overlaps(_other_legends(ax)) > 0:
         return True
+    return any(_meets_contents(box, each) for each in (ax, *twins_of(ax)))
+
+
+def twins_of(ax: Axes) -> list[Axes]:
+    """Other axes on the same place, such as those of ``ax.twinx()``."""
+    figure = ax.get_figure(root=False)
+    assert figure is not None
+    here = ax.get_position(original=True).bounds
+    places = {each: each.get_position(original=True).bounds for each in figure.axes}
+    return [each for each in places if each is not ax and np.allclose(places[each], here)]
+
+
+def _other_legends(ax: Axes) -> list[Bbox]:
+    """The extents of legends of axes on the same place."""
+    legends: list[Legend] = [each.get_legend() for each in twins_of(ax)]
+    return [legend.get_window_extent() for legend in legends if legend is not None]
+
+
+def _meets_contents(box: Bbox, ax: Axes) -> bool:
+    """Whether a box covers lines, points, areas or texts in axes."""
     texts = [text.get_window_extent() for text in ax.texts if text.get_text()]
     return (
         box.count_overlaps(texts) > 0
@@ -216,8 +236,7 @@ def legend_below(
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the places
     frame = ax.bbox
-    lowest = ax.xaxis.get_tightbbox()
-    depth = 0.0 if lowest is None else frame.y0 - lowest.y0
+    depth = frame.y0 - min(box.y0 for box in (frame, *_stands_below(ax)))
     free = _free_below(ax, bars)
     free = Sides(free.left, free.right - spare * page.dpi)
     own = _sides_of(ax, *bars)
@@ -324,9 +343,23 @@ def finds_room_below(ax: Axes, bars: Sequence[Axes] = ()) -> bool:
     legend: Legend = ax.get_legend()
     box = legend.get_window_extent()
     free = _free_below(ax, bars)
-    labels = ax.xaxis.get_tightbbox()
-    clear = labels is None or box.y1 <= labels.y0 + ROUNDING
+    clear = box.count_overlaps(_other_legends(ax)) == 0
+    for each in _labels_below(ax):
+        clear = clear and box.y1 <= each.y0 + ROUNDING
     return clear and box.x0 >= free.left - ROUNDING and box.x1 <= free.right + ROUNDING
+
+
+def _labels_below(ax: Axes) -> list[Bbox]:
+    """The extents of numbers and labels below axes and those on the same place."""
+    boxes = [each.xaxis.get_tightbbox() for each in (ax, *twins_of(ax))]
+    return [box for box in boxes if box is not None]
+
+
+def _stands_below(ax: Axes) -> list[Bbox]:
+    """The extents of what stands below axes already: labels, and legends of others on the same
+    place."""
+    legends = [box for box in _other_legends(ax) if box.y1 <= ax.bbox.y0]
+    return [*_labels_below(ax), *legends]
 
 
 def finds_room_inside(ax: Axes) -> bool:

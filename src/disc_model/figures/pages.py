@@ -3,6 +3,7 @@
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from inspect import signature
+from itertools import chain
 from typing import Any, Literal
 
 import numpy as np
@@ -11,13 +12,15 @@ from matplotlib.legend import Legend
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import without_font
-from disc_model.figures.legends import figure_legend, legend_below, legend_inside
+from disc_model.figures.legends import figure_legend, legend_below, legend_inside, twins_of
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
 from disc_model.figures.types import Artist, Axes
 
 Place = Literal["inside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+PLACED = "_disc_model_placed"
+"""Attribute of a legend that was placed for its reader: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
@@ -195,16 +198,46 @@ def _joined(
         replaced = ()
     entries: dict[str, Artist] = {}
     for legend in former:
-        for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
-            words = without_font(text.get_text()).replace("\n", " ")  # long ones stand in lines
-            if words in replaced:
-                continue
-            handle.set_label(words)
-            entries.setdefault(words, handle)
+        for handle in _entries_of(legend):
+            words = str(handle.get_label())
+            if words not in replaced:
+                entries.setdefault(words, handle)
         legend.remove()
     for handle in handles:
         entries.setdefault(str(handle.get_label()), handle)
     return [*entries.values()]
+
+
+def _entries_of(legend: Any) -> list[Artist]:
+    """The entries of a legend, labelled by their words."""
+    for handle, text in zip(legend.legend_handles, legend.get_texts(), strict=True):
+        words = without_font(text.get_text()).replace("\n", " ")  # long ones stand in lines
+        handle.set_label(words)
+    return [*legend.legend_handles]
+
+
+def _joined_with_twins(page: Page) -> list[Artist]:
+    """The entries of legends of pictures on the same place, such as the other axes of ``ax.twinx()``,
+    and those of a page, each look and words once; these legends are removed, but such that a reader
+    has placed."""
+    entries: dict[Any, Artist] = {}
+    for twin in chain.from_iterable(map(twins_of, page.axes)):
+        legend: Any = twin.get_legend()
+        if legend is None or PLACED not in vars(legend) or legend.get_title().get_text():
+            continue
+        for handle in _entries_of(legend):
+            if str(handle.get_label()) not in page.replaced:
+                entries[_seen_as(handle)] = handle
+        legend.remove()
+    for handle in page.handles:
+        entries.setdefault(_seen_as(handle), handle)
+    return [*entries.values()]
+
+
+def _seen_as(handle: Artist) -> tuple[str, ...]:
+    """What tells an entry of a legend from others: its words and its look."""
+    looks = ("label", "color", "facecolor", "linestyle", "marker", "hatch")
+    return tuple(str(getattr(handle, f"get_{look}", str)()) for look in looks)
 
 
 def write_legend(page: Page, wishes: Wishes) -> None:
@@ -223,6 +256,7 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     elif page.figure.get_gid() == OWN:
         figure_legend(page.figure, page.handles, title=page.heading)
     else:
+        page.handles = _joined_with_twins(page)
         if page.beside == "inside":
             page.legend = legend_inside(page.ax, page.handles, title=page.heading)
         if page.beside == "below" or page.legend is None:

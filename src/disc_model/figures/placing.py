@@ -17,6 +17,7 @@ ROUNDS = 3  # numbers along an axis may change with its length
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
 LEAST_STEP = 0.1  # pixel, less than which is rounding
 LEAST_SIDE = 0.9  # inch, of a panel, up to which gaps between panels are widened
+LEAST_BESIDE = 2.4  # inch of the width of a figure for each of several panels beside each other
 LEAST_SHARE = 0.1  # of their size, or of the page, that axes keep in any case
 
 
@@ -28,6 +29,24 @@ class Beyond(NamedTuple):
     right: float
     below: float
     above: float
+
+
+def stack_narrow(axes: Sequence[Axes], height: float) -> None:
+    """Set panels that stand beside each other in too narrow a figure, and alone in it, below each
+    other, in a figure so high that each has a height in inches."""
+    page: Any = axes[0].get_figure(root=True)
+    places: list[Any] = [ax.get_subplotspec() for ax in axes]
+    if len(axes) < 2 or {*page.axes} != {*axes} or None in places:
+        return
+    grid = places[0].get_gridspec()
+    is_row = (grid.nrows, grid.ncols) == (1, len(axes))
+    narrow = page.get_figwidth() < LEAST_BESIDE * len(axes)
+    if not is_row or not narrow or axes[0].get_figure(root=False) is not page:
+        return
+    for ax, place in zip(axes, page.add_gridspec(len(axes), 1), strict=True):
+        ax.set_subplotspec(place)
+        ax.tick_params(labelleft=True)  # panels of a row that share an axis leave them out
+    page.set_figheight(max(page.get_figheight(), height * len(axes)))
 
 
 def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
@@ -200,7 +219,7 @@ def _extent(axes: Sequence[Axes]) -> Bbox:
     """The extent of axes with their labels, titles and legends."""
     boxes = [box for each in axes if (box := each.get_tightbbox()) is not None]
     legends = [each.get_legend() for each in axes]
-    boxes += [legend.get_window_extent() for legend in legends if legend is not None]
+    boxes += [legend.get_tightbbox() for legend in legends if legend is not None]
     return Bbox.union(boxes)
 
 

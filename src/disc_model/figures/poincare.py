@@ -35,6 +35,7 @@ drawn."""
 
 SMALL = 0.2  # share of both common axes below which a section has axes of its own
 BESIDE_LETTER = 0.09  # share of the axes' width
+STACKED = 2.3  # inch, height of each of two sections below each other
 MANY = 2000  # points from which marks are drawn as pixels
 
 
@@ -50,7 +51,7 @@ def plot_poincare(
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
-    with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case)) as page:
+    with page_for(wishes, PAGE, 2.9, 1, 2, title=stated(case), stacked=STACKED) as page:
         samples = dataset.group(case, name)
         page.show(*_quantities(samples))
         fate = stages_of(case, samples).fate

@@ -10,14 +10,12 @@ from disc_model.figures.colours import bars_of
 from disc_model.figures.labels import break_labels, part_numbers, set_upright, spare_numbers
 from disc_model.figures.legends import finds_room_below, finds_room_inside
 from disc_model.figures.named_axes import own_labels, shown_on
-from disc_model.figures.pages import Page, Wishes, write_legend
+from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
 from disc_model.figures.placing import fit_to_page
 from disc_model.figures.types import Axes
 
 ROUNDS = 4  # in which legends find their places after axes have got other sizes
 SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
-PLACED = "_disc_model_placed"
-"""Attribute of a legend that has been placed here: its picture, and what was asked of it."""
 _DRAWN_ON: WeakSet[Axes] = WeakSet()
 """Axes of readers that have a picture of this package."""
 

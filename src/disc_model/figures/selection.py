@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
+from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import name_of
 from disc_model.figures.kinds.base import NORM
@@ -26,6 +27,20 @@ ROUNDING = 1e-9
 """Relative difference of equal speeds in files."""
 NOT_SIMULATED = "not_simulated"
 """Outcome of a sample whose motion was not simulated."""
+OF_STAYS = (
+    "range",
+    "u_min",
+    "u_max",
+    "P_min",
+    "P_max",
+    "stick_fraction",
+    "slip_fraction",
+    "separation_fraction",
+    "separation_rate",
+    "sweep_range",
+    "sweep_separation_rate",
+)
+"""Variables that describe the motion at the end of each stay of a sweep of the speed."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -239,6 +254,20 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     if variable == "critical_speed" and "scan_Omega" in study.coords:
         lowest = float(study["scan_Omega"].min())
         return study[variable] <= lowest * (1 + ROUNDING)
+    return None
+
+
+def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points of sweeps of the speed whose value describes, or rests on, a motion that had not settled
+    when its stay ended; None of other variables."""
+    if "sweep_settled" not in study:
+        return None
+    dims = {*study["sweep_settled"].dims}
+    if variable in OF_STAYS and dims <= {*study[variable].dims}:
+        return ~has_settled(study) & study[variable].notnull()
+    if variable in ("onset_speed", "offset_speed") and dims >= {"direction", "sweep_Omega"}:
+        swept = swept_speeds(study)
+        return swept.onset_unsettled if variable == "onset_speed" else swept.end_unsettled
     return None
 
 

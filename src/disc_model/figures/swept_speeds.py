@@ -1,5 +1,7 @@
 """Sweeps of the speed over the preload: where separation begins and ends, and what lies between."""
 
+from typing import Any
+
 import numpy as np
 import xarray as xr
 from matplotlib.colors import ListedColormap
@@ -7,7 +9,8 @@ from matplotlib.colors import ListedColormap
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import stated_in
 from disc_model.figures.arrows import draw_arrows
-from disc_model.figures.drawing import BLUE, ORANGE, SEPARATED, mark, mark_failed, wide
+from disc_model.figures.classes import UNSETTLED
+from disc_model.figures.drawing import BLUE, GREY, ORANGE, SEPARATED, mark, mark_failed, wide
 from disc_model.figures.selection import failed, stretches
 from disc_model.figures.types import Axes
 
@@ -27,20 +30,20 @@ def draw_sweeps(
     swept = swept_speeds(sweep)
     onset = np.where(lost, np.nan, swept.onset.values)
     end = np.where(lost, np.nan, swept.end.values)
-    for speeds, shape, colour, label in (
-        (onset, "^", ONSET, "sweep up: separation begins"),
-        (end, "v", END, "sweep down: separation ends"),
+    doubtful = False
+    for speeds, shape, colour, label, unsettled in (
+        (onset, "^", ONSET, "sweep up: separation begins", swept.onset_unsettled.values),
+        (end, "v", END, "sweep down: separation ends", swept.end_unsettled.values),
     ):
-        ax.plot(
-            speeds,
-            loads,
-            shape,
-            color=colour,
-            markersize=mark(4),
-            markerfacecolor="none",
-            clip_on=False,
-            label=label,
-        )
+        look: dict[str, Any] = {"color": colour, "markersize": mark(4), "clip_on": False}
+        ax.plot(speeds, loads, shape, markerfacecolor="none", label=label, **look)
+        filled = unsettled & np.isfinite(speeds)
+        if filled.any():
+            ax.plot(speeds[filled], loads[filled], shape, label="_nolegend_", **look)
+            doubtful = True
+    if doubtful:
+        label = UNSETTLED.label
+        ax.plot([], [], "o", color=GREY, markersize=mark(4), label=label)
     _point_to_less(ax, loads, onset, swept.onset_at_bound.values & ~lost, ONSET)
     _point_to_less(ax, loads, end, swept.end_at_bound.values & ~lost, END)
     mark_failed(ax, loads[lost], on="y")

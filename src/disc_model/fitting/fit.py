@@ -19,7 +19,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.arrays import Array, EqualByValue, Mask
-from disc_model.disc.plausibility import trial_cases, warn_of_doubts
+from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
 from disc_model.display import Drawn, Summarised, html_table, number_text
 from disc_model.errors import (
     DiscModelError,
@@ -406,11 +406,11 @@ class _Problem:
             raise ParameterError(Fault(("measured", wrong.name), "", "is not finite"))
         return found
 
-    def require_start(self, values: Array) -> None:
-        """Raise `ParameterError` unless all quantities can be predicted at the start of the search;
-        of a motion that the case does not have, it says that another start may."""
+    def first_predictions(self, values: Array) -> Array:
+        """Return the predicted quantities at the start of the search, (m,). Raises `ParameterError`
+        without one; of a motion that the case does not have, it says that another start may."""
         try:
-            self.predictions(values)
+            return self.predictions(values)
         except ParameterError as error:
             wrong = [each for each in self.measurements if each.name == error.faults[0].path[-1]]
             if not wrong or is_of_modes(wrong[0].quantity):
@@ -495,7 +495,8 @@ def fit(
     Notes
     -----
     Derivatives are central differences of relative step 1e-4. A trial case that breaks a rule, such as mu_k <= mu_s,
-    or has no such quantity, makes the next step shorter.
+    or has no such quantity, makes the next step shorter. A time, length or frequency that is a hundred times what the
+    case gives at the start, or a hundredth, is an `ImplausibleValue`, since its unit is probably another one.
 
     Examples
     --------
@@ -530,7 +531,9 @@ def fit(
     ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
     # the start and the result are doubted, not what is tried on the way
     with trial_cases():
-        problem.require_start(begin)
+        computed = problem.first_predictions(begin)
+        named = [(each.name, each.value, each.unit) for each in measurements]
+        warn_of_measured(named, computed.tolist())
         search = optimize.least_squares(
             deviations,
             begin / problem.scale,

@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.analysis.classify import Settled
-from disc_model.data.swept_speeds import swept_speeds
+from disc_model.data.swept_speeds import doubtful_contact, swept_speeds
 from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
 from disc_model.errors import (
@@ -414,8 +413,7 @@ def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
 
 def _doubts_of_contact(sweep: xr.Dataset) -> list[str]:
     """Where a motion in contact had not settled when its stay ended, in words."""
-    settled = flag_names(sweep["sweep_settled"]) == Settled.SETTLED
-    doubtful = (sweep["separation_rate"] == 0) & ~settled
+    doubtful = doubtful_contact(sweep)
     doubts = []
     for direction in ("up", "down"):
         speeds = sweep["sweep_Omega"].values[doubtful.sel(direction=direction).values]

@@ -45,15 +45,12 @@ def sweep(
     function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
     case : values of all parameters that do not vary
     *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
-    zip : columns of values that vary together, by the names of numbers of the case, such as paired samples or a
-        pandas.DataFrame of cases. They are one dimension, whose name joins theirs. Columns of words under other names,
-        such as names of samples, stay beside them as coordinates
-    workers : number of calls at a time, in threads: compiled code runs beside other threads, and other code in turn.
-        They pay for `simulate` over a minute or more. `floquet`, `outcome`, `critical` and `lyapunov_exponents` are
-        little faster so, or slower: use `processes`
-    processes : whether they are processes instead of threads: the function must then be importable. They pay where the
-        whole sweep takes half a second or more, such as 100 cycles of `floquet`; where processes are not forked (macOS,
-        Windows), each first takes some seconds to import the package
+    zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.
+        They are one dimension, whose name joins theirs. Columns of words under other names are coordinates along it
+    workers : number of calls at a time, in threads. They pay for `simulate` over a minute or more; `floquet`,
+        `outcome`, `critical` and `lyapunov_exponents` are little faster so, or slower: use `processes`
+    processes : whether they are processes instead: the function must then be importable. They pay from half a second of
+        work on; where processes are not forked (macOS, Windows), each first takes some seconds
     executor : who makes the calls instead: any object with the method `submit` of `concurrent.futures.Executor`, such
         as an executor of mpi4py or a client of dask.distributed, or with `map`
     progress : whether a bar on standard error shows how many calls are done
@@ -68,9 +65,8 @@ def sweep(
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
         (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
         words "", whole numbers are real ones, and a variable of True and False, such as `stable`, consists of 1, 0 and
-        nan: select by ``found["stable"] == 1``. Attributes state the `function`, its other arguments (`options`, in
-        JSON, defaults included), the `parameters` of the case and, in JSON, the `versions` of disc_model and of what it
-        uses
+        nan: select by ``found["stable"] == 1``. Attributes are the `function`, its other arguments (`options`), the
+        `parameters` of the case, and the `versions` of disc_model and of what it uses; the last three are in JSON
 
     Raises
     ------
@@ -78,10 +74,9 @@ def sweep(
         If `case` is no case, a name is neither a number of it nor an argument of the function, a value is no number, an
         axis has a value twice, columns differ in length, or no value of an axis or column can be; the message names the
         row, counted from 0, as in ``zip.N[1]=-1``. And if an argument of the function is missing, or refused at the
-        first point that is a case, or the function returns nothing there. Where a number of the case breaks a rule,
-        such as a load below zero or nan for an empty cell of a table, or several do so together, the point has failed.
-        Any other error of the function ends the sweep, with a note of what varies at the point, unless `errors` is
-        "record".
+        first point that is a case, or the function returns nothing there. Where numbers of the case break a rule, such
+        as a load below zero or nan for an empty cell of a table, the point has failed. Any other error of the function
+        ends the sweep, with a note of what varies at the point, unless `errors` is "record".
 
     Examples
     --------
@@ -90,6 +85,11 @@ def sweep(
     >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
     >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
     (('Omega', 'mu_k_over_mu_s'), 's-1')
+    >>> growth["status"].sel(Omega=10).values.tolist()
+    ['ok', 'ok']
+    >>> pairs = dm.sweep(dm.floquet, case, zip={"N": [385, 300], "Omega": [10, 12]})
+    >>> pairs["growth_rate"].sizes, pairs["N"].values
+    (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     call = checked_call(function, case, unnamed, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
