@@ -10,7 +10,7 @@ import xarray as xr
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
-from disc_model.figures import curve, heat_map, selection
+from disc_model.figures import heat_map, line_names, rate_scale, selection
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
@@ -229,7 +229,7 @@ def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) 
     ax = figure.subplots()
     for number in range(count):
         ax.plot([0, 1], [number, number], label=f"{number} N")
-    curve._name_lines(figure, [ax], several=False, in_legend=True)
+    line_names.name_lines(figure, [ax], several=False, in_legend=True)
     [legend] = figure.legends
     assert legend._ncols == columns
     assert len(legend.get_texts()) == count
@@ -241,7 +241,7 @@ def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) 
 def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, text: str) -> None:
     ax = Figure().subplots()
     ax.plot([0, 1], [lowest, highest])
-    curve.scale_rates(ax)
+    rate_scale.scale_rates(ax)
     assert ax.get_yscale() == "symlog"
     between = ax.yaxis.get_minor_formatter()
     assert between(-0.2, 0) == text

@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures import curve
+from disc_model.figures import rate_scale
 from disc_model.figures.classes import name_of
 from disc_model.figures.curve import OPEN
 from disc_model.figures.gap_rows import rows_above
@@ -533,8 +533,8 @@ def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int)
     assert said_above(ax) == ["no cycle found", OPEN]
     assert "another cycle" in OPEN
     [row] = rows_above(ax)[1].rows
-    scaled = np.arcsinh(rates / curve.LINEAR)
-    [place] = np.flatnonzero(np.abs(np.diff(scaled)) > curve.STEP)
+    scaled = np.arcsinh(rates / rate_scale.LINEAR)
+    [place] = np.flatnonzero(np.abs(np.diff(scaled)) > rate_scale.STEP)
     assert row.get_xdata() == [speeds[place] + 0.25], "between both points, as none lies there"
     figure.draw_without_rendering()
     top = rows_above(ax)[1].words.get_window_extent()

@@ -22,10 +22,10 @@ from disc_model.figures.branch_lines import (
     stable_segments,
 )
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
 from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
+from disc_model.figures.rate_scale import scale_rates
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Axes
 from disc_model.figures.words import label_of

@@ -8,7 +8,6 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.curve import LINEAR, scale_rates
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -25,6 +24,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import Campbell
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, named_modes
+from disc_model.figures.rate_scale import LINEAR, scale_rates
 from disc_model.figures.selection import (
     NORM,
     broken,

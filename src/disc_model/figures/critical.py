@@ -9,9 +9,9 @@ import numpy as np
 from disc_model.data.variables import axis_of, presentation_of
 from disc_model.figures.branch_lines import Look, above_floor, draw_at_floor, set_margins
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.curve import scale_rates
 from disc_model.figures.drawing import BLACK, COLUMN, SEPARATED, mark, wide
 from disc_model.figures.named_axes import Quantities
+from disc_model.figures.rate_scale import scale_rates
 from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 

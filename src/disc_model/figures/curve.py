@@ -10,23 +10,21 @@ from matplotlib.ticker import AutoLocator, NullLocator
 
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.branch_lines import THIN, Look
-from disc_model.figures.classes import AT_BOUND, UNSETTLED, name_of
-from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
+from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
-    large,
     letters,
     mark,
     plain_decades,
     row_of_panels,
-    say_beside,
     wide,
 )
 from disc_model.figures.gap_rows import add_row
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.line_names import name_lines
+from disc_model.figures.rate_scale import STEP, are_of_cycles, are_rates, on_scale, scale_heights
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
@@ -38,7 +36,7 @@ from disc_model.figures.selection import (
     titles_of,
     unsettled,
 )
-from disc_model.figures.types import Array, Artist, Axes, Figure
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
@@ -51,15 +49,8 @@ from disc_model.figures.words import (
     named,
 )
 
-LINEAR = 0.1
-"""Growth rate up to which its scale is linear, 1/s; a greater step from there finds another cycle."""
-STEP = np.arcsinh(1.0)
-"""Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
-large rates."""
 OPEN = "line open: another cycle, or too wide a step"
 """What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
-RATE = "growth_rate"
-"""Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 PLAIN = Look(BLACK)
 """Look of a single line."""
 MARKS = "os^Dv<>"
@@ -67,12 +58,8 @@ MARKS = "os^Dv<>"
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
-MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
-LONGEST_BESIDE = 25  # characters of a name that fits there
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 ROOM = 0.12  # share of the panel beside its values that has room for them
-APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
-WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
 
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -89,7 +76,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
     letters(axes, titles_of(panels))
-    _name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
+    name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
     return figure
 
 
@@ -108,28 +95,6 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
             for part in chosen
         ]
     return [Part("", "", part) for part in chosen]
-
-
-def _name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: bool) -> None:
-    """Name lines at their ends, if there is room, or in a legend.
-
-    several : whether there are panels
-    in_legend : whether there is a legend in any case
-    """
-    unnamed: dict[str, Artist] = {}
-    for ax in axes:
-        handles, names = ax.get_legend_handles_labels()
-        marked = not {AT_BOUND.label, UNSETTLED.label}.isdisjoint(names)
-        if names and (in_legend or marked or not name_ends(ax)):
-            unnamed.update(zip(names, handles, strict=True))
-    longest = max(map(len, unnamed), default=0)
-    if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
-        figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right center")
-    else:
-        figure_legend(figure, [*unnamed.values()], columns=3)
-
-
-# ---- Lines
 
 
 def draw_lines(
@@ -159,14 +124,14 @@ def draw_lines(
     by = remaining(array, [x])
     label, along = _along(array[x])
     joined = joined and along.dtype.kind != "U"
-    rates = _are_rates(array, log)
+    rates = are_rates(array, log)
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
     _choose_marks(marks, parts)
     colours = dict(zip((part.name for part in parts), _colours(parts, marks, single), strict=True))
     gapless = joined and not (names or rates or array.isnull().any())
-    jumps = joined and _are_of_cycles(array, rates)
+    jumps = joined and are_of_cycles(array, rates)
     line: Any = ""
     if joined and not names:
         line = single.line(THIN).get("linestyle", "-")
@@ -187,7 +152,7 @@ def draw_lines(
     # scales and labels
     _forget_empty(ax)
     shows = _shows_numbers(ax)
-    _scale_heights(ax, array, log)
+    scale_heights(ax, array, log)
     _scale_across(ax, array[x], along)
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
@@ -213,36 +178,6 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
         plain_decades(ax.xaxis)
 
 
-def _are_rates(array: xr.DataArray, log: bool) -> bool:
-    """Whether a variable is drawn on the scale of growth rates, which has both signs."""
-    return array.name == RATE and (not log or needs_zero(array.values))
-
-
-def _are_of_cycles(array: xr.DataArray, rates: bool) -> bool:
-    """Whether growth rates are those of cycles, of which the next point may have another; steady
-    sliding is one equilibrium."""
-    return rates and "sliding" not in array.attrs.get("long_name", "")
-
-
-def _scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
-    """Scale the vertical axis: as growth rates have it, or logarithmic, through zero if some values
-    are not positive."""
-    if _are_rates(array, log):
-        scale_rates(ax)
-    elif log and needs_zero(array.values):
-        linear = linear_to(array.values)
-        ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
-        # numbers below the linear part's end would cover that of zero
-        ends = (float(array.min()), float(array.max()))
-        ax.set_yticks(decades_through_zero(linear, *ends))
-        ax.yaxis.set_major_formatter("{x:g}")
-        if (array > 0).any():
-            ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
-    elif log:
-        ax.set_yscale("log")
-        plain_decades(ax.yaxis)
-
-
 def _along(coordinate: xr.DataArray) -> Measured:
     """The label and the values of the horizontal axis; words by their names."""
     across = measured(coordinate)
@@ -264,12 +199,7 @@ def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndar
     """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
     if not jumps:
         return [along, heights]
-    return broken(along, heights, STEP, _on_scale(heights))
-
-
-def _on_scale(rates: Array) -> Array:
-    """Heights of growth rates on their scale."""
-    return np.arcsinh(rates / LINEAR)
+    return broken(along, heights, STEP, on_scale(heights))
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -452,49 +382,7 @@ def _mark_jumps(
     if ax.get_xscale() == "log":
         middle = np.sqrt(along[:-1] * along[1:])
     for part in parts:
-        is_gap = np.abs(np.diff(_on_scale(part.data.values))) > STEP
+        is_gap = np.abs(np.diff(on_scale(part.data.values))) > STEP
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": colours[part.name]}
             add_row(ax, OPEN, middle[is_gap], **look)
-
-
-def scale_rates(ax: Axes) -> None:
-    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero. Where
-    all rates drawn are small, the scale is linear."""
-
-    def between(rate: float, _: float) -> str:
-        """Within about a decade, labels of some ticks between its ends, so that nobody reads the
-        scale as linear."""
-        leading = f"{rate:e}".lstrip("-")[0]
-        near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
-        return f"{rate:g}" if leading in "25" and near else ""
-
-    if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
-        ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)
-    if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
-        ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
-        ax.yaxis.set_major_formatter("{x:g}")
-        ax.yaxis.set_minor_formatter(between)
-    ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
-
-
-def name_ends(ax: Axes) -> bool:
-    """Write the names of lines beside their right ends, if all end there and apart from each other;
-    else do nothing."""
-    low, high = ax.get_ylim()
-    lines: list[Any] = ax.get_legend_handles_labels()[0]
-    ends = np.array([line.get_ydata()[-1] for line in lines])
-    apart = np.diff(np.sort(ends)) / (high - low)
-    widest = CHARACTER * max((len(str(line.get_label())) for line in lines), default=0)
-    page: Any = ax.get_figure(root=True)
-    place = ax.get_subplotspec()
-    rows = place.get_gridspec().nrows if place is not None else 1
-    row = page.get_figheight() / rows
-    if widest > WIDEST_NAME * page.get_figwidth():
-        return False
-    if len(lines) < 2 or not (row * apart > APART).all() or ax.get_yscale() != "linear":
-        return False
-    for line, end in zip(lines, ends, strict=True):
-        line.set_color(BLACK)
-        say_beside(ax, end, line.get_label(), fontsize=large(7))
-    return True

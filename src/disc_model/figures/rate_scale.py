@@ -1,0 +1,73 @@
+"""The scale of growth rates, which have both signs and peaks of tens beside hundredths, and those of
+other heights.
+"""
+
+import numpy as np
+import xarray as xr
+
+from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
+from disc_model.figures.drawing import GREY, plain_decades, wide
+from disc_model.figures.types import Array, Axes
+
+LINEAR = 0.1
+"""Growth rate up to which its scale is linear, 1/s; a greater step from there finds another cycle."""
+STEP = np.arcsinh(1.0)
+"""Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
+large rates."""
+RATE = "growth_rate"
+"""Growth rate of a motion, with narrow peaks of tens beside hundredths."""
+
+
+def are_rates(array: xr.DataArray, log: bool) -> bool:
+    """Whether a variable is drawn on the scale of growth rates, which has both signs."""
+    return array.name == RATE and (not log or needs_zero(array.values))
+
+
+def are_of_cycles(array: xr.DataArray, rates: bool) -> bool:
+    """Whether growth rates are those of cycles, of which the next point may have another; steady
+    sliding is one equilibrium."""
+    return rates and "sliding" not in array.attrs.get("long_name", "")
+
+
+def scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
+    """Scale the vertical axis: as growth rates have it, or logarithmic, through zero if some values
+    are not positive."""
+    if are_rates(array, log):
+        scale_rates(ax)
+    elif log and needs_zero(array.values):
+        linear = linear_to(array.values)
+        ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
+        # numbers below the linear part's end would cover that of zero
+        ends = (float(array.min()), float(array.max()))
+        ax.set_yticks(decades_through_zero(linear, *ends))
+        ax.yaxis.set_major_formatter("{x:g}")
+        if (array > 0).any():
+            ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+    elif log:
+        ax.set_yscale("log")
+        plain_decades(ax.yaxis)
+
+
+def on_scale(rates: Array) -> Array:
+    """Heights of growth rates on their scale."""
+    return np.arcsinh(rates / LINEAR)
+
+
+def scale_rates(ax: Axes) -> None:
+    """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero. Where
+    all rates drawn are small, the scale is linear."""
+
+    def between(rate: float, _: float) -> str:
+        """Within about a decade, labels of some ticks between its ends, so that nobody reads the
+        scale as linear."""
+        leading = f"{rate:e}".lstrip("-")[0]
+        near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
+        return f"{rate:g}" if leading in "25" and near else ""
+
+    if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
+        ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)
+    if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
+        ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
+        ax.yaxis.set_major_formatter("{x:g}")
+        ax.yaxis.set_minor_formatter(between)
+    ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
