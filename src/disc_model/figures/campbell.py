@@ -8,7 +8,7 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.curve import LINEAR, scale_rates
+from disc_model.figures.curve import LINEAR, OPEN, scale_rates
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -105,6 +105,8 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
         handles.append(sample(color=GREY, linewidth=wide(0.4), label="speed of a peak"))
     if any(unjoined(rate).any() for rate in rates):
         handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
+    if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
+        handles.append(sample(linestyle="", label=OPEN))
     if any(np.isnan(rate).any() for rate in rates):
         handles.append(Patch(label="no growth rate", **BAND))
     figure_legend(figure, handles, columns=3)
