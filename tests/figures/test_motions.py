@@ -602,6 +602,7 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
     [
         ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
         ([-0.05, -0.05, -0.30, -0.05, -0.05], "not resolved by the steps"),
+        ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: another cycle, or too wide a step"),
     ],
 )
 def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
@@ -616,6 +617,9 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
     shown = labels(figure)
     assert name in shown
     assert "speed of a peak" not in shown
+    figure = Figure(figsize=(7, 4))
+    campbell_diagram._legend(figure, studies[:1])
+    assert name not in labels(figure)
 
 
 @pytest.mark.parametrize(

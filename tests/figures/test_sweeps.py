@@ -13,9 +13,9 @@ from matplotlib import pyplot
 import disc_model as dm
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import name_of
-from disc_model.figures.curve import OPEN
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
+from disc_model.figures.rate_scale import OPEN
 from disc_model.figures.words import unit_text
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows

@@ -388,6 +388,25 @@ def test_pictures_on_twin_axes_have_one_legend_that_covers_neither(
     pyplot.close("all")
 
 
+def test_lines_of_sweeps_on_twin_axes_differ_and_are_named() -> None:
+    """Both were black with round marks, and no legend told which belonged to which axis."""
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(growth().sel(N=385), "growth_rate", ax=ax)
+    twin = ax.twinx()
+    dm.plot_sweep(growth().sel(N=385), "period", ax=twin)
+    texts = [text.get_text() for text in twin.get_legend().get_texts()]
+    assert texts == ["Growth rate", "Period"]
+    first, second = ax.lines[0], twin.lines[0]
+    assert first.get_color() != second.get_color()
+    assert first.get_marker() != second.get_marker()
+    dm.plot_sweep(growth().sel(N=300), "period", ax=twin)
+    texts = [text.get_text() for text in twin.get_legend().get_texts()]
+    assert [text.partition(",")[0] for text in texts] == ["Growth rate", "Period", "Period"]
+    assert len({text.replace("\n", " ") for text in texts}) == 3
+    assert ax.get_legend() is None
+    pyplot.close(figure)
+
+
 def test_a_legend_on_twin_axes_stands_clear_of_one_that_its_reader_has_placed() -> None:
     figure, ax = pyplot.subplots(figsize=(PAGE, 3), layout="constrained")
     placed = {"loc": "center left"}

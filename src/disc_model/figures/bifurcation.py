@@ -176,6 +176,8 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=errors)
     if moving.any():
         ax.plot([], [], "o", label="not converged", color=GREY, **ring)
+    if (np.abs(np.diff(exponent, axis=1)) > ANOTHER).any():
+        ax.plot([], [], linestyle="", label="line open: another motion")
     mark_failed(ax, along[np.isnan(exponent[0])])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
     legend_above(ax)

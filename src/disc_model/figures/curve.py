@@ -24,7 +24,14 @@ from disc_model.figures.gap_rows import add_row
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
-from disc_model.figures.rate_scale import STEP, are_of_cycles, are_rates, on_scale, scale_heights
+from disc_model.figures.rate_scale import (
+    OPEN,
+    STEP,
+    are_of_cycles,
+    are_rates,
+    on_scale,
+    scale_heights,
+)
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
@@ -49,8 +56,6 @@ from disc_model.figures.words import (
     named,
 )
 
-OPEN = "line open: another cycle, or too wide a step"
-"""What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 PLAIN = Look(BLACK)
 """Look of a single line."""
 MARKS = "os^Dv<>"

@@ -178,9 +178,17 @@ def twins_of(ax: Axes) -> list[Axes]:
     """Other axes on the same place, such as those of ``ax.twinx()``."""
     figure = ax.get_figure(root=False)
     assert figure is not None
-    here = ax.get_position(original=True).bounds
-    places = {each: each.get_position(original=True).bounds for each in figure.axes}
-    return [each for each in places if each is not ax and np.allclose(places[each], here)]
+    return [each for each in figure.axes if each is not ax and _share_place(each, ax)]
+
+
+def _share_place(ax: Axes, other: Axes) -> bool:
+    """Whether axes lie on each other: in the same cells of a grid, where a layout may not have moved
+    new ones yet, or at the same place."""
+    cells = [each.get_subplotspec() for each in (ax, other)]
+    if None not in cells:
+        return cells[0] == cells[1]
+    places = [each.get_position(original=True).bounds for each in (ax, other)]
+    return np.allclose(*places)
 
 
 def _other_legends(ax: Axes) -> list[Bbox]:

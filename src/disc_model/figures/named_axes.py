@@ -7,10 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
-import numpy as np
-
 from disc_model.errors import Fault, raise_faults
 from disc_model.figures.labels import words_of
+from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Axes
 
 UNIT = re.compile(r"\(([^()]+)\)$")
@@ -100,10 +99,7 @@ def _former(ax: Axes, along: str) -> list[str]:
     places = [ax]
     if along != "bar":
         shared = ax.get_shared_x_axes() if along == "x" else ax.get_shared_y_axes()
-        here = ax.get_position(original=True).bounds
-        for other in shared.get_siblings(ax):
-            if other is not ax and np.allclose(other.get_position(original=True).bounds, here):
-                places.append(other)
+        places += [twin for twin in twins_of(ax) if shared.joined(ax, twin)]
     return [*filter(None, (shown_on(place).labels.get(along, "") for place in places))]
 
 

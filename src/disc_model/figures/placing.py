@@ -41,7 +41,8 @@ def stack_narrow(axes: Sequence[Axes], height: float) -> None:
     grid = places[0].get_gridspec()
     is_row = (grid.nrows, grid.ncols) == (1, len(axes))
     narrow = page.get_figwidth() < LEAST_BESIDE * len(axes)
-    if not is_row or not narrow or axes[0].get_figure(root=False) is not page:
+    part: Any = axes[0].get_figure(root=False)
+    if not is_row or not narrow or part is not page:
         return
     for ax, place in zip(axes, page.add_gridspec(len(axes), 1), strict=True):
         ax.set_subplotspec(place)
@@ -218,7 +219,7 @@ def _steps(own: range, other: range) -> int:
 def _extent(axes: Sequence[Axes]) -> Bbox:
     """The extent of axes with their labels, titles and legends."""
     boxes = [box for each in axes if (box := each.get_tightbbox()) is not None]
-    legends = [each.get_legend() for each in axes]
+    legends: list[Any] = [each.get_legend() for each in axes]
     boxes += [legend.get_tightbbox() for legend in legends if legend is not None]
     return Bbox.union(boxes)
 

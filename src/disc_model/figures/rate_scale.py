@@ -14,6 +14,8 @@ LINEAR = 0.1
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
+OPEN = "line open: another cycle, or too wide a step"
+"""What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 

@@ -19,6 +19,7 @@ from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.sweep_lines import (
     join_lines,
+    lines_beside,
     lines_of,
     lines_on,
     names_asked,
@@ -300,7 +301,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     page.show(quantities)
     marks = {}
     if drawn.second is None:
-        marks[""] = MARKS[len(others) % len(MARKS)]
+        marks[""] = MARKS[len(lines_beside(page.ax)) % len(MARKS)]
     found = draw_lines(
         page.ax,
         study,

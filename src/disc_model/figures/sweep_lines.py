@@ -13,6 +13,7 @@ import xarray as xr
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.family import LOOKS, Member, names_of, retitle
+from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on, unit_in
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes
@@ -49,6 +50,12 @@ _LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
 def lines_on(ax: Axes) -> list[Lines]:
     """The lines of sweeps on axes from which they were not removed."""
     return _LINES.get(ax, []) if shown_on(ax).labels else []
+
+
+def lines_beside(ax: Axes) -> list[Lines]:
+    """The lines of sweeps on axes, and those on others on the same place, from which they differ in
+    look and name."""
+    return [line for each in (*twins_of(ax), ax) for line in lines_on(each)]
 
 
 def names_asked(labels: Any, variables: Sequence[str]) -> tuple[dict[str, str], Any]:
@@ -134,14 +141,14 @@ def _within(name: str) -> str:
 
 def next_look(ax: Axes) -> Look:
     """The look of the next lines on axes."""
-    return LOOKS[len(lines_on(ax)) % len(LOOKS)]
+    return LOOKS[len(lines_beside(ax)) % len(LOOKS)]
 
 
 def join_lines(page: Page, new: Lines) -> None:
     """Add lines to those on their axes. Of several, the legend names each by what differs between
     their variables and cases, or as its reader does."""
-    family = [*lines_on(page.ax), new]
-    _LINES[page.ax] = family
+    family = [*lines_beside(page.ax), new]
+    _LINES[page.ax] = [*lines_on(page.ax), new]
     shown = [each.shown for each in family]
     names = [new.shown.name]
     tail = common_tail([each.phrase for each in family])  # which the axis says
@@ -164,4 +171,5 @@ def join_lines(page: Page, new: Lines) -> None:
                 replaced += [str(line.get_label()), text]
                 line.set_label(text)
     page.replaced = replaced
-    page.explain(page.ax.get_legend_handles_labels()[0])
+    axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
+    page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
