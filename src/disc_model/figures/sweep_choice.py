@@ -1,0 +1,214 @@
+"""What a picture of a sweep shows: which variable, over which of its dimensions, and of what case."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.errors import require, suggestion
+from disc_model.figures.words import known_name, value_text, what_case
+from disc_model.parameters import Disc
+
+SHARES = ("basin_fraction_by_energy", "basin_fraction")
+PREFERRED = (
+    *SHARES,
+    "growth_rate",
+    "outcome",
+    "critical_speed",
+    "separation_rate",
+    "scan_first_separation",
+    "value",
+    "kind",
+)
+"""Variables that are drawn unless another one is asked for, the first that there is."""
+OF_FUNCTIONS = {
+    "choose_modes": "modes",
+    "coupled_natural_frequencies": "value",
+    "lyapunov_exponents": "exponents",
+    "simulate": "n_separations",
+}
+"""Variables that are drawn before those, of sweeps of a function."""
+FIRST_OF_SEVERAL = {
+    "exponents": "largest Lyapunov exponent",
+    "value": "lowest natural frequency of disc and attached slider",
+}
+"""Names of the first value of such variables that have several at each point."""
+COUNTED = ("branch", "branch_point")
+"""Dimensions whose values only count something."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A variable, and its dimensions: along the horizontal axis, and up or by line, if any.
+
+    mapped : whether the second dimension goes up, in a map
+    joined : whether lines join the points; not those of paired values, which have no order
+    """
+
+    variable: str
+    across: str
+    second: str | None
+    mapped: bool
+    joined: bool = True
+
+    @property
+    def is_line(self) -> bool:
+        """Whether lines or points are drawn, and no bars or map."""
+        return not (self.mapped or self.variable in SHARES)
+
+
+def choose_drawn(
+    study: xr.Dataset, variables: Sequence[str], x: str
+) -> tuple[xr.Dataset, list[Drawn]]:
+    """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
+    are lines over the same dimension. Raises `ParameterError`."""
+    if not variables[0]:
+        study = _with_first_values(study)
+    whole = _varying(_with_names_of_discs(study))
+    varying, column = _along_pairs(whole, x)
+    if not column:
+        varying = _ascending(varying)
+
+    drawn = [_drawn(varying, each, column, x) for each in variables]
+    for each in drawn[1:]:
+        alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
+        rule = "must be lines over the same dimension to be drawn together"
+        require((alike, "variable", each.variable, rule))
+    return varying, drawn
+
+
+def _drawn(study: xr.Dataset, variable: str, column: str, x: str) -> Drawn:
+    """What is drawn of a variable, over a column of paired values, if there is one."""
+    drawn = _chosen_axes(study, _chosen_variable(study, variable), column or x)
+    return replace(drawn, mapped=False, joined=False) if column else drawn
+
+
+def _varying(study: xr.Dataset) -> xr.Dataset:
+    """The study without dimensions of one value; but shares of starts of one case stay along their
+    energies."""
+    alone = (
+        "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]
+    )
+    kept = ("energy",) if alone else ()
+    return study.squeeze(
+        [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
+    )
+
+
+def _with_first_values(study: xr.Dataset) -> xr.Dataset:
+    """The study with the first value at each point of the usual variable of its function."""
+    name = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    if name not in FIRST_OF_SEVERAL or name not in study:
+        return study
+    several = [dim for dim in study[name].dims if dim == f"{name}_index"]
+    first = study[name].isel(dict.fromkeys(several, 0))
+    attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
+    return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
+
+
+def _ascending(study: xr.Dataset) -> xr.Dataset:
+    """The study with the numbers along its dimensions in their order: lines would go back and
+    forth, and cells of a map lie on each other. Those that are not finite have no place."""
+    named = [name for name in study.dims if name in study.coords]
+    numbers = [name for name in named if study[name].dtype.kind in "fi"]
+    placed = {name: np.isfinite(study[name].values) for name in numbers}
+    return study.isel(placed).sortby(numbers)
+
+
+def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
+    """The study with names for the discs along its dimensions, by their order and frequencies."""
+    named = {}
+    for name, values in study.coords.items():
+        discs = [value for value in values.values.flat if isinstance(value, Disc)]
+        if discs and values.ndim == 1:
+            shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
+            words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
+            named[name] = (values.dims, words, values.attrs)
+    return study.assign_coords(named)
+
+
+def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
+    """The study along one of the columns of numbers that vary together, the first of them unless
+    `x` is another, or their labels, and its name; "" if none vary together."""
+    for dim in study.get("status", study).dims:
+        beside = [
+            name for name, values in study.coords.items() if values.dims == (dim,) and name != dim
+        ]
+        columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
+        columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
+        if columns and (dim not in study.coords or x in columns):
+            column = x or columns[0]
+            require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
+            return study.swap_dims({dim: column}), column
+    return study, ""
+
+
+def _drawn_dims(study: xr.Dataset) -> list[str]:
+    """Dimensions of a study whose values are numbers of a quantity; words where there are none."""
+    named = [str(dim) for dim in study.dims if dim in study.coords and dim not in COUNTED]
+    numbers = [dim for dim in named if study[dim].dtype.kind in "fi"]
+    if numbers or "status" not in study:
+        return numbers
+    return [dim for dim in named if dim in study["status"].dims]
+
+
+def _chosen_variable(study: xr.Dataset, variable: str) -> str:
+    """The variable that is drawn; raises `ParameterError`."""
+    numbers = {*_drawn_dims(study)}
+    over = {str(name): {*values.dims} for name, values in study.items()}
+    choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
+    flat = [name for name in choices if len(over[name]) < 3]
+    of_function = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    preferred = [name for name in (of_function, *PREFERRED) if name in flat]
+    numeric = [name for name in flat if study[name].dtype.kind in "fi"]
+    usual = next(iter([*preferred, *numeric, *choices]), "")
+    named = variable or usual
+    points = "must have two points or more along a number or a word"
+    require((bool(numbers), "study", "a single point", points))
+    rule = f"must be one over the grid{suggestion(named, choices)}"
+    further = [dim for dim in over.get(named, ()) if dim not in study.coords]
+    if further:
+        rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
+    require((named in choices, "variable", named, rule))
+    return named
+
+
+def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
+    """The dimensions along which a variable is drawn; raises `ParameterError`."""
+    dims = [str(dim) for dim in study[variable].dims]
+    numbers = [dim for dim in dims if dim in _drawn_dims(study)]
+    across = x or numbers[0]
+    many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
+    require((len(dims) < 3, "study", ", ".join(dims), many))
+    require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
+    second = next((dim for dim in dims if dim != across), None)
+    plane = len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
+    return Drawn(variable, across, second, mapped=plane)
+
+
+def values_of(study: xr.Dataset) -> dict[str, Any]:
+    """The values of the case that do not vary in a study."""
+    case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
+    shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
+    fixed = {name: value for name, value in case.items() if name not in shown}
+    for name, values in study.coords.items():
+        if not values.ndim or values.size == 1:
+            fixed[str(name)] = values.item()
+    return fixed
+
+
+def said_of(study: xr.Dataset) -> dict[str, str]:
+    """Words for single values of what is no parameter and has a unit, such as a horizon."""
+    said = {}
+    for name, values in study.coords.items():
+        if values.size == 1 and values.attrs.get("units", "1") != "1" and not known_name(values):
+            said[str(name)] = f"{name} = {value_text(study, str(name))}"
+    return said
+
+
+def case_of(study: xr.Dataset) -> str:
+    """The text of these values."""
+    return what_case(values_of(study))
