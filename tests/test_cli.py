@@ -210,7 +210,10 @@ def test_a_file_that_cannot_be_written_is_refused_before_the_simulation(
     assert re.search(rf"{option.strip('-')}='.*: {re.escape(rule)}", err)
 
 
-@pytest.mark.parametrize("backend", ["module://matplotlib_inline.backend_inline", "unknown"])
+@pytest.mark.parametrize(
+    "backend",
+    ["module://matplotlib_inline.backend_inline", pytest.param("unknown", marks=pytest.mark.slow)],
+)
 def test_a_backend_of_a_notebook_does_not_matter(tmp_path: Path, backend: str) -> None:
     """Matplotlib refused it, and the name of the picture was blamed."""
     picture = tmp_path / "run.png"

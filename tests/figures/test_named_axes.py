@@ -332,7 +332,7 @@ def test_symbols_on_axes_of_a_reader_are_upright_beside_labels_of_the_reader() -
     assert axes[0].get_ylabel() == "reach of $k_p$ (rad/s)"
 
 
-@pytest.mark.parametrize("log", [False, True])
+@pytest.mark.parametrize("log", [pytest.param(False, marks=pytest.mark.slow), True])
 def test_numbers_of_a_short_bar_do_not_meet(log: bool) -> None:
     """0.01, 0 and -0.01 lay on each other, and 28 on 29."""
     axes = {"N": [300.0, 350.0], "Omega": [14.0, 15.0]}

@@ -293,7 +293,7 @@ def test_a_legend_stands_below_a_map_and_its_bar(stacked: bool) -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("size", [8, 10])
+@pytest.mark.parametrize("size", [pytest.param(8, marks=pytest.mark.slow), 10])
 def test_legends_of_maps_beside_each_other_do_not_meet(size: int) -> None:
     with pyplot.rc_context({"font.size": size}):
         figure, axes = pyplot.subplots(1, 2, figsize=(174 / 25.4, 2.6), layout="constrained")
@@ -336,7 +336,14 @@ def assert_apart(figure: Any) -> None:
             assert all(inside.count_contains(each) == len(each) for each in corners)
 
 
-@pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
+@pytest.mark.parametrize(
+    "order",
+    [
+        (0, 1, 2),
+        pytest.param((2, 1, 0), marks=pytest.mark.slow),
+        pytest.param((1, 0, 2), marks=pytest.mark.slow),
+    ],
+)
 def test_three_maps_beside_each_other_keep_their_legends_apart(order: tuple[int, ...]) -> None:
     """Axes move when another picture is drawn: "growing, in contact" was cut by the next legend."""
     draws: list[Callable[..., Any]] = [
@@ -354,7 +361,7 @@ def test_three_maps_beside_each_other_keep_their_legends_apart(order: tuple[int,
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("layout", [pytest.param(None, marks=pytest.mark.slow), "constrained"])
 def test_four_maps_in_two_rows_keep_what_they_say_apart(layout: str | None) -> None:
     """On plain axes a title stood in the legend above it, and a bar's label in the next panel."""
     with pyplot.rc_context({"font.size": 8}):

@@ -223,7 +223,14 @@ LEAST_WIDTH = 6 / 25.4
 """Of axes beside the label of a bar of colours, which has up to three lines, inch."""
 
 
-@pytest.mark.parametrize("name", DRAWN)
+QUICK = ("branch", "run", "words")
+"""Kinds of pictures whose narrowest panels are tried quickly."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in DRAWN],
+)
 def test_small_panels_keep_their_width_beside_their_legends(name: str) -> None:
     """A legend wider than a panel of 40 mm squeezed it to nothing, and ran into the next one."""
     with mpl.rc_context({"font.size": 7}):
@@ -279,7 +286,7 @@ def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: floa
     assert box.x1 <= figure.bbox.x1
 
 
-@pytest.mark.parametrize("size", [(PAGE, 3.0), (PAGE, 2.4)])
+@pytest.mark.parametrize("size", [pytest.param((PAGE, 3.0), marks=pytest.mark.slow), (PAGE, 2.4)])
 def test_legends_of_branches_beside_each_other_stand_clear_of_them(
     size: tuple[float, float],
 ) -> None:
@@ -487,6 +494,7 @@ def test_variables_beside_each_other_have_labels_and_those_below_each_other_shar
     assert units == ["(N)", "(mm)"]
 
 
+@pytest.mark.slow
 def test_words_of_a_panel_fit_it_after_others_have_made_it_narrower() -> None:
     """The title of the first panel ran into the second one."""
     with mpl.rc_context({"font.size": 8}):

@@ -424,7 +424,15 @@ def noisy_times(seed: int) -> list[dm.Measurement]:
 
 @pytest.mark.compiled
 @pytest.mark.parametrize(
-    ("seed", "start"), [(11, 0.2), (11, 0.21), (11, 0.22), (3, 0.2), (3, 0.21), (3, 0.22)]
+    ("seed", "start"),
+    [
+        (11, 0.2),
+        pytest.param(11, 0.21, marks=pytest.mark.slow),
+        pytest.param(11, 0.22, marks=pytest.mark.slow),
+        pytest.param(3, 0.2, marks=pytest.mark.slow),
+        (3, 0.21),
+        pytest.param(3, 0.22, marks=pytest.mark.slow),
+    ],
 )
 def test_indistinct_parameters_are_named_from_every_start(seed: int, start: float) -> None:
     """By the start there was an error, a doubt of mu_k and k_p, or none of any parameter: the search
