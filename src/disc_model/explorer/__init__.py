@@ -2,15 +2,5 @@
 
 from disc_model.explorer.contents import LEVELS, Stated, study_contents
 from disc_model.explorer.document import PAGE_WIDTH, PICTURE_WIDTH, Picture, page
-from disc_model.explorer.packing import BITS
 
-__all__ = [
-    "BITS",
-    "LEVELS",
-    "PAGE_WIDTH",
-    "PICTURE_WIDTH",
-    "Picture",
-    "Stated",
-    "page",
-    "study_contents",
-]
+__all__ = ["LEVELS", "PAGE_WIDTH", "PICTURE_WIDTH", "Picture", "Stated", "page", "study_contents"]

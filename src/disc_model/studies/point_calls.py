@@ -42,6 +42,7 @@ class Call(NamedTuple):
     sampled : the variable that has the values of sampled parameters, "" without
     lifts_mu_s : whether mu_s rises with mu_k where that is larger
     computes : what a study of the point computes for one number, in words
+    headlines : the variables that say what the quantity is about, the first one that varies first
     """
 
     quantity: str
@@ -53,6 +54,7 @@ class Call(NamedTuple):
     sampled: str = ""
     lifts_mu_s: bool = False
     computes: str = ""
+    headlines: Sequence[str] = ()
 
     @property
     def plain(self) -> dict[str, Any]:
@@ -70,6 +72,25 @@ COMPUTES: Mapping[str, str] = {
     "stability_curves": "all curves",
 }
 """What a quantity computes for any of its numbers."""
+HEADLINES: Mapping[str, Sequence[str]] = {
+    "basins": ("separating_fraction",),
+    "bifurcation": ("psi",),
+    "branches": ("sweep_range",),
+    "campbell": ("cycle_frequency", "sliding_frequency"),
+    "critical_speed": ("critical_speed",),
+    "floquet": ("growth_rate",),
+    "hysteresis": ("onset_speed", "offset_speed"),
+    "locking": ("map_next_phase", "separations_per_release"),
+    "lyapunov": ("exponent",),
+    "outcome": ("outcome",),
+    "ramps": ("onset_speed", "offset_speed"),
+    "range_law": ("range",),
+    "regions": ("outcome",),
+    "sensitivity": ("growth_rate",),
+    "sliding": ("largest_growth_rate",),
+    "stability_curves": ("y",),
+}
+"""The variables that say what a quantity is about, by its name."""
 OF_CYCLES: Mapping[str, str] = {
     "growth_rate": "found.growth_rate",
     "period": "found.period",
@@ -134,6 +155,7 @@ def call_of(name: str, quantity: Quantity) -> Call:
         "parameter_values" if name == "sensitivity" else "",
         name == "sliding" and parameter == "mu_k",
         COMPUTES.get(name, ""),
+        HEADLINES.get(name, ()),
     )
 
 
