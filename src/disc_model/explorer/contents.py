@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -106,7 +107,7 @@ def _study_contents(
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}
-    exact = {call.get("sampled", ""), *call["along"].values()}  # numbers of the case of a point
+    exact = {call.get("sampled", ""), *chain(*call["along"].values())}  # numbers of a point's case
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,

@@ -38,7 +38,7 @@ class Call(NamedTuple):
     columns : variables that each point has by itself; others are of several points together
     recipes : calls that give some of them; `disc_model.run_study` of one point gives all
     begins : parameters of the case that the quantity varies by itself, each where its range begins
-    along : the dimensions or variables in which the values of such parameters are
+    along : the dimensions or variables in which the values of such parameters are, by parameter
     sampled : the variable that has the values of sampled parameters, "" without
     lifts_mu_s : whether mu_s rises with mu_k where that is larger
     computes : what a study of the point computes for one number, in words
@@ -50,7 +50,7 @@ class Call(NamedTuple):
     columns: Sequence[str]
     recipes: Sequence[Recipe]
     begins: Mapping[str, float]
-    along: Mapping[str, str]
+    along: Mapping[str, Sequence[str]]
     sampled: str = ""
     lifts_mu_s: bool = False
     computes: str = ""
@@ -159,13 +159,19 @@ def call_of(name: str, quantity: Quantity) -> Call:
     )
 
 
-def _along(name: str, quantity: Any) -> dict[str, str]:
-    """The dimension or variable with the values of each parameter that a quantity varies itself."""
+def _along(name: str, quantity: Any) -> dict[str, list[str]]:
+    """The dimensions and variables with values of each parameter that a quantity varies itself."""
     match name:
-        case "branches" | "sliding":
-            return {quantity.parameter: "value"}
+        case "branches":
+            return {quantity.parameter: ["value", "sweep_value"]}
+        case "sliding":
+            return {quantity.parameter: ["value"]}
         case "stability_curves":
-            return {quantity.x: "x", quantity.y: "y"}
+            return {quantity.x: ["x"], quantity.y: ["y"]}
+        case "critical_speed":
+            return {"Omega": ["scan_Omega"]}
+        case "hysteresis":
+            return {"Omega": ["sweep_Omega"]}
     return {}
 
 

@@ -86,14 +86,15 @@ function python(value) {
 /** The values of the parameters that the quantity varies by itself where a variable was computed; without those that the variable
  * does not depend on. */
 function scannedAt(study, place, variable) {
-  const found = Object.entries(study.call.along).flatMap(([parameter, name]) => {
+  const valueIn = (name) => {
     const dim = study.dim[name];
-    if (dim) return variable.dims.includes(name) ? [[parameter, dim.parts[name][place[name]]]] : [];
+    if (dim) return variable.dims.includes(name) ? dim.parts[name][place[name]] : NaN;
     const holder = study.variables.find((one) => one.name === name);
-    const known = holder?.dims.every((one) => variable.dims.includes(one)) ? value(study, holder, place) : NaN;
-    return Number.isNaN(known) ? [] : [[parameter, known]];
-  });
-  return Object.fromEntries(found);
+    return holder?.dims.every((one) => variable.dims.includes(one)) ? value(study, holder, place) : NaN;
+  };
+  const found = Object.entries(study.call.along).map(([parameter, names]) => [parameter, names.map(valueIn)]);
+  const known = found.map(([parameter, values]) => [parameter, values.find((one) => !Number.isNaN(one))]);
+  return Object.fromEntries(known.filter(([, one]) => one !== undefined));
 }
 
 /** The values of the parameters of a sample. */

@@ -38,13 +38,14 @@ const ALONG = / along /; // and of one that counts points of a line, in their or
 const counts = (dim) => COUNTS.test(dim.label) && !ALONG.test(dim.label);
 
 /** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
- * quantity's own that is no short list and no count: a curve shows more than a map of two rows. */
+ * quantity's own that is no short list and no count, as a curve shows more than a map of two rows: the longest of them. */
 function usualAxes(study, axes) {
   const grid = axes.filter((dim) => gridOf(study).includes(dim));
   const own = axes.filter((dim) => !grid.includes(dim));
   const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.label));
   const across = grid.find((dim) => dim.name === "Omega") ?? grid[0] ?? worth[0] ?? own.at(-1);
-  return [across, [...grid, ...worth].find((dim) => dim !== across)];
+  const others = [...grid, ...worth].filter((dim) => dim !== across);
+  return [across, others.sort((a, b) => b.values.length - a.values.length)[0]];
 }
 
 async function chooseStudy(name) {
