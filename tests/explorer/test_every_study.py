@@ -42,6 +42,7 @@ const [name, done] = arguments;
     rows.push({
       asked: variable.name, shown: view.variable.name, place: view.place, gap: gap && gap.label,
       title: text("map-title"), says: text("call-says"), call: text("call"), motion: text("motion-call"),
+      of_motion: text("motion-says"),
     });
   }
   return rows;
@@ -167,6 +168,7 @@ def test_the_case_of_a_scanned_point_is_that_of_the_point(
     assert f"Omega={speed:g}" in row["call"].split("\n")[0]
     assert "stands where its range begins" not in row["says"]
     assert f"Omega={speed:g}" in row["motion"]
+    assert ("may differ" in row["of_motion"]) == (name != "critical_speed")
 
 
 def test_all_parameters_of_a_sample_are_among_its_values(shown: Shown) -> None:

@@ -313,3 +313,19 @@ def test_a_number_that_may_be_infinite_has_its_name(opened: Open) -> None:
     with opened([contents_of("decays", study.assign_coords(friction_decay=decays))]) as shown:
         said = shown.page.run("return where({friction_decay: 6, n: 0})")
     assert said.startswith("d = inf s/m"), said
+
+
+def test_a_study_opens_where_its_map_has_values(opened: Open) -> None:
+    """That of a brake's mass opened on the disc's middle plane, where nothing grows: on one colour."""
+    study = plane()
+    study["growth_rate"].values[:, :, 0] = np.nan
+    with opened([contents_of("plane", study)]) as shown:
+        assert shown.page.run("return view.place.normalization") == 1
+        assert "orthonormal" in shown.text("map-title")
+
+
+def test_powers_of_ten_are_factors(opened: Open) -> None:
+    """A damping was "2.3333 10⁻⁵ N m s"."""
+    with opened([contents_of("plane", plane())]) as shown:
+        said = shown.page.run("return [withUnit('2.3', '10⁻⁵ N m s'), withUnit('2.3', 'N')]")
+    assert said == ["2.3·10⁻⁵ N m s", "2.3 N"]

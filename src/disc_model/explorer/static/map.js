@@ -2,8 +2,9 @@
 
 let drawn = null; // where cells lie, for the pointer
 
-function places() {
-  const { study, x, place } = view;
+/** All places of the map or curve, the one along other dimensions being as chosen unless it is given. */
+function places(place = view.place) {
+  const { study, x } = view;
   const other = second();
   const rows = other === NONE ? [0] : [...study.dim[other].values.keys()];
   return [...study.dim[x].values.keys()].flatMap((i) =>

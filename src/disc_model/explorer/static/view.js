@@ -67,6 +67,7 @@ async function chooseStudy(name) {
   chooseAxes();
   if (!hasValues(view.variable)) chooseValued();
   if (marks().some((mark) => mark.key === SIMULATED)) view.mark = SIMULATED;
+  view.place = slice();
   view.place = opening();
 }
 
@@ -108,6 +109,15 @@ function chooseValued() {
   const [across, up] = usualAxes(study, axesFor(study, valued));
   Object.assign(view, { variable: valued, x: across.name, y: up ? up.name : NONE });
   chooseAxes();
+}
+
+/** A place along what is not on the map: the chosen one, or else the first at which any point of the map has a value. */
+function slice() {
+  const chosen = view.place;
+  const each = (some, dim) => some.flatMap((place) => dim.values.map((_, i) => ({ ...place, [dim.name]: i })));
+  const candidates = [chosen, ...selectors().reduce(each, [chosen])];
+  const isValued = (place) => places(place).some((cell) => !gapAt(view.study, view.variable, cell.place));
+  return candidates.find(isValued) ?? chosen;
 }
 
 /** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
