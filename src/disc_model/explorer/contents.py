@@ -268,23 +268,27 @@ def _unit_of(variable: xr.DataArray) -> tuple[str, float]:
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension as they are shown, and in SI as parts; for a zip, which has no
-    coordinate of its own, its parameters as text."""
-    if dim in study.coords:
-        values = study[dim].values.tolist()
-        _, factor = _unit_of(study[dim])
-        scaled = values
-        if factor != 1.0 and not isinstance(values[0], str):
-            scaled = [float(f"{value * factor:.12g}") for value in values]
-        shown = [_word(dim, value) for value in scaled]
-        names = _named(dim, study[dim].attrs)
+    """Values along a dimension as they are shown, and in SI as parts."""
+    if dim not in study.coords:
+        return _zip(study, dim)
+    values = study[dim].values.tolist()
+    _, factor = _unit_of(study[dim])
+    scaled = values
+    if factor != 1.0 and not isinstance(values[0], str):
+        scaled = [float(f"{value * factor:.12g}") for value in values]
+    shown = [_word(dim, value) for value in scaled]
+    names = _named(dim, study[dim].attrs)
+    si_unit = ""
+    if known_name(study[dim]) in UNITS.get():  # the page says both
+        si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
+    if si_unit == names["unit"]:
         si_unit = ""
-        if known_name(study[dim]) in UNITS.get():  # the page says both
-            si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
-        if si_unit == names["unit"]:
-            si_unit = ""
-        parts = {dim: values}
-        return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
+    parts = {dim: values}
+    return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
+
+
+def _zip(study: xr.Dataset, dim: str) -> dict[str, Any]:
+    """Places along a zip, which has no coordinate of its own: its parameters as text."""
     columns = {
         str(name): values.values.tolist()
         for name, values in study.coords.items()
