@@ -317,11 +317,12 @@ def test_a_number_that_may_be_infinite_has_its_name(opened: Open) -> None:
 
 def test_a_study_opens_where_its_map_has_values(opened: Open) -> None:
     """That of a brake's mass opened on the disc's middle plane, where nothing grows: on one colour."""
-    study = plane()
-    study["growth_rate"].values[:, :, 0] = np.nan
-    with opened([contents_of("plane", study)]) as shown:
-        assert shown.page.run("return view.place.normalization") == 1
-        assert "orthonormal" in shown.text("map-title")
+    for nothing in (np.nan, 0.0):
+        study = plane()
+        study["growth_rate"].values[:, :, 0] = nothing
+        with opened([contents_of("plane", study)]) as shown:
+            assert shown.page.run("return view.place.normalization") == 1, nothing
+            assert "orthonormal" in shown.text("map-title")
 
 
 def test_powers_of_ten_are_factors(opened: Open) -> None:

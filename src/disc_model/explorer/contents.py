@@ -14,7 +14,7 @@ from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
 from disc_model.figures.classes import LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
-from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, classes_without_rate
+from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.words import (
     NO_VALUE,
@@ -416,6 +416,7 @@ def _marks(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
                 "look": _look(mark.look),
                 "axes": list(mark.axes),
                 "is_stable": mark.look is MAP_LOOKS[NEGATIVE],
+                "is_neutral": mark.look is MAP_LOOKS[NEUTRAL],
                 "data": packed(mark.cells, "u1"),
             }
         )

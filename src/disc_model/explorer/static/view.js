@@ -111,12 +111,16 @@ function chooseValued() {
   chooseAxes();
 }
 
-/** A place along what is not on the map: the chosen one, or else the first at which any point of the map has a value. */
+/** A place along what is not on the map: the chosen one, or else the first at which any point of the map has a value, of a
+ * growth rate one that is not neutral. */
 function slice() {
+  const { study, variable } = view;
+  const neutral = variable.marks.find((mark) => mark.is_neutral);
+  const says = (place) => !gapAt(study, variable, place) && !(neutral && value(study, neutral, place));
   const chosen = view.place;
   const each = (some, dim) => some.flatMap((place) => dim.values.map((_, i) => ({ ...place, [dim.name]: i })));
   const candidates = [chosen, ...selectors().reduce(each, [chosen])];
-  const isValued = (place) => places(place).some((cell) => !gapAt(view.study, view.variable, cell.place));
+  const isValued = (place) => places(place).some((cell) => says(cell.place));
   return candidates.find(isValued) ?? chosen;
 }
 
