@@ -42,6 +42,7 @@ const [name, done] = arguments;
     rows.push({
       asked: variable.name, shown: view.variable.name, place: view.place, gap: gap && gap.label,
       title: text("map-title"), says: text("call-says"), call: text("call"), motion: text("motion-call"),
+      of_motion: text("motion-says"),
     });
   }
   return rows;
@@ -148,6 +149,26 @@ def test_the_call_of_a_point_gives_its_value(shown: Shown, name: str) -> None:
         assert equal(value, stored(shown.datasets[name], row)), row
         compared += 1
     assert compared or name == "stability_curves", "there is no curve in so small a plane"
+
+
+@pytest.mark.parametrize(
+    ("name", "variable", "dim"),
+    [
+        ("critical_speed", "scan_outcome", "scan_Omega"),
+        ("hysteresis", "separation_rate", "sweep_Omega"),
+        ("branches", "sweep_range", "sweep_value"),
+    ],
+)
+def test_the_case_of_a_scanned_point_is_that_of_the_point(
+    shown: Shown, name: str, variable: str, dim: str
+) -> None:
+    """It had the speed at which the scan begins, and no call of the motion."""
+    [row] = [row for row in shown.rows(name) if row["asked"] == variable]
+    speed = shown.datasets[name][dim].values[row["place"][dim]]
+    assert f"Omega={speed:g}" in row["call"].split("\n")[0]
+    assert "stands where its range begins" not in row["says"]
+    assert f"Omega={speed:g}" in row["motion"]
+    assert ("may differ" in row["of_motion"]) == (name != "critical_speed")
 
 
 def test_all_parameters_of_a_sample_are_among_its_values(shown: Shown) -> None:

@@ -175,7 +175,13 @@ def test_studies_are_found_by_words(opened: Open) -> None:
             "field.dispatchEvent(new KeyboardEvent('keydown', {key: 'Enter'}))"
         )
         shown.page.wait_for("return view.study.name === 'modes'")
+        shown.page.run(search, "nowhere")
+        assert shown.text("search-says") == (
+            "No study matches “nowhere”: modes is still shown, and the list has all studies."
+        )
+        assert len(shown.ask("options", "Study")) == 10
         shown.page.run(search, "")
+        assert shown.text("search-says") == ""
         assert len(shown.ask("options", "Study")) == 10
     with opened(told[:2]) as shown:
         assert shown.page.run("return document.getElementById('search').hidden")
@@ -203,3 +209,124 @@ def test_a_study_opens_on_a_variable_that_has_values(opened: Open) -> None:
             "Omega",
             "",
         ]
+
+
+def speeds() -> xr.Dataset:
+    """Critical speeds over the preload, of two scans each, and the outcomes of the scans."""
+    loads = np.linspace(100, 400, 7)
+    scanned = ("scan_Omega", np.linspace(5, 24, 20), describe("Omega"))
+    counted = ("sample", np.arange(300), {"long_name": "number of the sample"})
+    rates = np.linspace(-1, 1, 2100).reshape(7, 300)
+    rates[2, 7:] = np.nan
+    rates[3] = np.nan
+    data = {
+        "status": ("N", np.zeros(7, np.int8), flagged("ok failed")),
+        "scan_outcome": (["N", "scan_Omega"], np.ones((7, 20), np.int8), flagged("quiet gone")),
+        "critical_speed": ("N", np.linspace(12, 13, 7) / 3, {"long_name": "critical speed"}),
+        "rate": (["N", "sample"], rates, {"long_name": "rate", "units": "s-1"}),
+    }
+    coords = {"N": ("N", loads, describe("N")), "scan_Omega": scanned, "sample": counted}
+    return xr.Dataset(data, coords, {"title": "Speeds"})
+
+
+def test_a_study_opens_on_what_it_is_about(opened: Open) -> None:
+    """That of critical speeds opened on outcomes, and did not list the critical speed."""
+    for headlines, seen in {
+        ("gone", "critical_speed"): ["N", "", "critical_speed"],
+        ("scan_outcome",): ["N", "scan_Omega", "scan_outcome"],
+        ("rate",): ["N", "", "rate"],
+    }.items():
+        stated = Stated(call={"quantity": "critical_speed", "headlines": headlines})
+        with opened([contents_of("speeds", speeds(), stated=stated)]) as shown:
+            assert shown.page.run("return [view.x, view.y, view.variable.name]") == seen
+            listed = shown.ask("options", "Variable")
+        assert {*listed} == {*speeds().data_vars}, "all of them can be chosen"
+
+
+def test_a_choice_that_changes_another_says_so(opened: Open) -> None:
+    """Axes replaced the variable in silence, and a variable of other axes could not be chosen."""
+    stated = Stated(call={"headlines": ["scan_outcome"]})
+    axes = "return [view.x, view.y, view.variable.name]"
+    with opened([contents_of("speeds", speeds(), stated=stated)]) as shown:
+        assert shown.text("warning") == ""
+        shown.choose("Variable", "critical_speed")
+        assert shown.page.run(axes) == ["N", "", "critical_speed"]
+        assert shown.text("warning") == (
+            "“Critical speed” does not vary with “Speed Ω”, so the axes have changed: "
+            "across is now “Preload N”, up “none: a curve”."
+        )
+        shown.choose("Across", "scan_Omega")
+        assert shown.page.run(axes) == ["scan_Omega", "", "scan_outcome"]
+        assert shown.text("warning") == (
+            "“Critical speed” does not vary with “Speed Ω”: “Outcome” is shown instead."
+        )
+        shown.choose("Up", "sample")
+        assert shown.page.run(axes) == ["scan_Omega", "", "scan_outcome"]
+        assert shown.text("warning") == (
+            "Nothing varies with both “Speed Ω” and “Number of the sample”: a curve is shown."
+        )
+        shown.choose("Variable", "scan_outcome")
+        assert shown.text("warning") == ""
+        follow = "return follow(arguments[0]).then(update)"
+        shown.page.run(follow, "study=speeds&x=scan_Omega&y=N&variable=critical_speed")
+        assert shown.page.run(axes) == ["N", "", "critical_speed"]
+        assert "does not vary with “Speed Ω”" in shown.text("warning")
+
+
+def test_all_samples_stand_as_points_above_their_parameter(opened: Open) -> None:
+    """Their numbers were joined by a line along a count, which means nothing."""
+    joined = "return isJoined()"
+    with opened([contents_of("speeds", speeds())]) as shown:
+        shown.choose("Variable", "rate")
+        assert shown.page.run("return view.spread") == "sample"
+        assert not shown.page.run(joined)
+        assert "number of the sample" not in shown.text("map-title")
+        assert shown.text("legend") == "no value", "where all samples have none"
+        # a click is on the nearest point, and its table has all of them
+        near = "const y = drawn.heights[1 * 300 + 40]; return nearestAcross(1, y + 0.001);"
+        assert shown.page.run(near) == 40
+        assert len(shown.page.run("return csv()").split("\n")) == 1 + 7 * 300
+        shown.page.run("choose({...view.place, N: 1, sample: 40})")
+        link = shown.ask("link")
+        shown.choose("sample", "3")
+        assert shown.page.run("return [view.spread, view.place.sample]") == ["", 3]
+        assert shown.page.run(joined), "over the preload"
+        shown.page.run("return follow(arguments[0]).then(update)", link.removeprefix("#"))
+        assert shown.page.run("return [view.spread, view.place.sample]") == ["sample", 40]
+        shown.choose("Across", "sample")
+        assert not shown.page.run(joined), "along the samples"
+
+
+def test_a_table_has_all_digits_of_stored_numbers(opened: Open) -> None:
+    """It had five digits, those that the page shows."""
+    stated = Stated(call={"headlines": ["critical_speed"]})
+    with opened([contents_of("speeds", speeds(), stated=stated)]) as shown:
+        _, *rows = shown.page.run("return csv()").split("\n")
+    numbers = [np.float32(row.split(",")[-1]) for row in rows]
+    np.testing.assert_array_equal(numbers, speeds()["critical_speed"].values.astype(np.float32))
+
+
+def test_a_number_that_may_be_infinite_has_its_name(opened: Open) -> None:
+    """The heading of a point ended with "inf"."""
+    study = limits()[["settled"]].rename(N="friction_decay", horizon="n")
+    decays = ("friction_decay", [0.5, 1, 2, 3, 4, 5, np.inf], describe("friction_decay"))
+    with opened([contents_of("decays", study.assign_coords(friction_decay=decays))]) as shown:
+        said = shown.page.run("return where({friction_decay: 6, n: 0})")
+    assert said.startswith("d = inf s/m"), said
+
+
+def test_a_study_opens_where_its_map_has_values(opened: Open) -> None:
+    """That of a brake's mass opened on the disc's middle plane, where nothing grows: on one colour."""
+    for nothing in (np.nan, 0.0):
+        study = plane()
+        study["growth_rate"].values[:, :, 0] = nothing
+        with opened([contents_of("plane", study)]) as shown:
+            assert shown.page.run("return view.place.normalization") == 1, nothing
+            assert "orthonormal" in shown.text("map-title")
+
+
+def test_powers_of_ten_are_factors(opened: Open) -> None:
+    """A damping was "2.3333 10⁻⁵ N m s"."""
+    with opened([contents_of("plane", plane())]) as shown:
+        said = shown.page.run("return [withUnit('2.3', '10⁻⁵ N m s'), withUnit('2.3', 'N')]")
+    assert said == ["2.3·10⁻⁵ N m s", "2.3 N"]

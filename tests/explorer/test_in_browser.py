@@ -134,9 +134,10 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
         assert is_light(hatched)
         assert shown.ask("coloursOf", 3, 0) == [LOOKS["quiet"].face]
 
-        # cells end at the axes, and what is chosen for dots stays
-        for first, last, begin, end in shown.ask("ends"):
-            assert (first, last) == (begin, end)
+        # cells are whole at the ends of the axes too, and what is chosen for dots stays
+        for first, last, begin, end, before, after in shown.ask("ends"):
+            assert first - begin == pytest.approx(before / 2), "half of the cell was drawn"
+            assert end - last == pytest.approx(after / 2)
         shown.choose("Dots", "growth_rate=stable")
         assert shown.text("legend").endswith(STABLE.label)
         shown.choose("Up", "normalization")
@@ -436,18 +437,21 @@ def fits(shown: Explorer) -> None:
 
 
 def draws_every_choice(shown: Explorer) -> None:
+    axes = "Object.assign(view, {x: arguments[0], y: arguments[1]}); chooseAxes(); update();"
     drawn = set()
     for study in shown.ask("options", "Study"):
         shown.choose("Study", study)
         for across in shown.ask("options", "Across"):
             shown.choose("Across", across)
             for up in shown.ask("options", "Up"):
-                shown.choose("Up", up)
                 for variable in shown.ask("options", "Variable"):
+                    shown.page.run(axes, across, up)
                     shown.choose("Variable", variable)
-                    drawn.add((study, across, up, variable))
-                    assert shown.ask("colours") > 4, (study, across, up, variable)
-    # a variable without one of the two dimensions is not among those of the plane
+                    seen = shown.page.run("return [view.x, view.y, view.variable.name]")
+                    assert seen[-1] == variable, "all variables can be chosen"
+                    drawn.add((study, *seen))
+                    assert shown.ask("colours") > 4, (study, *seen)
+    # one without one of the two dimensions has other axes
     assert {("plane", "Omega", "N", "releases"), ("line", "N_Omega", "", "period")} <= drawn
     assert ("plane", "Omega", "normalization", "releases") not in drawn
 

@@ -16,13 +16,15 @@ import xarray as xr
 from PIL import Image
 
 from disc_model.data.variables import PHASES
-from disc_model.explorer import BITS, PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
+from disc_model.explorer import PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.explorer.contents import _gaps, _named, runs
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
 from disc_model.figures.colours import growth_norm
 from disc_model.figures.growth import isolated
 from disc_model.studies.motions import SAMPLES, Motions
+from disc_model.studies.point_calls import HEADLINES
+from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 
 AXES: dict[str, list[Any]] = {"N": [100.0, 200.0, 385.0], "Omega": [5.0, 10.0, 15.1, 20.0]}
@@ -163,7 +165,7 @@ def test_numbers_flags_and_messages_come_through() -> None:
     for name in ("growth_rate", "releases"):
         values = study[name].transpose(*variables[name]["dims"])
         found = numbers(variables[name], "<f4").reshape(values.shape)
-        np.testing.assert_allclose(found, values, rtol=2.0 ** -(BITS + 1))
+        np.testing.assert_array_equal(found, values.astype("<f4"), "five digits were kept")
     assert variables["growth_rate"]["unit"] == "1/s"
     assert variables["growth_rate"]["title"] == "growth rate"
     words = np.array(variables["outcome"]["flags"])[numbers(variables["outcome"], "u1")]
@@ -344,7 +346,59 @@ def test_units_are_those_of_the_figures() -> None:
     assert (dims["N"]["unit"], dims["N"]["si_unit"]) == ("N", "")
     [height] = [one for one in told["variables"] if one["name"] == "u_min"]
     assert height["unit"] == "mm"
-    np.testing.assert_allclose(numbers(height, "<f4"), -12.3, rtol=2.0 ** -(BITS + 1))
+    np.testing.assert_allclose(numbers(height, "<f4"), -12.3, rtol=2.0**-24)
+    told = contents_of("plane", study, stated=Stated(units={"Omega": "rad/s"}))
+    dims = {dim["name"]: dim for dim in told["dims"]}
+    assert dims["Omega"]["si_unit"] == "", "a heading said Ω = 5 rad/s (5 rad/s)"
+
+
+def test_values_of_a_parameter_have_its_name_and_unit() -> None:
+    """The axis of a study of branches was "Omega in the sweep, SI units"."""
+    swept = {"long_name": "m in the sweep, SI units"}
+    along = {"long_name": "parameter along the branch, SI units"}
+    study = xr.Dataset(
+        {"value": ("branch_point", [0.1, 0.3], along), "range": ("sweep_value", [1.0, 2.0])},
+        {"sweep_value": ("sweep_value", [0.1, 0.2], swept)},
+        {"quantity": "branches", "options": json.dumps({"parameter": "m"})},
+    )
+    told = contents_of("branches", study)
+    [dim] = [dim for dim in told["dims"] if dim["name"] == "sweep_value"]
+    assert (dim["label"], dim["unit"], dim["values"]) == ("Mass m", "g", [100, 200])
+    [value] = [one for one in told["variables"] if one["name"] == "value"]
+    assert (value["label"], value["unit"]) == ("Mass m", "g")
+    curves = {"x": ("curve_point", [5.0]), "y": ("curve_point", [200.0])}
+    options = json.dumps({"x": "Omega", "y": "N"})
+    study = xr.Dataset(curves, {}, {"quantity": "stability_curves", "options": options})
+    labels = [one["label"] for one in contents_of("curves", study)["variables"]]
+    assert labels == ["Speed Ω", "Preload N"]
+
+
+def test_words_of_parameters_say_what_they_are_of() -> None:
+    """A heading said "bilateral", and the place of a zip "k = 20000"."""
+    coords = {
+        "contact": ["bilateral", "unilateral"],
+        "N": ("N_k", [200.0], describe("N")),
+        "k": ("N_k", [2e4], describe("k")),
+    }
+    attrs = {"base": json.dumps({"friction_offset": "surface"})}
+    study = xr.Dataset({"range": (["contact", "N_k"], np.ones((2, 1)))}, coords, attrs)
+    told = contents_of("words", study)
+    dims = {dim["name"]: dim for dim in told["dims"]}
+    assert dims["contact"]["shown"] == ["bilateral contact", "unilateral contact"]
+    assert dims["contact"]["values"] == ["bilateral", "unilateral"], "those of a call"
+    assert dims["N_k"]["shown"] == ["N = 200 N, k = 20 kN/m"]
+    assert dims["N_k"]["label"] == "Preload N, Spring k"
+    [offset] = told["fixed"]
+    assert (offset["value"], offset["shown"]) == ("surface", "friction on the surface")
+
+
+def test_every_quantity_has_a_headline() -> None:
+    """Pages of `critical_speed` opened without the critical speed."""
+    for name in quantity_names():
+        quantity = quantity_of(name)
+        headlines = HEADLINES[name]
+        assert headlines
+        assert {*headlines} <= {*quantity.COLUMNS, *quantity.SUMMARY_COLUMNS}
 
 
 def test_no_label_ends_within_a_sentence() -> None:

@@ -3,15 +3,5 @@
 from disc_model.explorer.contents import LEVELS, Stated, study_contents
 from disc_model.explorer.document import Picture, page
 from disc_model.explorer.embedding import PAGE_WIDTH, PICTURE_WIDTH
-from disc_model.explorer.packing import BITS
 
-__all__ = [
-    "BITS",
-    "LEVELS",
-    "PAGE_WIDTH",
-    "PICTURE_WIDTH",
-    "Picture",
-    "Stated",
-    "page",
-    "study_contents",
-]
+__all__ = ["LEVELS", "PAGE_WIDTH", "PICTURE_WIDTH", "Picture", "Stated", "page", "study_contents"]

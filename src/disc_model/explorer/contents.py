@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import chain
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -10,10 +11,10 @@ import xarray as xr
 
 from disc_model.data.variables import SHOWN, attributes
 from disc_model.explorer.marks import marked_cells
-from disc_model.explorer.packing import packed, shortened
+from disc_model.explorer.packing import packed
 from disc_model.figures.classes import LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
-from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, classes_without_rate
+from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.words import (
     NO_VALUE,
@@ -28,10 +29,22 @@ from disc_model.figures.words import (
     named,
     unit_text,
 )
-from disc_model.parameters import Parameters
+from disc_model.parameters import RATIOS, Parameters
 
 TRACES = ("P", "u", "psi")
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
+NAMED_BY: Mapping[str, Mapping[str, str]] = {
+    "branches": {"value": "parameter", "sweep_value": "parameter"},
+    "stability_curves": {"x": "x", "y": "y"},
+}
+"""Variables and dimensions with values of a parameter that an option of their quantity names."""
+IN_A_SENTENCE: Mapping[tuple[str, str], str] = {
+    ("contact", "unilateral"): "unilateral contact",
+    ("contact", "bilateral"): "bilateral contact",
+    ("friction_offset", "surface"): "friction on the surface",
+    ("contact_compliance", "residual"): "residual flexibility",
+}
+"""Words of parameters that do not say by themselves what they are of."""
 
 
 class Stated(NamedTuple):
@@ -57,7 +70,15 @@ class Stated(NamedTuple):
 
 NOTHING_STATED = Stated()
 NO_CALL: Mapping[str, Any] = MappingProxyType(
-    {"quantity": "", "options": {}, "columns": [], "recipes": [], "begins": {}, "along": {}}
+    {
+        "quantity": "",
+        "options": {},
+        "columns": [],
+        "recipes": [],
+        "begins": {},
+        "along": {},
+        "headlines": [],
+    }
 )
 """A call of which nothing is stated: the point's case alone."""
 
@@ -79,14 +100,14 @@ def _study_contents(
 ) -> dict[str, Any]:
     """Contents of a merged study, in the units that are set."""
     endless = _endless(study)
-    study = _as_texts(study.transpose(*study.sizes), endless)
+    study = _as_texts(_with_parameters(study.transpose(*study.sizes)), endless)
     shown_motions = None
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}
-    exact = {call.get("sampled", ""), *call["along"].values()}  # numbers of the case of a point
+    exact = {call.get("sampled", ""), *chain(*call["along"].values())}  # numbers of a point's case
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
@@ -103,6 +124,22 @@ def _study_contents(
         "messages": _messages(study),
         "motions": shown_motions,
     }
+
+
+def _with_parameters(study: xr.Dataset) -> xr.Dataset:
+    """A study whose values of a parameter have the name and unit of it."""
+    options = json.loads(study.attrs.get("options", "{}"))
+    named_by = NAMED_BY.get(str(study.attrs.get("quantity", "")), {})
+    known = (*Parameters.model_fields, *RATIOS)
+    renamed = {}
+    for name, option in named_by.items():
+        parameter = options.get(option, "")
+        if name in study and parameter in known:
+            units = attributes(parameter).get("units", "")
+            renamed[name] = study[name].assign_attrs(units=units, long_name=parameter)
+    coordinates = {name: x for name, x in renamed.items() if name in study.coords}
+    others = {name: x for name, x in renamed.items() if name not in study.coords}
+    return study.assign_coords(coordinates).assign(others)
 
 
 def _endless(study: xr.Dataset) -> list[str]:
@@ -128,6 +165,8 @@ def _fixed(name: str, value: Any) -> dict[str, Any]:
     match value:
         case int() | float():
             shown = value * factor
+        case str():
+            shown = _word(name, value)
         case Mapping():  # a disc, of which the page has the call
             shown = f"{len(value['omega'])} modes"
     return {**_named(name, attrs), "value": value, "shown": shown, "usual": usual}
@@ -229,21 +268,27 @@ def _unit_of(variable: xr.DataArray) -> tuple[str, float]:
 
 
 def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension as they are shown, and in SI as parts; for a zip, which has no
-    coordinate of its own, its parameters as text."""
-    if dim in study.coords:
-        values = study[dim].values.tolist()
-        _, factor = _unit_of(study[dim])
-        scaled = values
-        if factor != 1.0 and not isinstance(values[0], str):
-            scaled = [float(f"{value * factor:.12g}") for value in values]
-        shown = [WORDS.get(value, value) for value in scaled]
-        names = _named(dim, study[dim].attrs)
+    """Values along a dimension as they are shown, and in SI as parts."""
+    if dim not in study.coords:
+        return _zip(study, dim)
+    values = study[dim].values.tolist()
+    _, factor = _unit_of(study[dim])
+    scaled = values
+    if factor != 1.0 and not isinstance(values[0], str):
+        scaled = [float(f"{value * factor:.12g}") for value in values]
+    shown = [_word(dim, value) for value in scaled]
+    names = _named(dim, study[dim].attrs)
+    si_unit = ""
+    if known_name(study[dim]) in UNITS.get():  # the page says both
+        si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
+    if si_unit == names["unit"]:
         si_unit = ""
-        if known_name(study[dim]) in UNITS.get():  # the page says both
-            si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
-        parts = {dim: values}
-        return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
+    parts = {dim: values}
+    return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
+
+
+def _zip(study: xr.Dataset, dim: str) -> dict[str, Any]:
+    """Places along a zip, which has no coordinate of its own: its parameters as text."""
     columns = {
         str(name): values.values.tolist()
         for name, values in study.coords.items()
@@ -252,13 +297,16 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     if not columns:
         columns = {dim: list(range(study.sizes[dim]))}
     rows = zip(*columns.values(), strict=True)
-    words = [_place(columns, row) for row in rows]
-    title = ", ".join(columns)
+    zipped = [
+        study[name] if name in study.coords else xr.DataArray(0, name=name) for name in columns
+    ]
+    words = [_place(zipped, row) for row in rows]
+    names = [_named(str(one.name), one.attrs) for one in zipped]
     return {
         "name": dim,
         "symbol": dim,
-        "label": title,
-        "title": title,
+        "label": ", ".join(one["label"] for one in names),
+        "title": ", ".join(columns),
         "unit": "",
         "values": words,
         "shown": words,
@@ -266,21 +314,31 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     }
 
 
-def _place(names: Iterable[str], values: Sequence[Any]) -> str:
-    """A value along each dimension of a zip, in words."""
+def _word(name: str, value: Any) -> Any:
+    """A word along a dimension as it reads in a sentence; numbers stay as they are."""
+    if not isinstance(value, str):
+        return value
+    return IN_A_SENTENCE.get((name, value), WORDS.get(value, value))
+
+
+def _place(zipped: Iterable[xr.DataArray], values: Sequence[Any]) -> str:
+    """A value along each coordinate of a zip, in words."""
     texts = []
-    for name, value in zip(names, values, strict=True):
-        text = value
+    for coordinate, value in zip(zipped, values, strict=True):
+        name = str(coordinate.name)
+        text = _word(name, value)
         if not isinstance(value, str):
-            text = f"{value:g}"
-        texts.append(f"{name} = {text}")
+            unit, factor = _unit_of(coordinate)
+            symbol = _named(name, coordinate.attrs)["symbol"]
+            text = f"{symbol} = {value * factor:.6g} {unit}".strip()
+        texts.append(text)
     return ", ".join(texts)
 
 
 def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict[str, Any]:
-    """Numbers as 32-bit floats of `BITS`, or all of their digits, with the classes of points that
-    have none, and the scale of colours of growth rates; flags as bytes with words and their looks,
-    those of the figures."""
+    """Numbers as 32-bit floats, or with all of their digits, with the classes of points that have
+    none, and the scale of colours of growth rates; flags as bytes with words and their looks, those
+    of the figures."""
     name = str(variable.name)
     described = _named(name, variable.attrs)
     if name in WITHIN_HORIZON:
@@ -299,7 +357,7 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
         described["exact"] = exact
         if exact:
             return {**described, "data": packed(numbers, "<f8")}
-        return {**described, "data": packed(shortened(numbers), "<f4")}
+        return {**described, "data": packed(numbers, "<f4")}
     words = str(meanings).split()
     codes = np.atleast_1d(variable.attrs.get("flag_values", range(len(words))))
     looks = [_look(look) for look in looks_of(words).values()]
@@ -358,6 +416,7 @@ def _marks(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
                 "look": _look(mark.look),
                 "axes": list(mark.axes),
                 "is_stable": mark.look is MAP_LOOKS[NEGATIVE],
+                "is_neutral": mark.look is MAP_LOOKS[NEUTRAL],
                 "data": packed(mark.cells, "u1"),
             }
         )

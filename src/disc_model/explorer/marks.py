@@ -53,15 +53,20 @@ def _marks_over(study: xr.Dataset, name: str, axes: tuple[str, str]) -> Mapping[
     variable = study[name]
     part = _beside(study, variable)
     others = [dim for dim in variable.dims if dim not in axes]
-    masks: dict[str, xr.DataArray] = {}
-    for place in np.ndindex(*(variable.sizes[dim] for dim in others)):
-        chosen = dict(zip(others, place, strict=True))
-        plane = part.isel(chosen).transpose(*axes, ...)
+    first = variable.isel(dict.fromkeys(others, 0))
+    if is_growth(name) and not are_ordered(first):  # each rate decides by itself
+        return marks_of(part, name)
+    order = [*others, *axes]
+    shape = tuple(variable.sizes[dim] for dim in order)
+    masks: dict[str, Mask] = {}
+    for place in np.ndindex(shape[:-2]):
+        plane = part.isel(dict(zip(others, place, strict=True))).transpose(*axes, ...)
         for word, cells in _marks_on(plane, name).items():
-            none = xr.DataArray(np.zeros(variable.shape, dtype=bool), dims=variable.dims)
-            mask = masks.setdefault(word, none)
-            mask[chosen] = xr.DataArray(cells, dims=axes)
-    return {word: mask.values for word, mask in masks.items()}
+            if word not in masks:
+                masks[word] = np.zeros(shape, dtype=bool)
+            masks[word][place] = cells
+    back = [order.index(dim) for dim in variable.dims]
+    return {word: mask.transpose(back) for word, mask in masks.items()}
 
 
 def _beside(study: xr.Dataset, variable: xr.DataArray) -> xr.Dataset:

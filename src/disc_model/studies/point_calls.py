@@ -38,10 +38,11 @@ class Call(NamedTuple):
     columns : variables that each point has by itself; others are of several points together
     recipes : calls that give some of them; `disc_model.run_study` of one point gives all
     begins : parameters of the case that the quantity varies by itself, each where its range begins
-    along : the dimensions or variables in which the values of such parameters are
+    along : the dimensions or variables in which the values of such parameters are, by parameter
     sampled : the variable that has the values of sampled parameters, "" without
     lifts_mu_s : whether mu_s rises with mu_k where that is larger
     computes : what a study of the point computes for one number, in words
+    headlines : the variables that say what the quantity is about, the first one that varies first
     """
 
     quantity: str
@@ -49,10 +50,11 @@ class Call(NamedTuple):
     columns: Sequence[str]
     recipes: Sequence[Recipe]
     begins: Mapping[str, float]
-    along: Mapping[str, str]
+    along: Mapping[str, Sequence[str]]
     sampled: str = ""
     lifts_mu_s: bool = False
     computes: str = ""
+    headlines: Sequence[str] = ()
 
     @property
     def plain(self) -> dict[str, Any]:
@@ -70,6 +72,25 @@ COMPUTES: Mapping[str, str] = {
     "stability_curves": "all curves",
 }
 """What a quantity computes for any of its numbers."""
+HEADLINES: Mapping[str, Sequence[str]] = {
+    "basins": ("separating_fraction",),
+    "bifurcation": ("psi",),
+    "branches": ("sweep_range",),
+    "campbell": ("cycle_frequency", "sliding_frequency"),
+    "critical_speed": ("critical_speed",),
+    "floquet": ("growth_rate",),
+    "hysteresis": ("onset_speed", "offset_speed"),
+    "locking": ("map_next_phase", "separations_per_release"),
+    "lyapunov": ("exponent",),
+    "outcome": ("outcome",),
+    "ramps": ("onset_speed", "offset_speed"),
+    "range_law": ("range",),
+    "regions": ("outcome",),
+    "sensitivity": ("growth_rate",),
+    "sliding": ("largest_growth_rate",),
+    "stability_curves": ("y",),
+}
+"""The variables that say what a quantity is about, by its name."""
 OF_CYCLES: Mapping[str, str] = {
     "growth_rate": "found.growth_rate",
     "period": "found.period",
@@ -134,16 +155,23 @@ def call_of(name: str, quantity: Quantity) -> Call:
         "parameter_values" if name == "sensitivity" else "",
         name == "sliding" and parameter == "mu_k",
         COMPUTES.get(name, ""),
+        HEADLINES.get(name, ()),
     )
 
 
-def _along(name: str, quantity: Any) -> dict[str, str]:
-    """The dimension or variable with the values of each parameter that a quantity varies itself."""
+def _along(name: str, quantity: Any) -> dict[str, list[str]]:
+    """The dimensions and variables with values of each parameter that a quantity varies itself."""
     match name:
-        case "branches" | "sliding":
-            return {quantity.parameter: "value"}
+        case "branches":
+            return {quantity.parameter: ["value", "sweep_value"]}
+        case "sliding":
+            return {quantity.parameter: ["value"]}
         case "stability_curves":
-            return {quantity.x: "x", quantity.y: "y"}
+            return {quantity.x: ["x"], quantity.y: ["y"]}
+        case "critical_speed":
+            return {"Omega": ["scan_Omega"]}
+        case "hysteresis":
+            return {"Omega": ["sweep_Omega"]}
     return {}
 
 

@@ -27,7 +27,8 @@ function digitsOf(numbers) {
   return [2, 3, 4, 5].find(apart) ?? 6;
 }
 
-const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
+/** A number with its unit, which may begin with a power of ten. */
+const withUnit = (text, unit) => (unit ? `${text}${unit.startsWith("10") ? "·" : " "}${unit}` : text);
 const axisLabel = (thing) => (thing.unit ? `${thing.label} (${thing.unit})` : thing.label);
 const heading = (thing) => (thing.unit ? `${thing.name} (${thing.unit})` : thing.name);
 

@@ -16,7 +16,7 @@ function unevenness(values) {
 }
 
 /** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and the borders and middles of
- * their cells. Numbers end at the first and last value, as in the figures; words have whole cells. */
+ * their cells, which are whole at the first and last value too. */
 function scaleOf(dim) {
   const count = dim.values.length;
   const decade = !dim.words && dim.values[0] > 0 && dim.values[count - 1] >= 10 * dim.values[0];
@@ -28,16 +28,18 @@ function scaleOf(dim) {
   const kind = Object.keys(fits).reduce((best, one) => (fits[one] < fits[best] ? one : best));
   const to = kind === "log" ? log10 : identity;
   const at = kind === "place" ? dim.values.map((_, i) => i) : dim.values.map(to);
-  const middle = gaps(at).map((gap, i) => at[i] + gap / 2);
-  const beyond = dim.words || count === 1 ? 0.5 : 0;
-  const [first, last] = [at[0] - beyond, at[count - 1] + beyond];
-  const borders = [first, ...middle, last];
+  const apart = count > 1 ? gaps(at) : [1];
+  const middle = at.slice(1).map((_, i) => at[i] + apart[i] / 2);
+  const borders = [at[0] - apart[0] / 2, ...middle, at[count - 1] + apart.at(-1) / 2];
   const middles = at.map((_, i) => (borders[i] + borders[i + 1]) / 2);
-  return { kind, at, borders, middles, ticks: () => ticksOf(dim, kind, first, last, at) };
+  return { kind, at, borders, middles, ticks: () => ticksOf(dim, kind, at) };
 }
 
-function ticksOf(dim, kind, first, last, at) {
+/** Ticks from the first to the last value, and none beyond in their cells. */
+function ticksOf(dim, kind, at) {
+  const [first, last] = [at[0], at.at(-1)];
   const whole = dim.values.every(Number.isInteger);
+  if (kind === "linear" && at.length === 1) return [[first, number(first, 4)]];
   if (kind === "linear")
     return ticksBetween(first, last, whole)
       .map((x) => [x, number(x, 4)]);

@@ -7,11 +7,12 @@ const stated = (value) => (typeof value === "string" ? value : String(Number(val
 
 /** The address of the chosen point: its study, what is shown of it and how, and its value along each dimension. */
 function address() {
-  const { study, x, y, variable, colours, mark, place } = view;
+  const { study, x, y, spread, variable, colours, mark, place } = view;
   const along = study.dims.flatMap((dim) =>
     Object.entries(dim.parts).map(([name, column]) => [name, stated(column[place[dim.name]])]),
   );
   const shown = { study: study.name, x, y, variable: variable.name, colours, dots: mark };
+  if (offAxes().some(canSpread)) shown.all = spread;
   return new URLSearchParams([...Object.entries(shown), ...along]);
 }
 
@@ -55,7 +56,7 @@ async function follow(hash) {
   return true;
 }
 
-const SHOWN_BY = ["study", "x", "y", "variable", "colours", "dots"]; // words of a link that are no values
+const SHOWN_BY = ["study", "x", "y", "variable", "colours", "dots", "all"]; // words of a link that are no values
 
 /** Warnings of values in an address that are not those of its study: of a parameter that does not vary, or of none. */
 function otherValues(asked) {
@@ -81,10 +82,14 @@ function followShown(asked) {
   if (view.y === view.x) view.y = NONE;
   const variable = asked.get("variable");
   const found = study.variables.find((one) => one.name === variable);
-  if (found) view.variable = found;
-  else if (variable !== null) missing.push(variable);
-  chooseAxes();
+  if (!found && variable !== null) missing.push(variable);
+  const [across, up] = [view.x, view.y];
+  if (found) chooseVariable(found);
+  else chooseAxes();
+  const changed = found ? tellOfAxes(across, up) : "";
+  const all = asked.get("all");
+  if (all === NONE || offAxes().some((dim) => dim.name === all && canSpread(dim))) view.spread = all;
   if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
   if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
-  return missing.map((word) => `The link's “${word}” is not in this study.`);
+  return [changed, ...missing.map((word) => `The link's “${word}” is not in this study.`)];
 }

@@ -2,11 +2,13 @@
 
 let drawn = null; // where cells lie, for the pointer
 
-function places() {
-  const { study, x, y, place } = view;
-  const rows = y === NONE ? [0] : [...study.dim[y].values.keys()];
+/** All places of the map or curve, the one along other dimensions being as chosen unless it is given. */
+function places(place = view.place) {
+  const { study, x } = view;
+  const other = second();
+  const rows = other === NONE ? [0] : [...study.dim[other].values.keys()];
   return [...study.dim[x].values.keys()].flatMap((i) =>
-    rows.map((j) => ({ i, j, place: y === NONE ? { ...place, [x]: i } : { ...place, [x]: i, [y]: j } })),
+    rows.map((j) => ({ i, j, place: other === NONE ? { ...place, [x]: i } : { ...place, [x]: i, [other]: j } })),
   );
 }
 
@@ -45,6 +47,8 @@ function drawMap() {
   const dotted = (place) => Boolean(dots) && dots.holds(place);
   const over = curve ? [] : marksOver(variable, x, y);
   const patterns = patternsOf(ink, over);
+  // a curve has a gap where none of its points has a number
+  const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
   const seen = { flags: new Set(), gaps: new Set(), marks: new Set(), statuses: new Set(), hatched: false };
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
@@ -55,7 +59,7 @@ function drawMap() {
       ink.fillStyle = look;
       ink.fillRect(x0, y0, x1 - x0, y1 - y0);
     };
-    const gap = gapAt(study, variable, place);
+    const gap = curve && valued.has(i) ? null : gapAt(study, variable, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
     const look = gap ?? (!curve && variable.flags ? variable.looks[numbers[n]] : null);
     if (gap) seen.gaps.add(gap);
@@ -76,7 +80,7 @@ function drawMap() {
   xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
   yAxis(ink, box, ys.ticks(), vertical, upward);
   if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
-  drawn = { box, horizontal, vertical, xs, ys };
+  drawn = { box, horizontal, vertical, xs, ys, heights: curve ? numbers.map((one) => vertical(ys.to(one))) : [] };
   if (curve) drawCurve(ink, cells.map(({ i, place }, n) => [horizontal(xs.at[i]), vertical(ys.to(numbers[n])), dotted(place)]));
   else markChosen(ink);
   legend(seen, dots);
@@ -195,33 +199,50 @@ function scaleOfRates({ width }, least, greatest) {
   return { borders, to, ticks: () => inside };
 }
 
-/** The curve in its frame, with its dots, and a line at the chosen point. */
+/** Whether a curve joins its points: those of one line, along which its number has values between them. */
+const isJoined = () => {
+  const across = view.study.dim[view.x];
+  return !view.variable.flags && view.spread === NONE && !across.words && !counts(across);
+};
+
+/** The curve in its frame, with its dots, and a line at the chosen point, which has a ring among others. */
 function drawCurve(ink, points) {
   const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const zero = drawn.vertical(0);
   if (view.variable.scale && zero > box.top && zero < box.bottom) line(ink, box.left, zero, box.right, zero);
   ink.strokeStyle = ink.fillStyle = style("--accent");
-  polyline(ink, points, !view.variable.flags);
+  polyline(ink, points, isJoined());
   for (const [x, y, dotted] of points) if (dotted && Number.isFinite(y)) disc(ink, x, y, MOST_RADIUS);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);
   line(ink, at, box.top, at, box.bottom);
   ink.setLineDash([]);
+  if (view.spread === NONE) return;
+  const chosen = drawn.vertical(drawn.ys.to(value(view.study, view.variable, view.place)));
+  if (!Number.isFinite(chosen)) return;
+  ink.beginPath();
+  ink.arc(at, chosen, 6, 0, 2 * Math.PI);
+  ink.stroke();
 }
 
-/** Points, joined where neighbours have numbers. */
+const FEW = 200; // points of a line that have squares
+const CROWD = 2000; // points from which on their squares are small
+
+/** Points, joined where neighbours have numbers; each has a square where they are few, and where no line shows it. */
 function polyline(ink, points, joined) {
+  const there = (n) => n >= 0 && n < points.length && Number.isFinite(points[n][1]);
   ink.beginPath();
-  let before = false;
-  for (const [x, y] of points) {
-    const there = Number.isFinite(y);
-    if (there && before && joined) ink.lineTo(x, y);
-    else if (there) ink.moveTo(x, y);
-    before = there;
-  }
+  points.forEach(([x, y], n) => {
+    if (!joined || !there(n)) return;
+    if (there(n - 1)) ink.lineTo(x, y);
+    else ink.moveTo(x, y);
+  });
   ink.stroke();
-  if (points.length > 200) return;
-  for (const [x, y] of points) if (Number.isFinite(y)) ink.fillRect(x - 2, y - 2, 4, 4);
+  const side = points.length > CROWD ? 2 : 4;
+  points.forEach(([x, y], n) => {
+    const isAlone = !joined || !(there(n - 1) || there(n + 1));
+    if (there(n) && (isAlone || points.length <= FEW)) ink.fillRect(x - side / 2, y - side / 2, side, side);
+  });
 }

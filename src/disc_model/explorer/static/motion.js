@@ -68,9 +68,12 @@ function lackOfMotion(study, place) {
   return alike ? `No motion of this kind is stored: ${fateOf(study, place)}.` : "No motion is stored that is computed as this point is.";
 }
 
+const SWEPT = "direction"; // the dimension of what a sweep has found on its way up and down
+
 /** What the call of a motion shows. A case may hold several motions, such as those after kicks at random. */
 function saidOfCall(study, place) {
   if (startOf(study, place)) return "The motion of this case from its start, with both as above:";
+  if (view.variable.dims.includes(SWEPT)) return "The motion of this case from the static start; that of the sweep came from the speed before, and may differ:";
   const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
   return `The motion of this case from the static start${above}:`;
 }

@@ -11,14 +11,26 @@ function cellAt(canvas, event) {
       return at >= Math.min(...ends) && at <= Math.max(...ends);
     });
   const found = { ...view.place, [view.x]: inside(xs, horizontal, px) };
+  if (view.spread !== NONE) return { ...found, [view.spread]: nearestAcross(found[view.x], py) };
   return view.y === NONE ? found : { ...found, [view.y]: inside(ys, vertical, py) };
 }
+
+/** Which of the points that stand above one value across is nearest to a height. */
+function nearestAcross(i, height) {
+  const count = view.study.sizes[view.spread];
+  const apart = drawn.heights.slice(i * count, (i + 1) * count).map((one) => (Number.isFinite(one) ? Math.abs(one - height) : Infinity));
+  const nearest = apart.indexOf(Math.min(...apart));
+  return Math.max(0, nearest);
+}
+
+/** Whether a word along a dimension is a number: those of a dimension that ends at infinity are words. */
+const isNumber = (word) => ["inf", "-inf"].includes(word) || !Number.isNaN(Number(word));
 
 /** Where a point lies, in words. */
 function where(place, dims = view.study.dims) {
   const valueAlong = (dim) => {
     const i = place[dim.name];
-    if (dim.words) return dim.shown[i];
+    if (dim.words && !isNumber(dim.shown[i])) return dim.shown[i];
     const inSI = dim.si_unit ? ` (${withUnit(number(dim.parts[dim.name][i]), dim.si_unit)})` : "";
     return `${dim.symbol} = ${withUnit(number(dim.values[i]), dim.unit)}${inSI}`;
   };
@@ -26,8 +38,8 @@ function where(place, dims = view.study.dims) {
 }
 
 function hover(place) {
-  const { study, variable, x, y } = view;
-  const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
+  const { study, variable, x } = view;
+  const axes = [x, second()].filter((name) => name !== NONE).map((name) => study.dim[name]);
   if (!place) {
     element("hovered").textContent = "";
     return;
@@ -45,9 +57,10 @@ const MOVES = {
 
 function move(event) {
   const step = MOVES[event.key];
-  if (!step || view[step[0]] === NONE) return;
+  if (!step) return;
+  const name = step[0] === "x" ? view.x : second();
+  if (name === NONE) return;
   event.preventDefault();
-  const name = view[step[0]];
   const to = Math.min(view.study.sizes[name] - 1, Math.max(0, view.place[name] + step[1]));
   choose({ ...view.place, [name]: to });
 }
@@ -73,14 +86,15 @@ function python(value) {
 /** The values of the parameters that the quantity varies by itself where a variable was computed; without those that the variable
  * does not depend on. */
 function scannedAt(study, place, variable) {
-  const found = Object.entries(study.call.along).flatMap(([parameter, name]) => {
+  const valueIn = (name) => {
     const dim = study.dim[name];
-    if (dim) return variable.dims.includes(name) ? [[parameter, dim.parts[name][place[name]]]] : [];
+    if (dim) return variable.dims.includes(name) ? dim.parts[name][place[name]] : NaN;
     const holder = study.variables.find((one) => one.name === name);
-    const known = holder?.dims.every((one) => variable.dims.includes(one)) ? value(study, holder, place) : NaN;
-    return Number.isNaN(known) ? [] : [[parameter, known]];
-  });
-  return Object.fromEntries(found);
+    return holder?.dims.every((one) => variable.dims.includes(one)) ? value(study, holder, place) : NaN;
+  };
+  const found = Object.entries(study.call.along).map(([parameter, names]) => [parameter, names.map(valueIn)]);
+  const known = found.map(([parameter, values]) => [parameter, values.find((one) => !Number.isNaN(one))]);
+  return Object.fromEntries(known.filter(([, one]) => one !== undefined));
 }
 
 /** The values of the parameters of a sample. */
@@ -213,22 +227,24 @@ function simulation(study, place, variable) {
   return `dm.simulate(${long ? "case" : written}, ${SIMULATED_FOR}).plot()`;
 }
 
-const STORED_DIGITS = 5; // of a number
+/** A stored number with the fewest digits that give it back. */
+function inFull(stored, variable) {
+  if (variable.exact || !Number.isFinite(stored)) return String(stored);
+  const texts = [6, 7, 8, 9].map((digits) => String(Number(stored.toPrecision(digits))));
+  return texts.find((text) => Math.fround(Number(text)) === stored);
+}
 
 /** What the map shows, as comma-separated values, with those of the dimensions that are not on it. */
 function csv() {
-  const { study, variable, x, y } = view;
-  const axes = [x, y].filter((name) => name !== NONE).map((name) => study.dim[name]);
+  const { study, variable, x } = view;
+  const axes = [x, second()].filter((name) => name !== NONE).map((name) => study.dim[name]);
   const cell = (text) => (/[",\n]/.test(text) ? `"${String(text).replaceAll('"', '""')}"` : text);
   const dims = [...axes, ...selectors()];
   const rows = [[...dims, variable].map((thing) => cell(heading(thing)))];
-  const inner = axes[1]?.values ?? [null];
-  for (const [j] of inner.entries())
-    for (const [i] of axes[0].values.entries()) {
-      const place = { ...view.place, [x]: i, ...(axes[1] ? { [y]: j } : {}) };
-      const stored = value(study, variable, place);
-      rows.push([...dims.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : Number(stored.toPrecision(STORED_DIGITS))]);
-    }
+  for (const { place } of places().sort((a, b) => a.j - b.j || a.i - b.i)) {
+    const stored = value(study, variable, place);
+    rows.push([...dims.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : inFull(stored, variable)]);
+  }
   return rows.map((row) => row.join(",")).join("\n");
 }
 

@@ -20,6 +20,7 @@ element("large").addEventListener("keydown", (event) => {
 
 function update() {
   fillControls();
+  tellOfSearch();
   redraw();
   element("grids").ariaBusy = "false";
 }
@@ -68,7 +69,6 @@ async function start() {
   update();
   listen();
   listenToSearch();
-  tellOfSearch();
 }
 
 foldFigures();

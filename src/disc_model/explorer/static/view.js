@@ -1,6 +1,9 @@
 // What is looked at, and the controls that choose it.
 
-const view = { study: null, x: "", y: NONE, variable: null, place: {}, colours: "auto", mark: NONE, warning: "", search: "" };
+// `spread` is the count, such as of samples, all of which a curve shows as points
+const view = {
+  study: null, x: "", y: NONE, spread: NONE, variable: null, place: {}, colours: "auto", mark: NONE, warning: "", search: "",
+};
 
 const long = (study) => study.dims.filter((dim) => dim.values.length > 1);
 const along = (variable, ...dims) => dims.every((dim) => dim === NONE || variable.dims.includes(dim));
@@ -22,33 +25,41 @@ function firstStudy() {
   const later = (a, b) => b.rank.map((one, i) => one - a.rank[i]).find((apart) => apart) ?? 0;
   return ranked.sort(later)[0].study;
 }
-const selectors = () =>
+/** The dimensions of the variable that are not axes, and those of them along which one place is shown. */
+const offAxes = () =>
   view.study.dims.filter((dim) => ![view.x, view.y].includes(dim.name) && view.variable.dims.includes(dim.name));
+const selectors = () => offAxes().filter((dim) => dim.name !== view.spread);
 
 const MANY = 8; // values from which on a dimension of the quantity's own is worth the height of a map
 const COUNTS = /^number of the /i; // the label of a dimension that only counts something, such as branches
+const ALONG = / along /; // and of one that counts points of a line, in their order
+
+/** Whether a dimension only counts, so that nothing lies between its neighbours, and their order means nothing. */
+const counts = (dim) => COUNTS.test(dim.label) && !ALONG.test(dim.label);
 
 /** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
- * quantity's own that is no short list and no count: a curve shows more than a map of two rows. */
+ * quantity's own that is no short list and no count, as a curve shows more than a map of two rows: the longest of them. */
 function usualAxes(study, axes) {
   const grid = axes.filter((dim) => gridOf(study).includes(dim));
   const own = axes.filter((dim) => !grid.includes(dim));
   const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.label));
   const across = grid.find((dim) => dim.name === "Omega") ?? grid[0] ?? worth[0] ?? own.at(-1);
-  return [across, [...grid, ...worth].find((dim) => dim !== across)];
+  const others = [...grid, ...worth].filter((dim) => dim !== across);
+  return [across, others.sort((a, b) => b.values.length - a.values.length)[0]];
 }
 
 async function chooseStudy(name) {
   const study = contents.studies.find((one) => one.name === name);
   await unpack(study);
   const numeric = long(study).filter((dim) => !dim.words);
-  const axes = numeric.length ? numeric : long(study).length ? long(study) : study.dims;
+  const first = headline(study);
+  const axes = first ? axesFor(study, first) : numeric.length ? numeric : long(study).length ? long(study) : study.dims;
   const figure = study.axes.map((name) => study.dim[name]);
   const ofFigure = figure.length === 2 && figure.every((dim) => axes.includes(dim));
-  const [across, up] = ofFigure ? figure : usualAxes(study, axes);
+  const [across, second] = ofFigure ? figure : usualAxes(study, axes);
+  const up = first && !ofFigure && manyOf(study, first) ? null : second; // all points above one axis
   const kept = view.place;
-  Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: null, mark: NONE });
-  view.variable = study.variables.find((one) => one.name === study.first) ?? null;
+  Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: first, mark: NONE });
   view.place = Object.fromEntries(
     study.dims.map((dim) => [dim.name, dim.words ? Math.min(kept[dim.name] ?? 0, dim.values.length - 1) : 0]),
   );
@@ -56,28 +67,68 @@ async function chooseStudy(name) {
   chooseAxes();
   if (!hasValues(view.variable)) chooseValued();
   if (marks().some((mark) => mark.key === SIMULATED)) view.mark = SIMULATED;
+  view.place = slice();
   view.place = opening();
 }
 
 /** Whether a variable has a value at any point. */
 const hasValues = (variable) => !variable.gaps || variable.gaps.numbers.includes(0);
 
+/** The variable on which a study opens: that of its first figure, or what its quantity is about, if it has values and varies;
+ * null without. */
+function headline(study) {
+  const named = [study.first, ...study.call.headlines].map((name) => study.variables.find((one) => one.name === name));
+  const varies = (one) => one.dims.some((name) => study.sizes[name] > 1);
+  return named.find((one) => one && varies(one) && hasValues(one)) ?? null;
+}
+
+/** The dimensions of a variable that may be its axes: numbers before words, and counts last. */
+function axesFor(study, variable) {
+  const dims = study.dims.filter((dim) => variable.dims.includes(dim.name));
+  const lengthy = dims.filter((dim) => dim.values.length > 1);
+  const uncounted = lengthy.filter((dim) => !counts(dim));
+  const numbers = uncounted.filter((dim) => !dim.words);
+  return [numbers, uncounted, lengthy, dims].find((some) => some.length);
+}
+
+/** Show a variable along its own dimensions; the axes stay if it varies along them. */
+function chooseVariable(variable) {
+  view.variable = variable;
+  if (!along(variable, view.x, view.y)) {
+    const [across, up] = usualAxes(view.study, axesFor(view.study, variable));
+    Object.assign(view, { x: across.name, y: up ? up.name : NONE });
+  }
+  chooseAxes();
+}
+
 /** Show another variable than one without any value, along its own dimensions. */
 function chooseValued() {
   const { study } = view;
   const valued = study.variables.find((one) => hasValues(one) && !one.name.endsWith("status"));
   if (!valued) return;
-  const dims = study.dims.filter((dim) => valued.dims.includes(dim.name));
-  const lengthy = dims.filter((dim) => dim.values.length > 1);
-  const [across, up] = usualAxes(study, lengthy.length ? lengthy : dims);
+  const [across, up] = usualAxes(study, axesFor(study, valued));
   Object.assign(view, { variable: valued, x: across.name, y: up ? up.name : NONE });
   chooseAxes();
+}
+
+/** A place along what is not on the map: the chosen one, or else the first at which any point of the map has a value, of a
+ * growth rate one that is not neutral. */
+function slice() {
+  const { study, variable } = view;
+  const neutral = variable.marks.find((mark) => mark.is_neutral);
+  const says = (place) => !gapAt(study, variable, place) && !(neutral && value(study, neutral, place));
+  const chosen = view.place;
+  const each = (some, dim) => some.flatMap((place) => dim.values.map((_, i) => ({ ...place, [dim.name]: i })));
+  const candidates = [chosen, ...selectors().reduce(each, [chosen])];
+  const isValued = (place) => places(place).some((cell) => says(cell.place));
+  return candidates.find(isValued) ?? chosen;
 }
 
 /** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
  * else one that has a value. */
 function opening() {
-  const { study, variable, x, y, place } = view;
+  const { study, variable, x, place } = view;
+  const y = second();
   const valued = places().filter((cell) => !gapAt(study, variable, cell.place));
   const stored = valued.filter((cell) => motionsAt(cell.place).length);
   const middle = (name) => (name === NONE ? 0 : (study.sizes[name] - 1) / 2);
@@ -97,6 +148,43 @@ function chooseAxes() {
   const usual = ranked.map((kind) => fitting.find(kind)).find((one) => one);
   if (!fitting.includes(view.variable)) view.variable = usual;
   if (!chosenDots()) view.mark = NONE;
+  view.spread = usualSpread();
+}
+
+/** The count along which a curve shows all of a variable's numbers, as points: the first one of many. */
+function usualSpread() {
+  if (view.y !== NONE) return NONE;
+  const many = manyOf(view.study, view.variable);
+  return many && many.name !== view.x ? many.name : NONE;
+}
+
+/** The first count of many along which a variable has numbers. */
+const manyOf = (study, variable) =>
+  study.dims.find((dim) => variable.dims.includes(dim.name) && counts(dim) && dim.values.length >= MANY);
+
+/** The dimension beside that across of which all places are shown: that of the map up, or the count whose points are. */
+const second = () => (view.y === NONE ? view.spread : view.y);
+
+// What a choice has changed besides itself, in words
+
+const quoted = (text) => `“${text}”`;
+const axisWord = (name) => (name === NONE ? "none: a curve" : shortLabel(view.study.dim[name]));
+
+/** Say so where a variable that was chosen has changed the axes. */
+function tellOfAxes(x, y) {
+  if (view.x === x && view.y === y) return "";
+  const without = [x, y].filter((name) => name !== NONE && !view.variable.dims.includes(name)).map(axisWord).map(quoted);
+  return `${quoted(view.variable.label)} does not vary with ${without.join(" or ")}, so the axes have changed: across is now `
+    + `${quoted(axisWord(view.x))}, up ${quoted(axisWord(view.y))}.`;
+}
+
+/** Say so where axes that were chosen have changed the variable, or cannot be had together. */
+function tellOfVariable(variable, y) {
+  const lost = view.y === y ? "" : `Nothing varies with both ${quoted(axisWord(view.x))} and ${quoted(axisWord(y))}: a curve is shown.`;
+  const axes = [view.x, view.y].filter((name) => name !== NONE).map(axisWord).map(quoted).join(" and ");
+  const changed = view.variable === variable ? ""
+    : `${quoted(variable.label)} does not vary with ${axes}: ${quoted(view.variable.label)} is shown instead.`;
+  return [lost, changed].filter(Boolean).join(" ");
 }
 
 const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
@@ -146,7 +234,7 @@ function choice(label, options, chosen, act, name = label) {
 const MANY_STUDIES = 8; // which a reader does not overlook in a list
 
 /** The studies whose name, title or quantity has all words of the search, and the one that is shown. */
-function studiesFound(shown) {
+function studiesFound(shown = null) {
   const words = view.search.toLowerCase().split(/\s+/).filter(Boolean);
   const text = (study) => `${study.name} ${study.title} ${study.call.quantity}`.toLowerCase();
   return contents.studies.filter((study) => study === shown || words.every((word) => text(study).includes(word)));
@@ -160,7 +248,7 @@ function studyChoice(shown) {
 }
 
 function listStudies(select, shown) {
-  const found = studiesFound(shown);
+  const found = studiesFound().length ? studiesFound(shown) : contents.studies;
   const quantities = [...new Set(found.map((study) => study.call.quantity))];
   const groups = quantities.map((quantity) => {
     const group = document.createElement("optgroup");
@@ -179,8 +267,11 @@ function listStudies(select, shown) {
 function tellOfSearch() {
   const all = contents.studies.length;
   element("search").hidden = all <= MANY_STUDIES;
-  const found = view.search.trim() ? `: ${studiesFound(null).length} of ${all}` : "";
-  element("search").querySelector("span").textContent = `Find a study${found}`;
+  const searched = view.search.trim();
+  const found = studiesFound().length;
+  element("search").querySelector("span").textContent = `Find a study${searched ? `: ${found} of ${all}` : ""}`;
+  element("search-says").textContent = searched && !found
+    ? `No study matches ${quoted(searched)}: ${view.study.name} is still shown, and the list has all studies.` : "";
 }
 
 /** The field leaves in the list of studies those with the words that are typed; Enter shows the first. */
@@ -193,7 +284,7 @@ function listenToSearch() {
     showCutTexts();
   });
   field.addEventListener("keydown", async (event) => {
-    const [first] = studiesFound(null);
+    const [first] = studiesFound();
     if (event.key !== "Enter" || !first) return;
     view.warning = "";
     await chooseStudy(first.name);
@@ -208,30 +299,19 @@ function fillControls() {
   const { study } = view;
   const axes = long(study).length ? long(study) : study.dims;
   const axis = (dim) => [dim.name, shortLabel(dim)];
-  const named = (one) => [one.name, one.name === one.label ? one.name : `${one.label} (${one.name})`];
+  const chooseAxis = (chosen) => {
+    const { variable } = view;
+    Object.assign(view, chosen);
+    const { y } = view;
+    chooseAxes();
+    view.warning = tellOfVariable(variable, y);
+  };
   const boxes = [
     studyChoice(study),
-    choice("Across", axes.map(axis), view.x, (name) => {
-      if (name === view.y) view.y = view.x;
-      view.x = name;
-      chooseAxes();
-    }),
-    choice("Up", [...axes.filter((dim) => dim.name !== view.x).map(axis), [NONE, "none: a curve"]], view.y, (name) => {
-      view.y = name;
-      chooseAxes();
-    }),
-    choice("Variable", variablesShown().map(named), view.variable.name, (name) => {
-      view.variable = variablesShown().find((one) => one.name === name);
-    }),
-    ...selectors().filter((dim) => dim.values.length > 1).map((dim) =>
-      choice(
-        shortLabel(dim),
-        dim.shown.map((one, i) => [String(i), withUnit(number(one), dim.unit)]),
-        String(view.place[dim.name]),
-        (i) => (view.place[dim.name] = Number(i)),
-        dim.name,
-      ),
-    ),
+    choice("Across", axes.map(axis), view.x, (x) => chooseAxis({ x, y: x === view.y ? view.x : view.y })),
+    choice("Up", [...axes.filter((dim) => dim.name !== view.x).map(axis), [NONE, "none: a curve"]], view.y, (y) => chooseAxis({ y })),
+    variableChoice(),
+    ...offAxes().filter((dim) => dim.values.length > 1).map(placeChoice),
   ];
   if (view.y !== NONE && !view.variable.flags)
     boxes.push(
@@ -249,6 +329,47 @@ function fillControls() {
     );
   element("controls").replaceChildren(...boxes);
   showCutTexts();
+}
+
+/** The selector of a variable: all of the study, those along the axes that are chosen first. */
+function variableChoice() {
+  const fitting = variablesShown();
+  const others = view.study.variables.filter((one) => !fitting.includes(one));
+  const box = choice("Variable", [], "", (name) => {
+    const { x, y } = view;
+    chooseVariable(view.study.variables.find((one) => one.name === name));
+    view.warning = tellOfAxes(x, y);
+  });
+  const option = (one) => {
+    const text = one.name === one.label ? one.name : `${one.label} (${one.name})`;
+    return new Option(text, one.name, false, one === view.variable);
+  };
+  const select = box.querySelector("select");
+  select.append(...fitting.map(option));
+  if (others.length) {
+    const group = document.createElement("optgroup");
+    group.label = "along other axes";
+    group.append(...others.map(option));
+    select.append(group);
+  }
+  select.title = select.selectedOptions[0].text;
+  return box;
+}
+
+const ALL = "all";
+/** Whether a curve may show all places along a dimension. */
+const canSpread = (dim) => view.y === NONE && counts(dim) && dim.values.length > 1;
+
+/** The selector of the place along a dimension that is no axis; a curve may show all places of a count, as points. */
+function placeChoice(dim) {
+  const places = dim.shown.map((one, i) => [String(i), withUnit(number(one), dim.unit)]);
+  if (canSpread(dim)) places.unshift([ALL, "all, as points"]);
+  const chosen = dim.name === view.spread ? ALL : String(view.place[dim.name]);
+  return choice(shortLabel(dim), places, chosen, (i) => {
+    if (i === ALL) view.spread = dim.name;
+    else view.place[dim.name] = Number(i);
+    if (i !== ALL && view.spread === dim.name) view.spread = NONE;
+  }, dim.name);
 }
 
 /** Below each selector that is too narrow for the text of what is chosen, this text. */
