@@ -63,6 +63,15 @@ def test_periods_have_no_number_below_one() -> None:
     assert min(axis.get_majorticklocs()) == 1
 
 
+def test_a_gap_between_exponents_is_explained() -> None:
+    samples, exponents = made_up_samples()
+    said = "line open: another motion"
+    assert said not in labels(draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2])
+    exponents["exponent"][:] = [[0.3], [-0.2], [-0.21]]
+    ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
+    assert said in labels(ax)
+
+
 def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
     samples, exponents = made_up_samples()
     exponents["exponent_error"] = 0.2 * exponents["exponent_error"]
