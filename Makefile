@@ -102,11 +102,12 @@ compile-times: env
 	$(BIN)/python workflow/scripts/measure_compilation.py
 
 # The numbers once more, in the instructions that every processor has: no fused multiplication and addition, short vectors.
-# What compiles kernels of its own is left to `make test-long`, which tries all in every set of instructions.
+# What compiles kernels of its own is left to `make test-long`, which tries all in every set of instructions; how kernels are
+# kept in files does not depend on instructions.
 test-portable: env
 	NUMBA_CACHE_DIR=$(CURDIR)/$(VENV)/kernels-generic $(BIN)/python -m tests.instruction_sets generic \
 	  $(BIN)/pytest -m "not slow and not workflow" tests/engine tests/disc/test_plate.py tests/validation \
-	  --ignore tests/validation/test_contact_laws.py --ignore tests/validation/test_ramps.py
+	  --ignore tests/validation/test_contact_laws.py --ignore tests/validation/test_ramps.py --ignore tests/engine/jit
 
 # With the rival integrators, so that their tests are not passed over. The random search draws thirty times as many inputs
 # as the quick tests; SEED=..., as the command shows it, draws the same ones again.
