@@ -11,12 +11,13 @@ SYNC := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 
 # The quick tests in parts that cores share, the longest first. Ramps and another law of contact have kernels of their
 # own: what needs them is in one part, so that they are compiled once.
-PARTS := test-validation test-stability test-engine test-studies test-others
+PARTS := test-figures test-validation test-stability test-others test-engine test-studies
+TESTED_figures := tests/figures tests/fitting
 TESTED_validation := tests/validation tests/simulation
 TESTED_stability := tests/stability
 TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
-TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/figures tests/fitting tests/packaging $(wildcard tests/test_*.py)
+TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/packaging $(wildcard tests/test_*.py)
 
 .PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
