@@ -11,6 +11,7 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
+from disc_model.figures import bifurcation
 from disc_model.figures import campbell as campbell_diagram
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
@@ -70,6 +71,27 @@ def test_a_gap_between_exponents_is_explained() -> None:
     exponents["exponent"][:] = [[0.3], [-0.2], [-0.21]]
     ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
     assert said in labels(ax)
+
+
+@pytest.mark.parametrize("seen_by", ["kind", "period_events"])
+def test_all_exponents_are_open_where_samples_show_another_motion(seen_by: str) -> None:
+    samples, exponents = made_up_samples()
+    exponents = xr.concat([exponents, exponents], "exponent_number", data_vars="minimal")
+    samples[seen_by][2] = 1
+    ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
+    drawn = lines(ax)
+    for name in ("largest exponent", "exponent 2"):
+        gaps = np.isnan(drawn[name].get_ydata())
+        assert gaps.tolist() == [False, False, True, False]
+    assert "line open: another motion" in labels(ax)
+
+
+def test_places_between_samples_belong_to_no_side_of_a_change() -> None:
+    samples, _ = made_up_samples()
+    samples["period_events"][:] = [1, 1, 2]
+    along = np.array([1.0, 2.0, 3.0])
+    changes = bifurcation.motion_changes(samples, along, np.array([1.0, 2 - 1e-12, 2.5, 2.6, 3]))
+    assert changes.tolist() == [False, True, True, True]
 
 
 def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:

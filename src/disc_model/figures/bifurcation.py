@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
 from disc_model.figures.selection import broken, failed
-from disc_model.figures.types import Array, Axes, Figure, Words
+from disc_model.figures.types import Array, Axes, Figure, Mask, Words
 
 MARKS: dict[str, dict[str, Any]] = {
     "stick": {"marker": "x", "markersize": 2.0, "mew": 0.4},
@@ -45,6 +45,8 @@ EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of exponents, the largest first; none is the colour of a phase."""
 ERRORS = 4  # half-width of the band about an exponent, in standard errors
 ANOTHER = 0.05  # 1/s, step of an exponent beyond which another motion begins
+SAME_PLACE = 1e-6  # of a step of the parameter, within which points of two studies are one
+LONE_BAND = 3.0  # points, width of the band about a point that is joined to none
 EVENTS = {"stick": "at release of stick", "separation": "at loss of contact"}
 """Names of the phases at whose beginning or end samples are taken."""
 IDLE = 0.02  # height of the marks of motions without samples, as a share of the panel
@@ -71,7 +73,7 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     _draw_idle(axes[0], study, along)
     _draw_periods(axes[1], study, along)
     if "lyapunov" in overlays:
-        _draw_exponents(axes[2], overlays["lyapunov"], plot.x)
+        _draw_exponents(axes[2], overlays["lyapunov"], study, plot.x)
 
     letters(axes)
     for panel in axes:
@@ -148,15 +150,21 @@ def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
         legend_above(ax)
 
 
-def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
-    """Draw the largest exponents with their errors; rings of their colours where they have not
-    converged."""
+def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str) -> None:
+    """Draw the largest exponents with their errors, joined along one motion; rings of their colours
+    where they have not converged."""
     lyapunov = lyapunov.transpose("exponent_number", name, ...)
     known = ~failed(lyapunov)
     exponent = lyapunov["exponent"].where(known).values
     error = lyapunov["exponent_error"].where(known).values
     moving = flag_names(lyapunov["converged"])[: len(EXPONENTS)] == "no"
-    along = lyapunov[name].values * axis_of(name)[1]
+    factor = axis_of(name)[1]
+    along = lyapunov[name].values * factor
+    opened = motion_changes(study, study[name].values * factor, along)
+    opened |= (np.abs(np.diff(exponent, axis=1)) > ANOTHER).any(axis=0)
+    motion = np.concatenate([[0], np.cumsum(opened)])
+    alone = np.concatenate([[True], opened]) & np.concatenate([opened, [True]])
+
     ax.axhline(0, color=GREY, linewidth=wide(0.8))
     ring: dict[str, Any] = {
         "markerfacecolor": "none",
@@ -165,10 +173,14 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     }
     for i, colour in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = f"exponent {i + 1}" if i else "largest exponent"
-        x, y = broken(along, exponent[i], ANOTHER)
+        x, y = broken(along, exponent[i], 0.5, motion)
         ax.plot(x, y, ".-", color=colour, markersize=mark(3), linewidth=wide(0.8), label=label)
         band = ERRORS * np.interp(x, along, error[i])
         ax.fill_between(x, y - band, y + band, color=colour, alpha=0.15, linewidth=0)
+        # a band of one point has no width
+        low, high = exponent[i] + ERRORS * np.array([[-1], [1]]) * error[i]
+        bar: dict[str, Any] = {"color": colour, "alpha": 0.15, "linewidth": wide(LONE_BAND)}
+        ax.vlines(along[alone], low[alone], high[alone], **bar)
         late = moving[i]
         ax.plot(along[late], exponent[i][late], "o", label="_nolegend_", color=colour, **ring)
     # samples for the legend
@@ -176,8 +188,26 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, name: str) -> None:
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=errors)
     if moving.any():
         ax.plot([], [], "o", label="not converged", color=GREY, **ring)
-    if (np.abs(np.diff(exponent, axis=1)) > ANOTHER).any():
+    if opened.any():
         ax.plot([], [], linestyle="", label="line open: another motion")
     mark_failed(ax, along[np.isnan(exponent[0])])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
     legend_above(ax)
+
+
+def motion_changes(study: xr.Dataset, along: Array, places: Array) -> Mask:
+    """Whether the motion has another class or another number of events between each of some places
+    and the next one, (n - 1,).
+
+    along : (m,), ascending, the points of the study
+    places : (n,), ascending
+    """
+    kind = flag_names(study["kind"])
+    events = study["period_events"].values
+    changed = (kind[1:] != kind[:-1]) | (events[1:] != events[:-1])
+    so_far = np.concatenate([[0], np.cumsum(changed)])
+    # a place between two points may have the motion of either
+    position = np.interp(places, along, np.arange(along.size))
+    before = np.floor(position + SAME_PLACE).astype(int)
+    after = np.ceil(position - SAME_PLACE).astype(int)
+    return so_far[after[1:]] > so_far[before[:-1]]
