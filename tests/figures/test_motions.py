@@ -104,6 +104,19 @@ def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
     assert (heights.min(), heights.max()) == pytest.approx((1 - half_width, 1 + half_width))
 
 
+def test_the_height_of_rest_is_no_range_of_its_own() -> None:
+    """Rest and ranges that are not distinguished from it stand at one height, the last tick."""
+    figure = branches()
+    [ax] = figure.axes
+    figure.canvas.draw()
+    shown = [*zip(ax.get_yticks(), ax.get_yticklabels(), strict=True)]
+    texts = {height: text.get_text() for height, text in shown}
+    assert texts[LOWEST].startswith("≤")
+    assert sum(text.startswith("≤") for text in texts.values()) == 1
+    assert min([*ax.get_yticks(), *ax.get_yticks(minor=True)]) == LOWEST
+    assert min(min(line.get_ydata()) for line in ax.lines[:-1]) == LOWEST
+
+
 def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.MonkeyPatch) -> None:
     """A quiet branch with a fold at 13, and one that separates above it."""
     values = {

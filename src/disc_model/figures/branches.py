@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.legend_handler import HandlerTuple
+from matplotlib.ticker import FixedLocator, LogFormatterSciNotation, NullFormatter
 
 from disc_model.data.variables import axis_of, flag_names, stated_in
 from disc_model.figures.branch_lines import (
@@ -36,6 +37,7 @@ from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Array, Axes, Figure, Mask
 
 LOWEST = 1e-3  # least range that is distinguished from rest, mm
+DECADES = 8  # of the axis above it that have ticks
 BENDS = 2.5  # factor between the heights of neighbouring points beyond which a branch may bend
 ABOVE_SLIDING = 0.12  # height of the names of cases, as a share of the panel
 ROOM_BELOW = 0.45  # lower end of the axis over `LOWEST`, for the name of steady sliding
@@ -59,7 +61,7 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
         colour = SEPARATED if branch["separations"] > 0 else BLACK
         values = branch["value"].values * factor
         stable = stable_segments(branch["growth_rate"].values)
-        draw_branch(ax, values, 1e3 * branch["range"].values, stable, Look(colour), BENDS)
+        draw_branch(ax, values, _heights(branch["range"]), stable, Look(colour), BENDS)
     _draw_sliding(ax, study, along)
     jumps = [_draw_sweep(ax, sweep) for sweep in sweeps_of(study, along)]
 
@@ -68,9 +70,32 @@ def draw(plot: Branches, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     ax.set_xlabel(label)
     ax.set_ylabel("Range of the slider's height (mm)")
     ax.set_xlim((along[0], along[-1]))
-    ax.set_ylim(bottom=ROOM_BELOW * LOWEST)
+    _end_at_lowest(ax)
     _legend(figure, study, any(jumps))
     return figure
+
+
+def _heights(ranges: xr.DataArray) -> Array:
+    """Ranges in mm; those that are not distinguished from rest are at `LOWEST`."""
+    return np.maximum(1e3 * ranges.values, LOWEST)
+
+
+def _end_at_lowest(ax: Axes) -> None:
+    """Say at `LOWEST` that smaller ranges, and none, stand there too, without ticks below."""
+    ax.set_ylim(bottom=ROOM_BELOW * LOWEST)
+    ticks = LOWEST * 10.0 ** np.arange(DECADES)
+    between = np.outer(ticks, range(2, 10)).ravel()
+    ax.yaxis.set_major_locator(FixedLocator(ticks.tolist()))
+    ax.yaxis.set_minor_locator(FixedLocator(between.tolist()))
+    usual = LogFormatterSciNotation()
+    usual.set_axis(ax.yaxis)
+
+    def text(value: float, _: float) -> str:
+        words = str(usual(value))
+        return f"≤ {words}" if np.isclose(value, LOWEST) else words
+
+    ax.yaxis.set_major_formatter(text)
+    ax.yaxis.set_minor_formatter(NullFormatter())
 
 
 def _draw_sliding(ax: Axes, study: xr.Dataset, along: Array) -> None:
@@ -113,7 +138,7 @@ def sweeps_of(study: xr.Dataset, along: Array) -> list[Sweep]:
     found = []
     for way, shape in enumerate("^v"):
         order = slice(None) if shape == "^" else slice(None, None, -1)
-        heights = np.maximum(1e3 * study["sweep_range"].values[way], LOWEST)
+        heights = _heights(study["sweep_range"][way])
         separates = study["sweep_separation_rate"].values[way] > 0
         settled = flag_names(study["sweep_settled"])[way] == "settled"
         found.append(Sweep(along[order], heights[order], separates[order], settled[order], shape))
