@@ -64,7 +64,12 @@ def draw_power(
         rasterized=True,
     )
     ax.set_facecolor(cm.lipari(0.0))
-    ax.set_xlim(span_of(spectrum))
+    start, stop = span_of(spectrum)
+    half_step = 0.5 * float(np.diff(spectrum.time[:2]).sum())
+    first = float(spectrum.time[0]) - half_step
+    if start < first:  # half a window has no spectrum, which is not one without power
+        ax.axvspan(start, first, color="white", linewidth=0)
+    ax.set_xlim(start, stop)
     ax.set_ylim((0, highest))
     mark_first_separation(ax, case, named=False, color="white", linewidth=wide(0.9))
     return mesh
