@@ -191,7 +191,7 @@ def sensitivity() -> Figure:
     return drawn("sensitivity", xr.Dataset(data, coords, stated()))
 
 
-def campbell(**phrase: Any) -> Figure:
+def campbell_study() -> xr.Dataset:
     """A mode of the slider and two of the disc; two peaks, of which one has a crossing, and a gap."""
     speeds = np.linspace(8.0, 18.0, 21)
     rate = np.full(21, -0.05)
@@ -220,7 +220,11 @@ def campbell(**phrase: Any) -> Figure:
         "crossing_effect": flag(("crossing",), ["rises", "none", "rises"], EFFECTS),
     }
     coords = over(Omega=speeds) | {"mode": [1, 2, 3]}
-    return drawn("campbell", xr.Dataset(data, coords, stated()), **phrase)
+    return xr.Dataset(data, coords, stated())
+
+
+def campbell(**phrase: Any) -> Figure:
+    return drawn("campbell", campbell_study(), **phrase)
 
 
 def late_range() -> Figure:

@@ -24,14 +24,21 @@ from disc_model.figures.campbell import Peak, peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
-from disc_model.figures.locking import NEVER_STICKS, _draw_steps, _Step
+from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
-from tests.figures.described import branches, campbell, of_example, sensitivity, sliding_modes
+from tests.figures.described import (
+    branches,
+    campbell,
+    campbell_study,
+    of_example,
+    sensitivity,
+    sliding_modes,
+)
 from tests.figures.every_kind import flag
 from tests.figures.reading import assert_fit_for_print, crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
@@ -470,8 +477,19 @@ def test_equal_periods_side_by_side_are_one_step_and_undecided_ones_are_rings() 
     places = {line.get_marker(): line.get_xydata().tolist() for line in marks}
     assert places["o"] == [[20.2, 10.7]]
     # the motion that never sticks
-    assert places["D"] == [[19.8, 0.9], [20.2, 0.9]]
+    assert places["D"] == [[19.8, TOP], [20.2, TOP]]
     assert [text.get_text() for text in zoom.texts] == ["69 releases", "35"]
+
+
+def test_motions_without_a_release_stand_above_the_axis_of_separations_per_release() -> None:
+    study = locked_at([19.8, 19.9, 20.0], [34, 35, 36], [371, 372, 373])
+    slipping = locked_at([19.8, 20.0], [0, 0], [0, 0])
+    slipping["motion"][:] = 2
+    [ax] = draw("staircase", study, {"slipping": slipping}, x="Omega").axes
+    low, high = ax.get_ylim()
+    _, end = ax.spines["left"].get_bounds()
+    assert max(ax.get_yticks()) <= end < low + TOP * (high - low)
+    assert max(max(line.get_ydata()) for line in ax.lines if line.get_marker() == "o") < end
 
 
 def test_zooms_stand_below_each_other_in_a_column() -> None:
@@ -585,6 +603,23 @@ def test_marks_of_a_sweep_differ_in_grey_print() -> None:
 def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
     said = labels(campbell())
     assert {r"multiple of $f_s$ or $f_Ω$", "no growth rate", "speed of a peak"} <= set(said)
+
+
+def test_marks_and_multiples_of_a_campbell_diagram_are_those_that_there_are() -> None:
+    """A peak that steps do not resolve is hollow in both panels, and no frequency is named of which
+    no multiple is there."""
+    study = campbell_study()
+    study["growth_rate"][[4, 11]] = -0.05  # the points before the peaks
+    study["crossing_line"][:] = study["crossing_line"][0]
+    figure = draw("campbell", study)
+    faces = {
+        line.get_markerfacecolor()
+        for ax in figure.axes
+        for line in ax.lines
+        if line.get_marker() == "o" and line.get_markersize() > 3
+    }
+    assert faces == {"white"}
+    assert "multiple of $f_s$" in labels(figure)
 
 
 def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> None:

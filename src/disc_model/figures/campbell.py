@@ -48,6 +48,8 @@ BETWEEN = 20  # points of each step of a line, which no name covers
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10), (2, 17), (-2, 17))  # and beside peaks
 BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 """Look of a stretch of speeds without a growth rate."""
+SYMBOLS = ("$f_s$", "$f_Ω$")
+"""Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
 
 
@@ -98,11 +100,13 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
     handles: list[Artist] = [
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
-    if any(peak.crossing is not None for peak in found):
-        handles.append(sample(label=r"multiple of $f_s$ or $f_Ω$", **_multiple_look()))
+    crossed = {_symbol(peak.crossing) for peak in found if peak.crossing is not None}
+    if crossed:
+        symbols = " or ".join(sorted(crossed, key=SYMBOLS.index))
+        handles.append(sample(label=f"multiple of {symbols}", **_multiple_look()))
     if found:
         handles.append(sample(label="peak of growth, crossing at it", **_dot(alone=False)))
-        handles.append(sample(color=GREY, linewidth=wide(0.4), label="speed of a peak"))
+        handles.append(sample(label="speed of a peak", **_speed_look()))
     if any(unjoined(rate).any() for rate in rates):
         handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
@@ -166,7 +170,7 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bo
     speed = study["Omega"].values[peak.place]
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
-        ax.axvline(speed, color=GREY, linewidth=wide(0.4), zorder=0)
+        ax.axvline(speed, zorder=0, **_speed_look())
     bottom.plot(speed, rate, **_dot(alone))
     if peak.crossing is None:
         return
@@ -175,7 +179,12 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bo
     line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
     top.plot(study["Omega"], multiple * line, zorder=0, **_multiple_look())
-    top.plot(*_meeting(peak.crossing), **_dot(alone=False))
+    top.plot(*_meeting(peak.crossing), **_dot(alone))
+
+
+def _speed_look() -> dict[str, Any]:
+    """Look of the line at the speed of a peak, which is no narrow band without a growth rate."""
+    return {"color": BLACK, "linewidth": wide(0.6), "linestyle": (0, (1, 2))}
 
 
 def _multiple_look() -> dict[str, Any]:
@@ -221,9 +230,13 @@ def _along_lines(lines: Sequence[Sequence[Array]]) -> Array:
 
 def _multiple(crossing: xr.Dataset) -> str:
     """The multiple of a frequency that a mode meets."""
+    return f"{float(crossing['crossing_multiple']):g} {_symbol(crossing)}"
+
+
+def _symbol(crossing: xr.Dataset) -> str:
+    """The symbol of the frequency of which a mode meets a multiple."""
     by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
-    symbol = "f_s" if by_slips else "f_Ω"
-    return f"{float(crossing['crossing_multiple']):g} ${symbol}$"
+    return SYMBOLS[0 if by_slips else 1]
 
 
 # ---- Selection

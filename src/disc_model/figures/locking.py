@@ -19,9 +19,10 @@ from disc_model.figures.types import Array, Figure
 
 ROOM = 0.055  # of a panel's width, least distance of two labels
 WORDS = 0.14  # and half of that which a number with its unit takes
-HEIGHT = 0.1  # of a panel's height, room that a label needs above a step,
+HEIGHT = 0.11  # of a panel's height, room that a label needs above a step,
 BESIDE = 0.06  # and beside one
-TOP = 0.9  # height of the marks of motions that never stick, as a share of the panel
+TOP = 0.93  # height of the marks of motions that never stick, as a share of the panel
+BELOW_TOP = 0.88  # share of the panel below these marks: they have no number of separations
 APART = "Separations per release"
 
 
@@ -62,10 +63,14 @@ def draw_staircase(
     whole, *zooms = panels
 
     steps = _steps(parts, plot.x, factor)
-    _draw_steps(whole, steps, study[plot.x].values[[0, -1]] * factor)
-    _draw_undecided(whole, parts, plot.x, factor)
+    never_sticks = np.empty(0)
     if "slipping" in overlays:
-        _draw_slipping(whole, overlays["slipping"], plot.x, factor, narrow=narrow)
+        never_sticks = _without_stick(overlays["slipping"], plot.x) * factor
+    share = BELOW_TOP if never_sticks.size else 1.0
+    _draw_steps(whole, steps, study[plot.x].values[[0, -1]] * factor, share)
+    _draw_undecided(whole, parts, plot.x, factor)
+    if never_sticks.size:
+        _mark_without_stick(whole, never_sticks, narrow=narrow)
     for ax, (low, high) in zip(zooms, plot.zooms, strict=True):
         _draw_steps(ax, steps, np.array([low, high]) * factor)
         _draw_undecided(ax, parts, plot.x, factor)
@@ -112,8 +117,9 @@ def _steps(parts: Sequence[xr.Dataset], name: str, factor: float) -> list[_Step]
     return steps
 
 
-def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
-    """Draw the steps between two ends of the axis, and name those that have room."""
+def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array, share: float = 1.0) -> None:
+    """Draw the steps between two ends of the axis, in a share of the panel from below, and name
+    those that have room."""
     low, high = ends.tolist()
     shown = [step for step in steps if step.high >= low and step.low <= high]
     for step in shown:
@@ -130,7 +136,9 @@ def _draw_steps(ax: Axes, steps: Sequence[_Step], ends: Array) -> None:
     if shown:
         heights = [step.height for step in shown]
         spread = max(max(heights) - min(heights), 1e-3)
-        ax.set_ylim(min(heights) - 0.15 * spread, max(heights) + 0.3 * spread)
+        low_end = min(heights) - 0.15 * spread
+        high_end = max(heights) + 0.3 * spread
+        ax.set_ylim(low_end, low_end + (high_end - low_end) / share)
     _name_steps(ax, shown, low, high)
 
 
@@ -214,18 +222,24 @@ def _draw_undecided(ax: Axes, parts: Sequence[xr.Dataset], name: str, factor: fl
             drawing.mark_failed(ax, part[name].values[failed(part).values] * factor)
 
 
-def _draw_slipping(
-    ax: Axes, slipping: xr.Dataset, name: str, factor: float, *, narrow: bool
-) -> None:
-    """Mark, above the steps, where a motion without stick exists beside.
+def _without_stick(slipping: xr.Dataset, name: str) -> Array:
+    """Values of the parameter at which a motion without stick exists."""
+    part = slipping.squeeze(drop=True)
+    values: Array = part[name].values[flag_names(part["motion"]) == "without_stick"]
+    return values
+
+
+def _mark_without_stick(ax: Axes, places: Array, *, narrow: bool) -> None:
+    """Mark, above the end of the axis of separations per release, where a motion without stick,
+    which has no release, exists beside.
 
     narrow : whether the panel is as wide as a column, and has no room for the words
     """
-    part = slipping.squeeze(drop=True)
-    never = flag_names(part["motion"]) == "without_stick"
-    places = part[name].values[never] * factor
-    if not places.size:
-        return
+    low, high = ax.get_ylim()
+    end = low + BELOW_TOP * (high - low)
+    ax.set_yticks([tick for tick in ax.get_yticks() if low <= tick <= end])
+    ax.spines["left"].set_bounds(low, end)
+
     edge = ax.get_xaxis_transform()
     heights = np.full(places.size, TOP)
     ax.plot(places, heights, "D", color=BLUE, markersize=mark(2.5), transform=edge)
