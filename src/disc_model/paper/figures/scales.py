@@ -26,7 +26,7 @@ from disc_model.figures.drawing import (
     say,
 )
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.types import Axes, Figure
+from disc_model.figures.types import Axes, Figure, Words
 from disc_model.figures.words import LOAD, SPEED
 from disc_model.paper import section2
 from disc_model.paper.figures.kinds import Scales
@@ -102,21 +102,17 @@ def _draw_amplitudes(ax: Axes) -> None:
 
 
 def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
-    """Draw with which normalization the static start separates, and the paper's cases, filled if
-    they separate with both."""
+    """Draw with which normalization the static start separates, and the paper's cases, each in the
+    colour of its own outcome."""
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
-    published, orthonormal = flag_names(outcome) == "separation"
-    words = np.where(published, "published", "neither")
-    words = np.where(orthonormal, "orthonormal", words)
-    words = np.where(published & orthonormal, "both", words)
-    paint(ax, edges_of(outcome[0]), words, CELLS)
+    paint(ax, edges_of(outcome[0]), _separate_with(outcome), CELLS)
     for name, point in points.items():
         place = (float(point["Omega"]), float(point["N"]))
-        both = bool(np.all(flag_names(point["outcome"]) == "separation"))
+        word = str(_separate_with(point["outcome"].sel(normalization=[*SCALES])))
         ax.plot(
             *place,
             "o",
-            markerfacecolor=SEPARATED if both else "white",
+            markerfacecolor=CELLS[word].face,
             color=BLACK,
             markersize=mark(5),
             clip_on=False,
@@ -125,6 +121,14 @@ def _draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset])
         say(ax, name, place, side, fontsize=large(7), path_effects=halo())
     ax.set_xlabel(SPEED)
     ax.set_ylabel(LOAD)
+
+
+def _separate_with(outcome: xr.DataArray) -> Words:
+    """The class, see `CELLS`, of each point of outcomes whose first dimension is `SCALES`."""
+    published, orthonormal = flag_names(outcome) == "separation"
+    words = np.where(published, "published", "neither")
+    words = np.where(orthonormal, "orthonormal", words)
+    return np.where(published & orthonormal, "both", words)
 
 
 def _draw_times(ax: Axes, points: Mapping[str, xr.Dataset], firsts: pd.DataFrame) -> None:
