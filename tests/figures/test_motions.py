@@ -25,6 +25,7 @@ from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
+from disc_model.figures.names import Names
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
@@ -579,6 +580,17 @@ def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> N
     assert low < 0.5 < high
     assert 0.5 - low == pytest.approx(high - 0.5)
     assert _said(ax) == ["2 of 4"]
+    [counted] = ax.texts
+    ax.figure.draw_without_rendering()
+    assert counted.get_window_extent().x0 > ax.bbox.x1, "no line is there"
+
+
+def test_intervals_of_shares_end_where_they_end_and_are_named() -> None:
+    """That of no start among 40 reached below zero by its cap."""
+    figure = of_example("escape")
+    intervals = [line for line in figure.axes[0].lines if line.get_alpha()]
+    assert {line.get_solid_capstyle() for line in intervals} == {"butt"}
+    assert "95 % interval of the share" in labels(figure)
 
 
 def test_shares_of_starts_differ_in_grey_print() -> None:
@@ -633,6 +645,32 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert labels(sliding_modes()) == ["mode decays", "mode grows"]
     assert "all of its values" in labels(sensitivity())
+
+
+def test_lines_of_sliding_modes_are_as_wide_as_in_the_legend() -> None:
+    """Dots at many values had made a thin line thick, and grey lines had covered black ones."""
+    figure = sliding_modes()
+    for ax in figure.axes:
+        drawn = [line for line in ax.lines if line.get_marker() == "."]
+        for line in drawn:
+            dot = 0.5 * line.get_markersize() + line.get_markeredgewidth()
+            assert dot <= line.get_linewidth() + 1e-9
+        grows = [line.get_zorder() for line in drawn if line.get_color() == BLACK]
+        decays = [line.get_zorder() for line in drawn if line.get_color() == GREY]
+        assert min(grows) > max(decays)
+
+
+def test_names_in_a_row_stay_apart() -> None:
+    figure = pyplot.figure(figsize=(4, 2))
+    ax = figure.subplots()
+    ax.set(xlim=(0, 1), ylim=(0, 1))
+    names = Names(ax, beside=12.0)
+    for place in (0.4, 0.5):
+        names.add("l = 3", (place, 0.5), [(0, 3), (4, 3)])
+    figure.draw_without_rendering()
+    left, right = (text.get_window_extent() for text in ax.texts)
+    assert right.x0 - left.x1 >= 12.0 / 72 * figure.dpi
+    pyplot.close("all")
 
 
 def test_lines_of_phases_differ_in_grey_print() -> None:

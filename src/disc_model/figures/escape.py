@@ -13,11 +13,13 @@ from disc_model.figures.drawing import (
     BLACK,
     BLUE,
     GREEN,
+    GREY,
     PURPLE,
     VERMILION,
     large,
     panels,
-    say,
+    sample,
+    say_beside,
     wide,
 )
 from disc_model.figures.kinds.motions import EscapeShares
@@ -48,7 +50,8 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     ax.set_ylabel("Share of starts that have separated")
     ax.set_xlim(0, horizon)
     ax.set_ylim(-0.03, 1.03)
-    figure_legend(figure, handles, loc="outside lower center", columns=len(handles))
+    handles.append(sample(label="95 % interval of the share", **_interval_look(GREY)))
+    figure_legend(figure, handles, loc="outside lower center", columns=2)
     return figure
 
 
@@ -68,9 +71,12 @@ def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
     steps = [0.0, *separated, horizon]
     (line,) = ax.step(steps, [*shares, shares[-1]], where="post", color=colour, linewidth=wide(1.2))
     _, low, high = share(separated.size, times.size)
-    ax.plot(
-        [horizon, horizon], [low, high], color=colour, linewidth=wide(3), alpha=0.5, clip_on=False
-    )
+    ax.plot([horizon, horizon], [low, high], clip_on=False, **_interval_look(colour))
     counted = f"{separated.size} of {times.size}"
-    say(ax, counted, (horizon, shares[-1]), (-6, 3), color=colour, fontsize=large(7))
+    say_beside(ax, float(shares[-1]), counted, 4, color=colour, fontsize=large(7))
     return line
+
+
+def _interval_look(colour: str) -> dict[str, Any]:
+    """Look of the interval of a share, which ends at its ends."""
+    return {"color": colour, "linewidth": wide(3), "alpha": 0.5, "solid_capstyle": "butt"}

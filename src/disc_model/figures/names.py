@@ -40,6 +40,7 @@ class Names(Artist):
     stems : tops of upright lines, named or not, in units of the axes: none may stand
         between a point and its name, and a name is nearer to none of the others
     first_needed : whether none is shown if the first finds no room
+    beside : least distance of two names in a row, points: nearer ones read as one
     """
 
     def __init__(
@@ -49,9 +50,11 @@ class Names(Artist):
         *,
         stems: Sequence[tuple[float, float]] | None = None,
         first_needed: bool = False,
+        beside: float = 0.0,
     ) -> None:
         super().__init__()
         self._first_needed = first_needed
+        self._beside = beside
         self._stems = None if stems is None else np.reshape(stems, (-1, 2))
         self._lines = np.empty((0, 2)) if lines is None else lines
         self._names: list[Annotation] = []
@@ -119,7 +122,9 @@ class Names(Artist):
             inside = frame.count_contains(box.corners()) == len(box.corners())
             covers = box.count_contains(lines) or box.count_overlaps(taken)
             if inside and not covers and self._is_plain(place, nearness, box, taken):
-                taken.append(box)
+                figure: Any = self.get_figure(root=True)
+                apart = self._beside * figure.dpi / 72
+                taken.append(Bbox.from_extents(box.x0 - apart, box.y0, box.x1 + apart, box.y1))
                 return True
         return False
 

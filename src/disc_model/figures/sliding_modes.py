@@ -1,7 +1,7 @@
 """Modes of steady sliding along a parameter: frequencies and growth rates."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -29,8 +29,10 @@ from disc_model.figures.words import measured
 
 DECAYS = 0.8  # width of the line of a mode that decays, points,
 GROWS = 2.4  # and of one that grows
+ABOVE = 2.1  # zorder of such lines: a mode that decays may have the frequency of one that grows
 FREE = 0.25  # of the largest growth rate, room above a line that is enough for its name
 NAMES_APART = 0.04  # of the axis of frequencies, least distance of names
+NAMES_IN_A_ROW = 4.0  # points, least distance of the names of two growing modes
 RATES_APART = 0.1  # of that of growth rates
 LINE = 0.13  # and height of a line of names beside it, both over the largest rate
 EDGE = 0.05  # of the width of the panel, beside its ends, where names stand on the inner side
@@ -136,20 +138,14 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     along = measured(study["value"]).values
     lines = lines_of(study)
     largest = float(study["largest_growth_rate"].max())
-    named: list[tuple[tuple[float, float], str, list[tuple[float, float]]]] = []
+    named: list[tuple[int, tuple[float, float], str, list[tuple[float, float]]]] = []
     thick = []
     for line in lines:
         grows = np.nan_to_num(line.rate) > ROUNDING
         for ax, values in ((top, line.frequency), (bottom, line.rate)):
-            ax.plot(along, values, ".-", color=GREY, linewidth=wide(DECAYS), markersize=mark(1.2))
-            ax.plot(
-                along,
-                np.where(grows, values, np.nan),
-                ".-",
-                color=BLACK,
-                linewidth=wide(GROWS),
-                markersize=mark(3),
-            )
+            ax.plot(along, values, ".-", **_look(GREY, DECAYS))
+            growing = np.where(grows, values, np.nan)
+            ax.plot(along, growing, ".-", zorder=ABOVE, **_look(BLACK, GROWS))
         thick.append(np.column_stack([along, line.rate])[grows])
         for start, after in stretches(grows[:-1] & grows[1:]):
             shown = slice(start, after + 1)
@@ -164,12 +160,23 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
             offsets: list[tuple[float, float]] = [(3 * side, 3), *BESIDE]
             if place[1] > FREE * largest:
                 offsets += BELOW
-            named.append((place, line.name, offsets))
+            named.append((after - start, place, line.name, offsets))
     thick.append(np.column_stack([along, np.zeros(len(along))]))  # the line at zero
-    names = Names(bottom, lines=np.concatenate(thick))
-    for place, name, offsets in sorted(named, reverse=True, key=lambda each: each[0][1]):
+    names = Names(bottom, lines=np.concatenate(thick), beside=NAMES_IN_A_ROW)
+    # narrow peaks have no room but above them, and come before those beside them
+    for _, place, name, offsets in sorted(named, key=lambda each: (each[0], -each[1][1])):
         names.add(name, place, offsets, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
+
+
+def _look(colour: str, width: float) -> dict[str, Any]:
+    """Look of a line whose dots, which show points by themselves, are no wider than itself."""
+    return {
+        "color": colour,
+        "linewidth": wide(width),
+        "markersize": mark(2 * width),
+        "markeredgewidth": 0,
+    }
 
 
 def _place_of_name(rate: Array, others: Sequence[Array], largest: float) -> int:
