@@ -165,6 +165,13 @@ def test_regions_have_borders_marks_and_what_does_not_fit(
     save(figure, path)
 
 
+def test_marks_named_by_numbers_are_those_of_figures() -> None:
+    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
+    marks = {"2": mark(5, 100, "quiet"), "7": mark(20, 400, "separation")}
+    said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
+    assert {"paper's figure: quiet", "paper's figure: separation"} <= {*said}
+
+
 def test_a_stable_cycle_ends_towards_lower_values_as_well() -> None:
     study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
     loads = study["N"]

@@ -220,7 +220,15 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     kicks = lines(figure.axes[-1])["by bisection"].get_ydata()
     np.testing.assert_allclose(kicks, [np.nan, 0.5, 0.05, np.nan], rtol=0.06)
     # what separates without a kick has no place on a logarithmic scale, and is not left out
-    assert lines(figure.axes[-1])["zero"].get_xdata() == [15]
+    ax = figure.axes[-1]
+    zero = lines(ax)["zero"]
+    assert zero.get_xdata() == [15]
+    # no energy of the axis is at its height
+    figure.draw_without_rendering()
+    height = zero.get_transform().transform(zero.get_xydata())[0, 1]
+    end, _ = ax.spines["left"].get_bounds()
+    assert height < ax.transData.transform((15, end))[1]
+    assert min([*ax.get_yticks(), *ax.get_yticks(minor=True)]) >= end
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
 
 

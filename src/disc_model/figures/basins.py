@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.ticker import FixedLocator
 
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures.cells import entries
@@ -42,7 +43,9 @@ STACKED = (
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
 """Shares of starts that the legend shows."""
+OF_DIAMOND = "50 %"  # size of the diamond there
 ZERO = 0.04  # height of the marks of critical energies of zero, as a share of the panel
+BELOW = 0.1  # share of the panel below the axis for them
 BAR = 0.9  # width of a bar over the least distance of two
 
 
@@ -152,6 +155,11 @@ def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
         ax.scatter(along[point], heights, areas, color=look.face, marker=shape, zorder=3, **edge)
     for text, share in AREAS.items():
         ax.scatter([], [], LARGEST * share, facecolor="none", label=text, **edge)
+    drawn = [LOOKS[word] for word in STACKED if ((kinds == word) & (starts > 0)).any()]
+    if any(look.hatch for look in drawn):
+        area = LARGEST * AREAS[OF_DIAMOND]
+        diamond: dict[str, Any] = {"marker": "D", "facecolor": "none", **edge}
+        ax.scatter([], [], area, label="class with a pattern", **diamond)
     legend_above(ax)
     ax.set_ylabel("Slider range (mm)")
     if np.any(ranges > 0):
@@ -183,9 +191,15 @@ def _draw_kicks(ax: Axes, study: xr.Dataset, along: Array) -> None:
 
 
 def _mark_zeros(ax: Axes, places: Array) -> None:
-    """Mark critical energies of zero, which have no place on a logarithmic scale, at its edge."""
+    """Mark critical energies of zero, which have no place on a logarithmic scale, below its end."""
     if not places.size:
         return
+    low, high = ax.get_ylim()
+    ax.set_ylim(low * (low / high) ** (BELOW / (1 - BELOW)), high)
+    ax.spines["left"].set_bounds(low, high)
+    plain_decades(ax.yaxis, least=low)
+    between = ax.get_yticks(minor=True)
+    ax.yaxis.set_minor_locator(FixedLocator(between[between >= low].tolist()))
     ax.plot(
         places,
         np.full(places.size, ZERO),

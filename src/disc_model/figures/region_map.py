@@ -194,10 +194,12 @@ def _marks(ax: Axes, plot: RegionMap) -> list[Artist]:
             annotation_clip=False,
         )
     outcomes = {mark.paper_outcome for mark in plot.marks.values()}
+    numbered = all(name.isdigit() for name in plot.marks)
+    source = "paper's figure" if numbered else "paper"
     return [
         sample(
             marker=shape,
-            label=f"paper: {LOOKS[name].label}",
+            label=f"{source}: {LOOKS[name].label}",
             path_effects=outline,
             ls="",
             mfc="none",

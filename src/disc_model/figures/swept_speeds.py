@@ -4,19 +4,29 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.colors import ListedColormap
+from matplotlib.colors import ListedColormap, to_rgba
 
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import stated_in
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.classes import UNSETTLED
-from disc_model.figures.drawing import BLUE, GREY, ORANGE, SEPARATED, mark, mark_failed, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    BLUE,
+    GREY,
+    ORANGE,
+    SEPARATED,
+    mark,
+    mark_failed,
+    wide,
+)
 from disc_model.figures.selection import failed, stretches
 from disc_model.figures.types import Axes
 
 ONSET = SEPARATED  # colour of speeds at which separation begins,
 END = BLUE  # and at which it ends
 ARROW = 5.0  # pt, length of an arrow to lower speeds, and its distance from the mark
+COEXISTENCE = "////"  # hatch of that mark, whose grey is that of a class beside it
 BAR = 20.0  # N, height of the mark of coexistence, well within a step of the sweeps
 
 
@@ -80,10 +90,10 @@ def _coexistence(ax: Axes, basins: xr.Dataset) -> None:
             BAR,
             speeds[first],
             label=label,
-            color=ORANGE,
-            ec=ORANGE,
-            alpha=0.6,
-            lw=wide(0.8),
+            fc=to_rgba(ORANGE, 0.6),
+            ec=BLACK,
+            hatch=COEXISTENCE,
+            lw=wide(0.4),
         )
         label = "_nolegend_"
 
