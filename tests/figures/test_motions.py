@@ -94,6 +94,18 @@ def test_all_exponents_are_open_where_samples_show_another_motion(seen_by: str) 
     assert "line open: another motion" in labels(ax)
 
 
+def test_rings_of_motions_that_have_not_settled_do_not_merge() -> None:
+    values = np.array([np.linspace(20.0, 30.0, 200), np.linspace(20.0, 70.0, 200)])
+    chosen = np.ones(values.shape, dtype=bool)
+    chosen[1] = False
+    rings = bifurcation.apart(values, chosen)
+    assert not rings[1].any()
+    heights = values[0, rings[0]]
+    assert heights[0] == 20.0
+    assert np.diff(heights).min() >= bifurcation.RINGS_APART * 50.0
+    assert heights[-1] > 30.0 - 2 * bifurcation.RINGS_APART * 50.0
+
+
 def test_places_between_samples_belong_to_no_side_of_a_change() -> None:
     samples, _ = made_up_samples()
     samples["period_events"][:] = [1, 1, 2]
@@ -652,7 +664,7 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
 
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert labels(sliding_modes()) == ["mode decays", "mode grows"]
-    assert "all of its values" in labels(sensitivity())
+    assert {"all of its values", "95 % interval"} <= {*labels(sensitivity())}
 
 
 def test_lines_of_sliding_modes_are_as_wide_as_in_the_legend() -> None:

@@ -40,6 +40,7 @@ UNDECIDED: dict[str, Any] = {
     "mfc": "none",
     "mew": 0.5,
 }
+RINGS_APART = 0.025  # of the range of all samples, least distance of such marks at one point
 IN_LEGEND = 6.0  # size of the marks there: those of the diagram are too small for it
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of exponents, the largest first; none is the colour of a phase."""
@@ -99,7 +100,8 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
     phase = phases_of(study)
     settled = (flag_names(study["settled"]) == "settled")[:, None]
     names = EVENTS if stated_in(study, "options")["section"] == "event" else {}
-    dots = [("not settled, or undecided", ~settled & (phase != "none"), UNDECIDED)]
+    rings = apart(values, ~settled & (phase != "none"))
+    dots = [("not settled, or undecided", rings, UNDECIDED)]
     for name, colour in PHASE_COLOURS.items():
         look = {**MARKS[name], "color": colour}
         dots.append((names.get(name, name), settled & (phase == name), look))
@@ -109,6 +111,22 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
             ax.plot(position[mask], values[mask], linestyle="", label=name, **sized)
     mark_failed(ax, along[failed(study).values])
     ax.set_ylabel(axis_of("psi")[0].replace("rad", "mrad"))
+
+
+def apart(values: Array, chosen: Mask) -> Mask:
+    """Those of the chosen samples, (points, samples), that are drawn as rings: at each point the
+    lowest, and from there on each that does not merge with the last one."""
+    shown = np.zeros(chosen.shape, dtype=bool)
+    known = values[np.isfinite(values)]
+    least = RINGS_APART * (np.ptp(known) if known.size else 0.0)
+    for point in np.flatnonzero(chosen.any(axis=1)):
+        last = -np.inf
+        for sample in np.argsort(values[point], kind="stable"):
+            height = values[point, sample]
+            if chosen[point, sample] and height >= last + least:
+                shown[point, sample] = True
+                last = height
+    return shown
 
 
 def _draw_idle(ax: Axes, study: xr.Dataset, along: Array) -> None:

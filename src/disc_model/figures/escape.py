@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import EscapeShares
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed
-from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import named_value
 
 COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
@@ -38,7 +38,7 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     study = study.squeeze([dim for dim in study.dims if dim not in plot.dims])
     horizon = float(stated_in(study, "options")["horizon"])
     figure, [ax] = panels(plot.inches, 3.0)
-    handles = []
+    handles: list[Artist] = []
     for place, value in enumerate(study[plot.by].values):
         row = study.sel({plot.by: value})
         times = row["first_separation"].values[~failed(row).values]

@@ -43,6 +43,7 @@ LOST = (":", (0, (5, 1, 1, 1)), (0, (1, 4)), (0, (7, 2)))
 """Lines at which contact is lost, of preloads in their order."""
 LINES = {"unilateral": "-", "bilateral": "--"}
 CONTACTS = {"unilateral": "with separation", "bilateral": "separation ignored"}
+FROM_LINE = 2  # points, distance of a name from its line
 LOWEST_NAME = (0.98, "right", "top")
 FURTHER_NAMES = (0.03, "left", "bottom")
 """Where the lowest of these lines and the others have their names: share of the panel's width, and
@@ -150,7 +151,9 @@ def _note(ax: Axes, height: float, text: str, place: tuple[float, str, str], **l
     """Name a horizontal line at a place, and on the side of it that is given by alignments."""
     across, ha, va = place
     look = {"size": large(6), "ha": ha, "va": va, **look}
-    ax.annotate(text, (across, height), xycoords=("axes fraction", "data"), **look)
+    gap = -FROM_LINE if va == "top" else FROM_LINE
+    place_of: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
+    ax.annotate(text, (across, height), (0, gap), **place_of, **look)
 
 
 def _lines_of(contacts: np.ndarray) -> dict[str, str]:

@@ -341,7 +341,7 @@ def _name_branch(ax: Axes, phase: Array, following: Array, slopes: Array, number
         (float(phase[last]), float(following[last])),
         (6, 0),
         fontsize=large(7),
-        path_effects=drawing.halo(),
+        bbox={"fc": "white", "lw": 0, "pad": 1},  # the diagonal may run there
     )
 
 

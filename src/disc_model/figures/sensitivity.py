@@ -15,7 +15,7 @@ from disc_model.data.variables import (
     presentation_of,
     typeset,
 )
-from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, row_of_panels, wide
+from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, row_of_panels, sample, wide
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Array, Axes, Figure
@@ -57,7 +57,8 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     axes[0].set_yticks(range(len(names)), labels=labels)
     axes[0].minorticks_off()
     handles = axes[0].get_legend_handles_labels()[0]
-    figure_legend(figure, handles, loc="outside lower center", columns=3)
+    handles.append(sample(color=BLUE, linewidth=wide(0.8), label="95 % interval"))
+    figure_legend(figure, handles, loc="outside lower center", columns=4)
     return figure
 
 

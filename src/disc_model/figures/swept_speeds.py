@@ -10,16 +10,7 @@ from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import stated_in
 from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.classes import UNSETTLED
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    GREY,
-    ORANGE,
-    SEPARATED,
-    mark,
-    mark_failed,
-    wide,
-)
+from disc_model.figures.drawing import BLACK, BLUE, GREY, ORANGE, SEPARATED, mark, mark_failed, wide
 from disc_model.figures.selection import failed, stretches
 from disc_model.figures.types import Axes
 
