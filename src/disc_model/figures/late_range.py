@@ -152,7 +152,10 @@ def _note(ax: Axes, height: float, text: str, place: tuple[float, str, str], **l
     across, ha, va = place
     look = {"size": large(6), "ha": ha, "va": va, **look}
     gap = -FROM_LINE if va == "top" else FROM_LINE
-    place_of: dict[str, Any] = {"xycoords": ("axes fraction", "data"), "textcoords": "offset points"}
+    place_of: dict[str, Any] = {
+        "xycoords": ("axes fraction", "data"),
+        "textcoords": "offset points",
+    }
     ax.annotate(text, (across, height), (0, gap), **place_of, **look)
 
 
