@@ -78,6 +78,16 @@ def test_a_sweep_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
     xr.testing.assert_identical(dm.load(tmp_path / f"sweep.{suffix}"), swept)
 
 
+def test_both_parts_of_missing_numbers_are_missing(tmp_path: Path) -> None:
+    """Imaginary parts were 0 in the file where there was no cycle."""
+    swept = dm.sweep(dm.floquet, P, zip={"N": [150, 200], "mu_k": [0.2, 0.41]})
+    dm.save(swept, tmp_path / "sweep.nc")
+    with xr.open_dataset(tmp_path / "sweep.nc") as file:
+        failed = file.isel(N_mu_k=1)
+        assert np.isnan(failed["multipliers_real"]).all()
+        assert np.isnan(failed["multipliers_imag"]).all()
+
+
 @SUFFIXES
 def test_a_sweep_over_discs_comes_back_as_it_was(suffix: str, tmp_path: Path) -> None:
     """Discs could not be saved."""

@@ -220,6 +220,21 @@ def test_all_that_a_sweep_gathers_has_a_unit_and_a_name(name: str) -> None:
         assert variable.dtype.kind in "UO" or variable.attrs.get("units"), key
 
 
+def test_a_sweep_gathers_branches_with_their_parameter() -> None:
+    """Points of branches had neither their speeds nor multipliers."""
+    options: dict[str, Any] = {"name": "Omega", "bounds": (14.8, 15.2)}
+    case = P.replace(Omega=15)
+    swept = sweep(dm.continue_cycle, case, N=[385, 390], **options)
+    branch = dm.continue_cycle(case, **options).to_dataset()
+    first = swept.sel(N=385).isel(point=slice(branch.sizes["point"]))
+    for name in ("Omega", "growth_rate", "range", "multipliers"):
+        np.testing.assert_array_equal(first[name], branch[name])
+    assert swept["Omega"].attrs["units"] == "rad s-1"
+    assert swept["ended"].sel(N=385).item() == branch.attrs["ended"]
+    with refusal(r"draw each by itself, as by continue_cycle"):
+        dm.plot_sweep(swept, "growth_rate")
+
+
 def test_values_of_a_search_are_in_the_unit_of_its_parameter() -> None:
     for name, unit in (("Omega", "rad s-1"), ("mu_k", "1")):
         bounds = (13.0, 14.0) if name == "Omega" else (0.2, 0.3)

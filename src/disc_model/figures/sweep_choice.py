@@ -172,6 +172,8 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     further = [dim for dim in over.get(named, ()) if dim not in study.coords]
     if further:
         rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
+    if "special" in study.dims:
+        rule = "must have no branches: draw each by itself, as by continue_cycle(...).plot(ax=ax)"
     require((named in choices, "variable", named, rule))
     return named
 

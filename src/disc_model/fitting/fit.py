@@ -43,6 +43,9 @@ Interval = tuple[float, float]
 
 STEP = 1e-4
 """Step of central differences, relative to a parameter's scale."""
+SHORTER = (1.0, 0.1, 0.01)
+"""Steps over that one, the first with predictions on a side: cycles exist in narrow intervals where
+several resonances meet. Those of the last still leave errors of 1e-6 of a derivative."""
 TOLERANCE = 1e-10
 """Relative change of parameters, cost and gradient at which the search ends."""
 MARGIN = 0.01
@@ -150,8 +153,9 @@ def _short(value: object) -> str:
 
 
 class Fitted(NamedTuple):
-    """A fitted parameter: its value, standard deviation and confidence interval, in its unit; an end
-    of the interval is nan if the measurements do not determine it, or have no prediction there."""
+    """A fitted parameter: its value, standard deviation and confidence interval, in its unit. All but
+    the value are nan if the measurements do not determine it, and an end of the interval also if they
+    have no prediction there."""
 
     value: float
     deviation: float
@@ -439,25 +443,55 @@ class _Problem:
         return False
 
     def jacobian(self, values: Array) -> Array:
-        """Return derivatives of the predictions, (m, n): central differences, or one-sided ones
-        where the case on one side breaks a rule."""
-        columns = []
-        for i, name in enumerate(self.names):
+        """Return derivatives of the predictions, (m, n)."""
+        here: list[Array] = []  # computed where it is needed
+
+        def at_values() -> Array:
+            if not here:
+                here.append(self.predictions(values))
+            return here[0]
+
+        return np.stack([self._column(values, i, at_values) for i in range(len(values))], axis=1)
+
+    def _column(self, values: Array, i: int, at_values: Callable[[], Array]) -> Array:
+        """Return derivatives by one parameter, (m,): central differences, or one-sided ones where the
+        case on one side breaks a rule or has no such quantity, over shorter steps where neither has.
+
+        Raises
+        ------
+        ParameterError
+            If no step has predictions; the message names the measurement that is missing.
+        """
+        for factor in SHORTER:
             step = np.zeros(len(values))
-            step[i] = STEP * self.scale[i]
+            step[i] = factor * STEP * self.scale[i]
             above = self.trial(values + step)
             below = self.trial(values - step)
-            if np.isnan(above).any() and np.isnan(below).any():
-                rule = "cannot be varied here: the measured quantities are missing on both sides"
-                rule += "; start the search from a case with other values"
-                raise ParameterError(Fault.of(("vary", name), float(values[i]), rule))
-            if np.isnan(above).any():
-                columns.append((self.predictions(values) - below) / step[i])
-            elif np.isnan(below).any():
-                columns.append((above - self.predictions(values)) / step[i])
-            else:
-                columns.append((above - below) / (2 * step[i]))
-        return np.stack(columns, axis=1)
+            is_above = not np.isnan(above).any()
+            is_below = not np.isnan(below).any()
+            if is_above and is_below:
+                return (above - below) / (2 * step[i])
+            if is_below:
+                return (at_values() - below) / step[i]
+            if is_above:
+                return (above - at_values()) / step[i]
+        raise ParameterError(self._fault_beside(values, step))
+
+    def _fault_beside(self, values: Array, step: Array) -> Fault:
+        """What is missing on both sides of a value, and what helps."""
+        reason = "the case breaks a rule there"
+        try:
+            self.predictions(values + step)
+        except ParameterError as error:
+            fault = error.faults[0]
+            if fault.path[0] == "measured":
+                reason = f"{fault.path[-1]} {fault.rule}"
+        [i] = np.flatnonzero(step)
+        rule = (
+            f"cannot be varied here, as on both sides {reason}; leave out this measurement, or start"
+            " the search from a case with other values"
+        )
+        return Fault.of(("vary", self.names[i]), float(values[i]), rule)
 
 
 def fit(
@@ -680,7 +714,7 @@ def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple
     unpredicted: dict[str, tuple[float, ...]] = {}
     for i, name in enumerate(names):
         if name in indistinct:
-            low[i] = high[i] = math.nan
+            deviation[i] = low[i] = high[i] = math.nan
             continue
         # the others change with it as the covariance says
         move = reach[i] * covariance[:, i] / covariance[i, i]

@@ -60,11 +60,8 @@ OF_PARAMETER = {
     "crossings": "value of {} at which stability changes",
     "values": "value of {} at which the motion was computed",
     "resolution": "largest step between values of {} at which the motion was computed",
-    "not_reached": "value of {} that the branch does not reach",
 }
-"""Variables of searches along a parameter that are in its unit, and their names."""
-SEARCHES = ("Critical", "Branch")
-"""Classes of their results."""
+"""Variables of `Critical` that are in the unit of its parameter, and their names."""
 
 
 def _attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
@@ -73,13 +70,11 @@ def _attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
     kind = type(result).__name__
     if not is_dataclass(type(result)):
         return _of_kind(function).get(name, {})
-    if kind in SEARCHES and name in OF_PARAMETER:
-        along = result.name if kind == "Critical" else result.parameters[0]
+    if kind == "Critical" and name in OF_PARAMETER:
+        along = result.name
         parameter = {}
-        if along in (
-            *Parameters.model_fields,
-            *RATIOS,
-        ):  # numbers of a disc's modes have no unit here
+        # numbers of a disc's modes have no unit here
+        if along in (*Parameters.model_fields, *RATIOS):
             parameter = describe(along)
         meaning = parameter.get("long_name", along)
         return {**parameter, "long_name": OF_PARAMETER[name].format(meaning)}
@@ -96,6 +91,8 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     """
     if isinstance(result, xr.DataArray):
         result = result.to_dataset(name=result.name or "value")
+    elif is_dataclass(result) and hasattr(result, "to_dataset"):
+        result = _of_branch(result.to_dataset())
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
@@ -107,6 +104,20 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
                 (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name, function)
             )
     return variables
+
+
+def _of_branch(branch: xr.Dataset) -> xr.Dataset:
+    """The dataset of a branch with why it ended and what it missed, and without the numbers of its
+    points, of which other branches have more."""
+    words = {
+        "ended": "why the branch ended in each direction",
+        "not_reached": "values asked for at which the branch has no cycle, in SI units",
+    }
+    said = {
+        name: xr.DataArray(branch.attrs.get(name, ""), attrs={"long_name": meaning})
+        for name, meaning in words.items()
+    }
+    return branch.drop_vars(["point", "special"]).assign(said)
 
 
 def _named_values(result: Any) -> Mapping[str, Any]:
@@ -156,7 +167,7 @@ def _type_of(kinds: set[str], *, complete: bool) -> tuple[Any, Any]:
     if kinds <= {"U"}:
         return object, ""
     if "c" in kinds:
-        return complex, math.nan
+        return complex, complex(math.nan, math.nan)
     if kinds <= {"b"} and complete:
         return bool, False
     if kinds <= {"i", "u"} and complete:
