@@ -9,6 +9,7 @@ import pytest
 from matplotlib import pyplot
 
 from disc_model.figures.fit import plot_fit
+from disc_model.figures.labels import without_font
 from disc_model.figures.sizes import COLUMN
 
 
@@ -16,9 +17,9 @@ def made_up(**changes: Any) -> Any:
     """Three measurements: one exceeded by 10 %, one of which 4 standard deviations are missing, and
     one of zero, which has its uncertainty for a size."""
     measurements = [
-        SimpleNamespace(name="first", value=200.0, uncertainty=4.0),
-        SimpleNamespace(name="second", value=-50.0, uncertainty=2.0),
-        SimpleNamespace(name="third", value=0.0, uncertainty=0.5),
+        SimpleNamespace(quantity="first", at={}, value=200.0, uncertainty=4.0),
+        SimpleNamespace(quantity="second", at={}, value=-50.0, uncertainty=2.0),
+        SimpleNamespace(quantity="third", at={}, value=0.0, uncertainty=0.5),
     ]
     computed = np.array([220.0, -58.0, 0.25])
     fit = {"measurements": measurements, "computed": computed, "chi_squared": 41.25}
@@ -95,4 +96,26 @@ def test_panels_beside_each_other_are_stacked_in_a_column(layout: Any, shared: b
         assert all(above.y0 >= below.y1 for above, below in pairwise(boxes))
     assert labels.y0 >= title.y1 - 1
     assert lower.get_legend().get_window_extent().y0 >= 0
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "at", "said"),
+    [
+        ("period", {"Omega": 12.0}, "period, Ω = 12 rad/s"),
+        ("slip_time", {"Omega": "100 rpm"}, "duration of slip, Ω = 100 rpm"),
+        ("growth_rate", {}, "growth rate"),
+        ("frequency_2_0", {}, "frequency of mode (2, 0)"),
+        ("damping_ratio_3_1", {"k_p": 8000.0}, "damping ratio of mode (3, 1), $k_p$ = 8 kN/m"),
+        ("coupled_frequency_1", {}, "frequency 1 of disc and slider"),
+    ],
+)
+def test_rows_name_measurements_by_words_symbols_and_units(
+    quantity: str, at: dict[str, Any], said: str
+) -> None:
+    """They were names of arguments, such as slip_time (Omega=12)."""
+    fit = made_up()
+    fit.measurements[0] = SimpleNamespace(quantity=quantity, at=at, value=200.0, uncertainty=4.0)
+    left, _ = plot_fit(fit)
+    assert without_font(left.get_yticklabels()[0].get_text()) == said
     pyplot.close("all")

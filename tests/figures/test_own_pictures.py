@@ -771,5 +771,5 @@ def test_exponents_that_have_not_converged_are_told_from_others() -> None:
     for bars in ax.containers:
         [points, *_] = bars
         numbers[bars.get_label()] = points.get_xdata().tolist()
-    assert numbers == {"converged": [1], "not converged": [2]}
+    assert numbers == {"converged, ± standard error": [1], "not converged, ± standard error": [2]}
     assert ax.get_title(loc="left") == "over 20 s, 1 separation"

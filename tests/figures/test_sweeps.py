@@ -494,7 +494,7 @@ def filled_points(ax: Any) -> list[tuple[float, float]]:
 @pytest.mark.parametrize("longer", [False, True])
 def test_points_that_rest_on_motions_which_had_not_settled_are_filled(longer: bool) -> None:
     """The message of `hysteresis` said so, and the picture did not."""
-    words = "not settled within max_dwell"
+    words = "not settled"
     sweep = settling(longer=longer)
     ax = dm.plot_sweep(sweep.sel(N=300), "range")
     assert filled_points(ax) == ([] if longer else [(12.0, 0.1)])

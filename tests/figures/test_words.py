@@ -93,7 +93,7 @@ def test_points_without_a_separation_are_called_so(name: str, options: str, text
             "onset_speed",
             "N",
             "speed, nan if at none or at the lowest",
-            "at no speed, or at the lowest already",
+            "none within the bounds",
         ),
         ("regions", "period", "N", "period of the cycle", "no cycle is followed"),
         ("floquet", "period", "N", "period of the cycle", "no value"),

@@ -44,7 +44,7 @@ STABLE = Look("stable", "none", 3 * ".")
 """Of growth rates below zero, since a grey print does not show the sign of a diverging scale."""
 AT_BOUND = Look("at or below the lower bound", "none", 4 * "-")
 """Of a critical value that is the lower bound of its search."""
-UNSETTLED = Look("not settled within max_dwell", "none", 4 * "\\")
+UNSETTLED = Look("not settled", "none", 4 * "\\")
 """Of a value that rests on a stay of a sweep at whose end the motion had not settled."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""

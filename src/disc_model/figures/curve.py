@@ -43,7 +43,7 @@ from disc_model.figures.selection import (
     titles_of,
     unsettled,
 )
-from disc_model.figures.types import Array, Axes, Figure
+from disc_model.figures.types import Array, Axes, Figure, Mask
 from disc_model.figures.words import (
     CHARACTER,
     NO_VALUE,
@@ -61,6 +61,9 @@ PLAIN = Look(BLACK)
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
+MARK = 3.0  # points, size of the marks of lines,
+WIDER = 2.5  # by so much larger for each line that others cover,
+WIDEST = 8.0  # but not beyond this
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of a line without gaps that have a mark, about
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
@@ -140,12 +143,19 @@ def draw_lines(
     line: Any = ""
     if joined and not names:
         line = single.line(THIN).get("linestyle", "-")
+    sizes = _sizes(parts)
+    bounds = _at_bound_by_part(study, array, by)
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
         heights = part.data.values
         colour = colours[part.name]
         look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
-        look["marker"] = marks[part.name]
+        look |= {"marker": marks[part.name], "markersize": sizes[part.name]}
+        if bounds[part.name].any():
+            # what is at a bound may lie anywhere below it, so that no line leads there
+            at_bound = {**look, "linestyle": "", "label": "_nolegend_"}
+            ax.plot(along[bounds[part.name]], heights[bounds[part.name]], **at_bound)
+            heights = np.where(bounds[part.name], np.nan, heights)
         if gapless:
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
@@ -166,11 +176,37 @@ def draw_lines(
 
     # what is no value, or none that was found
     _point_down(ax, study, array, x, colours)
-    _fill_unsettled(ax, study, array, x, marks, colours)
+    _fill_unsettled(ax, study, array, x, marks, colours, sizes)
     _mark_gaps(ax, study, array, x, marks, colours)
     if jumps:
         _mark_jumps(ax, parts, along, colours)
     return drawn
+
+
+def _sizes(parts: Sequence[Part[xr.DataArray]]) -> dict[str, float]:
+    """Sizes of the marks of lines: larger ones where others that are drawn later have the same values,
+    and would hide them."""
+    sizes = {}
+    covering = 0
+    for i, part in reversed([*enumerate(parts)]):
+        later = [other.data.values for other in parts[i + 1 :]]
+        if any(_coincide(part.data.values, values) for values in later):
+            covering += 1
+        sizes[part.name] = mark(min(MARK + WIDER * covering, WIDEST))
+    return sizes
+
+
+def _coincide(heights: Array, others: Array) -> bool:
+    """Whether two lines have equal values at a point."""
+    return bool(np.isclose(heights.astype(float), others.astype(float), rtol=1e-6).any())
+
+
+def _at_bound_by_part(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
+    """Points of each line whose value is the lower bound of its search."""
+    bound = at_lower_bound(study, str(array.name))
+    if bound is None:
+        bound = array.copy(data=np.zeros(array.shape, dtype=bool))
+    return {part.name: part.data.values for part in parts_along(bound, by)}
 
 
 def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
@@ -245,7 +281,8 @@ def _forget_empty(ax: Axes) -> None:
 def _shows_numbers(ax: Axes) -> bool:
     """Whether anything has a value along the vertical axis, also in other panels that share it."""
     for each in ax.get_shared_y_axes().get_siblings(ax):
-        if each.patches or each.collections:
+        in_panel = [patch for patch in each.patches if patch.get_clip_on()]  # no strip above it
+        if in_panel or each.collections:
             return True
         for line in each.lines:
             in_data = all(line.get_transform().contains_branch_seperately(each.transData))
@@ -290,7 +327,7 @@ def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look)
 def _look() -> dict[str, Any]:
     """Look of lines and of marks of missing values."""
     return {
-        "markersize": mark(3),
+        "markersize": mark(MARK),
         "markerfacecolor": "none",
         "markeredgewidth": wide(0.6),
         "linewidth": wide(0.7),
@@ -323,6 +360,7 @@ def _fill_unsettled(
     x: str,
     marks: Mapping[str, str],
     colours: Mapping[str, Any],
+    sizes: Mapping[str, float],
 ) -> None:
     """Fill the marks of points that rest on a motion which had not settled; those of a panel have one
     entry in the legend."""
@@ -338,6 +376,7 @@ def _fill_unsettled(
         here = chosen.data.values & np.isfinite(part.data.values)
         if here.any():
             look |= {"marker": marks[part.name], "color": colours[part.name]}
+            look["markersize"] = sizes[part.name] + mark(1)
             ax.plot(along[here], part.data.values[here], label="_nolegend_", **look)
 
 

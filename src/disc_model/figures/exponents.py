@@ -44,7 +44,7 @@ def plot_exponents(
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=overlaid.title) as page:
         page.show(Quantities("Number", EXPONENT))
         look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
-        filled = sample(label="filled: converged", color=GREY, **look)
+        filled = sample(label="filled: converged; ± standard error", color=GREY, **look)
         alone = draw_case(
             page, overlaid, [_marks(lyapunov)], lambda: _draw_alone(page, lyapunov), [filled]
         )
@@ -60,8 +60,8 @@ def _draw_alone(page: Page, lyapunov: Lyapunov) -> None:
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite = np.isfinite(lyapunov.exponents)
     for mask, face, word in (
-        (lyapunov.converged & finite, BLUE, "converged"),
-        (~lyapunov.converged & finite, "white", "not converged"),
+        (lyapunov.converged & finite, BLUE, "converged, ± standard error"),
+        (~lyapunov.converged & finite, "white", "not converged, ± standard error"),
     ):
         if not mask.any():
             continue

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.data.variables import SHOWN, typeset
 from disc_model.display import counted
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import (
@@ -20,6 +22,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
+from disc_model.figures.words import stated_value
 
 if TYPE_CHECKING:
     from disc_model.fitting.fit import Fit
@@ -29,6 +32,23 @@ DEVIATION = "Deviation (standard deviations)"
 ROWS = "Measurements"
 EXPECTED = 2.0  # standard deviations, within which most deviations are if the model is right
 LEAST_SPAN = 3.0  # standard deviations that are shown at least, on both sides
+WORDS = {
+    "period": "period",
+    "growth_rate": "growth rate",
+    "stick_fraction": "share of stick",
+    "stick_time": "duration of stick",
+    "slip_time": "duration of slip",
+    "slip_length": "path of a slip",
+    "sliding_growth_rate": "growth rate of sliding",
+    "sliding_frequency": "frequency of sliding",
+}
+"""What rows call quantities of a case,"""
+OF_MODES = {
+    r"^coupled_frequency_(\d+)$": r"frequency \1 of disc and slider",
+    r"^(frequency|damping_ratio)_(\d+)_(\d+)$": r"\1 of mode (\2, \3)",
+    r"^damping_ratio": "damping ratio",
+}
+"""and those of single modes, by their nodal diameters and circles."""
 ROW = 0.18  # inch, height of a measurement
 
 
@@ -91,9 +111,29 @@ def _set_rows(left: Axes, right: Axes, fit: Fit) -> None:
     rows = _rows(fit)
     for ax in (left, right):
         ax.set_yticks(rows)
-        ax.set_yticklabels([each.name for each in fit.measurements], fontsize=large(7))
+        ax.set_yticklabels([_said(each) for each in fit.measurements], fontsize=large(7))
         ax.set_ylim(-0.7, rows.size - 0.3)
     leave_to_first([right], [left])
+
+
+def _said(measurement: Any) -> str:
+    """What a row says of a measurement: its quantity in words, and what was set, by symbols and with
+    units."""
+    name = measurement.quantity
+    if callable(name):
+        name = getattr(name, "__name__", "quantity").replace("_", " ")
+    words = WORDS.get(name, name)
+    for pattern, shown in OF_MODES.items():
+        words = re.sub(pattern, shown, words)
+    settings = [_setting(parameter, value) for parameter, value in measurement.at.items()]
+    return typeset(", ".join([words, *settings]))
+
+
+def _setting(parameter: str, value: Any) -> str:
+    """A value of a parameter by its symbol; also one that is a text with a unit."""
+    if isinstance(value, str) and parameter in SHOWN:
+        return f"{SHOWN[parameter].symbol} = {value}"
+    return stated_value(parameter, value)
 
 
 def _rows(fit: Fit) -> np.ndarray:

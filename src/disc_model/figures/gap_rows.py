@@ -6,15 +6,19 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation, blended_transform_factory
 
 from disc_model.figures.drawing import GREY, large, mark, wide
+from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Array, Axes
 
 FIRST = 4.0  # points, height of the first row above its panel,
 APART = 5.0  # of a row, for marks of the usual size,
-GAP = 2.0  # and between a row and words
+GAP = 0.5  # between a row and words,
+BETWEEN = 2.0  # and more between these and the next row, which is nearer to its own
+STRIP = "#e6e6e6"  # behind rows, so that nobody takes their marks for values
 TEXT = 7.0  # points, size of the words
 LINE = 1.25  # height of one of their lines, over this size
 TITLE = 6.0  # points, distance of a title from what stands above a panel
@@ -22,9 +26,10 @@ TITLE = 6.0  # points, distance of a title from what stands above a panel
 
 @dataclass
 class Rows:
-    """The rows of one reason, from the lowest on, and the words above them."""
+    """The rows of one reason, from the lowest on, the words above them, and the strip behind them."""
 
     words: Text
+    strip: Rectangle
     rows: list[Any] = field(default_factory=list)
 
 
@@ -41,13 +46,16 @@ def rows_above(ax: Axes) -> list[Rows]:
 
 def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
     """Mark points above a panel, in a row under the words of their reason, which stand there once for
-    all lines."""
+    all lines, also of those on axes on the same place, such as those of ``ax.twinx()``."""
+    ax = _host_of(ax)
     if not rows_above(ax):
         _ROWS[ax] = {}
     reasons = _ROWS[ax]
     if reason not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
-        reasons[reason] = Rows(words)
+        strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
+        ax.add_artist(strip)
+        reasons[reason] = Rows(words, strip)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
@@ -58,6 +66,14 @@ def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
     stack_rows(ax)
 
 
+def _host_of(ax: Axes) -> Axes:
+    """The axes above which rows of others stand: those on the same place with rows, if there are
+    any that share the horizontal axis."""
+    shared = ax.get_shared_x_axes()
+    hosts = [each for each in twins_of(ax) if shared.joined(ax, each) and rows_above(each)]
+    return ax if rows_above(ax) or not hosts else hosts[0]
+
+
 def stack_rows(ax: Axes) -> None:
     """Set the rows above a panel, and the words of their reasons in as many lines as they have now,
     on each other; titles stand above them, also those of panels beside it on the same axis."""
@@ -65,6 +81,7 @@ def stack_rows(ax: Axes) -> None:
     height = mark(FIRST)
     found = rows_above(ax)
     for each in found:
+        _set_strip(ax, each, height - 0.5 * mark(APART))
         for row in each.rows:
             up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
             row.set_transform(blended_transform_factory(ax.transData, up))
@@ -73,14 +90,24 @@ def stack_rows(ax: Axes) -> None:
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
         each.words.set_transform(up)
         lines = each.words.get_text().count("\n") + 1
-        height += lines * LINE * large(TEXT) + mark(FIRST)
+        height += lines * LINE * large(TEXT) + mark(FIRST) + BETWEEN
     if not found:
         return
-    _HEIGHTS[ax] = height - mark(FIRST) + TITLE
+    _HEIGHTS[ax] = height - mark(FIRST) - BETWEEN + TITLE
     beside = [each for each in ax.get_shared_y_axes().get_siblings(ax) if _in_row(each, ax)]
     highest = max(_HEIGHTS.get(each, 0.0) for each in beside)
     for each in beside:
         _lift_titles(each, highest)
+
+
+def _set_strip(ax: Axes, found: Rows, height: float) -> None:
+    """Lay the strip of rows behind their marks, from a height in points above the panel on."""
+    page: Any = ax.get_figure(root=True)
+    found.strip.set_y(height / 72)
+    found.strip.set_height(len(found.rows) * mark(APART) / 72)
+    axes: Any = ax.transAxes  # affine, which its type does not say
+    up = page.dpi_scale_trans + ScaledTranslation(0, 1, axes)
+    found.strip.set_transform(blended_transform_factory(ax.transAxes, up))
 
 
 def _in_row(ax: Axes, other: Axes) -> bool:

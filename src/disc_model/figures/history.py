@@ -11,7 +11,15 @@ from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
+from disc_model.figures.overlay import (
+    Case,
+    Lines,
+    Style,
+    draw_case,
+    is_beside,
+    limits_of,
+    name_of_case,
+)
 from disc_model.figures.runs import (
     TIME,
     end_of_ranges,
@@ -95,8 +103,9 @@ def _draw_alone(
     """Draw variables of one run, with its phases and ramps, on a grid of axes."""
     entries: dict[str, Artist] = {}
     for column, window in zip(grid.T, windows, strict=True):
-        handles = draw_history(column, case, window, variables)
-        handles += shade_ramps(column, ramps_of(case))
+        twin = is_beside(column[0], "run")
+        handles = draw_history(column, case, window, variables, marked=not twin)
+        handles += shade_ramps([] if twin else column, ramps_of(case))
         entries.update({str(handle.get_label()): handle for handle in handles})
     page.explain([*entries.values()])
     if page.own:
@@ -170,13 +179,22 @@ def _lines(window: xr.Dataset, name: str) -> Lines:
 
 
 def draw_history(
-    axes: Sequence[Axes], case: xr.DataTree, window: xr.Dataset, variables: Sequence[str]
+    axes: Sequence[Axes],
+    case: xr.DataTree,
+    window: xr.Dataset,
+    variables: Sequence[str],
+    *,
+    marked: bool = True,
 ) -> list[Artist]:
     """Draw variables against time, over shaded phases unless these are too dense; returns entries
-    of a legend."""
+    of a legend.
+
+    marked : whether phases are shaded and the first separation is named here, and not on other axes
+        on the same place
+    """
     for ax, name in zip(axes, variables, strict=True):
-        show(ax, case, window, name, named=ax is axes[0])
+        show(ax, case, window, name, named=marked and ax is axes[0])
     _leave_to_last(axes)
     _number_times(axes[-1])
 
-    return shade_phases(axes, spans_in(case, window))
+    return shade_phases(axes if marked else [], spans_in(case, window))

@@ -19,7 +19,9 @@ from disc_model.figures.words import UNITS
 
 MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
 NUMBERS_APART = 4.0  # points, least gap between these
-BEYOND = 1.15  # length of a label over that of its axis, at most
+BEYOND = 1.15  # length of a label over that of its axis, at most,
+ROOM_BESIDE = 0.6  # or so many inches more beside panels that have none above or below,
+SHARE_BESIDE = 0.5  # or this share of the height of the page
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
 """What stays on one line: a unit, and a value with its name and unit."""
@@ -75,13 +77,25 @@ def _room(figure: Figure, label: Breakable) -> float:
     """Length in pixels that a text may have along its axes, of which it stands in the middle: not
     much beyond them, and not beyond the page."""
     box = label.ax.get_window_extent()
+    page: Any = figure.get_figure(root=True)
     room = label.beyond * getattr(box, label.direction)
+    if is_square(label.ax) and label.direction == "width" and label.beyond == 1.0:
+        # its place may be wider than the panel
+        slot = label.ax.get_position(original=True)
+        room = max(room, slot.x1 * page.bbox.width - box.x0)
     if label.beyond == 1.0:
         return room
-    page: Any = figure.get_figure(root=True)
     i = ("width", "height").index(label.direction)
+    place = label.ax.get_subplotspec()
+    if i == 1 and place is not None and place.get_topmost_subplotspec().get_gridspec().nrows == 1:
+        room = max(room, box.height + ROOM_BESIDE * page.dpi, SHARE_BESIDE * page.bbox.height)
     middle = 0.5 * (box.min[i] + box.max[i])
     return min(room, 2 * min(middle, page.bbox.max[i] - middle))
+
+
+def is_square(ax: Axes) -> bool:
+    """Whether both axes have one scale, so that the panel does not fill a place of another shape."""
+    return ax.get_aspect() != "auto"
 
 
 def _texts_of(ax: Axes) -> Iterator[Breakable]:
@@ -116,7 +130,8 @@ def _break(label: Any, direction: str, room: float) -> None:
         return
     words = text.split(" ")
     longest_word = max(map(seen, words))
-    for count in range(math.ceil(length / room), len(words) + 1):
+    fewest = min(math.ceil(length / max(room, 1.0)), len(words))
+    for count in range(fewest, len(words) + 1):
         lines = in_lines(text, count)
         label.set_text(lines.replace(HARD, " "))
         no_shorter = max(map(seen, lines.split("\n"))) <= longest_word
@@ -252,6 +267,30 @@ def spare_numbers(bar: Axes) -> None:
         return
     known = [number for number, _ in kept]
     _hide_numbers(axis, [number for number in values if number not in known])
+
+
+def spare_heights(ax: Axes) -> None:
+    """Hide numbers beside a scale of heights that is not linear where they would meet: those of minor
+    ticks first, and of equal ones those that are further from zero."""
+    axis: Any = ax.yaxis
+    if ax.get_yscale() == "linear":
+        return
+    for each in (axis.get_major_formatter(), axis.get_minor_formatter()):
+        if isinstance(each, Sparing):
+            each.hidden = []
+    whole = _shown(axis, axis.get_majorticklocs())
+    numbers = sorted(
+        _numbers_beside(axis), key=lambda each: (each[0] not in whole, abs(each[0]), each[0])
+    )
+    kept: list[Any] = []
+    hidden = []
+    for number, box in numbers:
+        if box.count_overlaps(kept):
+            hidden.append(number)
+        else:
+            kept.append(box)
+    if hidden:
+        _hide_numbers(axis, hidden)
 
 
 def _hide_numbers(axis: Any, hidden: list[float]) -> None:

@@ -232,6 +232,41 @@ def _meets_shape(box: Bbox, shape: Collection) -> bool:
     )
 
 
+def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
+    """Draw a legend on the right of a panel, in one column of broken lines where there is no room for
+    more, at the height of its middle; nothing, and None, if it has no room even then."""
+    page: Any = ax.get_figure(root=True)
+    page.draw_without_rendering()  # sets the places
+    gap = BESIDE * page.dpi
+    width = _free_below(ax, ()).right - ax.bbox.x1 - gap
+    for size in ({}, small()):
+        offset = ScaledTranslation(gap / page.dpi, 0, page.dpi_scale_trans)
+        draw = partial(
+            ax.legend,
+            handles=list(handles),
+            loc="center left",
+            bbox_to_anchor=(1, 0.5),
+            bbox_transform=ax.transAxes + offset,
+            borderaxespad=0,
+            **size,
+            **look,
+        )
+        legend = _widest_that_fits(draw, 1, width)
+        # a layout would squeeze the panel, which has this room on its right anyway
+        legend.set_in_layout(False)
+        box = legend.get_window_extent()
+        if box.width <= width and box.height <= page.bbox.height:
+            return legend
+        legend.remove()
+    return None
+
+
+def finds_room_beside(ax: Axes) -> bool:
+    """Whether the legend on the right of a panel ends before what stands there."""
+    legend: Legend = ax.get_legend()
+    return bool(legend.get_window_extent().x1 <= _free_below(ax, ()).right + ROUNDING)
+
+
 def legend_below(
     ax: Axes, handles: Sequence[Artist], bars: Sequence[Axes] = (), spare: float = 0.0, **look: Any
 ) -> Legend:

@@ -59,6 +59,7 @@ class Names(Artist):
         self._lines = np.empty((0, 2)) if lines is None else lines
         self._names: list[Annotation] = []
         self._places: list[list[Place]] = []
+        self._rivals: list[Array] = []
         self.set_zorder(-1)  # chosen before they are drawn
         self.set_in_layout(False)
         ax.add_artist(self)
@@ -82,14 +83,17 @@ class Names(Artist):
         text: str,
         points: Sequence[tuple[float, float]],
         offsets: Iterable[tuple[float, float]],
+        rivals: Array | None = None,
         **look: Any,
     ) -> None:
         """Add the name of a line, by the points of it beside which it may stand, and the offsets
-        from these, best first."""
-        self._add(text, [Place(*place) for place in product(points, offsets)], **look)
+        from these, best first; it stands nearer to these than to points of rival lines where there is room."""
+        self._add(text, [Place(*place) for place in product(points, offsets)], rivals, **look)
 
-    def _add(self, text: str, places: list[Place], **look: Any) -> None:
-        """Add a name with its places."""
+    def _add(
+        self, text: str, places: list[Place], rivals: Array | None = None, **look: Any
+    ) -> None:
+        """Add a name with its places, and the points of lines for whose name it must not pass."""
         ax: Any = self.axes
         if any(place.led for place in places):
             look["arrowprops"] = {**LEADER, "linewidth": wide(0.5)}
@@ -97,22 +101,32 @@ class Names(Artist):
         name.set_in_layout(False)
         self._names.append(name)
         self._places.append(places)
+        self._rivals.append(np.empty((0, 2)) if rivals is None else rivals)
 
     def draw(self, renderer: Any) -> None:
         """Choose the places of all names, which are drawn after it."""
         taken: list[Any] = []
         for i, name in enumerate(self._names):
             wanted = i == 0 or bool(taken) or not self._first_needed
-            name.set_visible(wanted and self._place(i, taken, renderer))
+            name.set_visible(wanted and self._find_place(i, taken, renderer))
         self.stale = False
 
-    def _place(self, i: int, taken: list[Any], renderer: Any) -> bool:
+    def _find_place(self, i: int, taken: list[Any], renderer: Any) -> bool:
+        """Move a name to a place with room: far from rival lines if there is one, else to any. Whether
+        there is one."""
+        others = self._others(i)
+        apart = np.vstack([others, self._rivals[i]])
+        if self._place(i, apart, taken, renderer):
+            return True
+        return len(apart) > len(others) and self._place(i, others, taken, renderer)
+
+    def _place(self, i: int, points: Array, taken: list[Any], renderer: Any) -> bool:
         """Move a name to the first of its places with room, nearer to its point than to other ones;
         its box, in pixels, is added to those taken. Whether there is such a place."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
         lines = panel.transData.transform(self._lines)
-        others = panel.transData.transform(self._others(i))
+        others = panel.transData.transform(points)
         name = self._names[i]
         name.set_visible(True)  # an invisible one has no extent
         for place in self._places[i]:

@@ -112,23 +112,32 @@ def _kinds_beside() -> list[Artist]:
 
 
 def _name_curves(ax: Axes, curves: Sequence[StabilityCurve], lines: Sequence[Array]) -> None:
-    """Write the resonance of each kind of curves once, beside the first that has it, where it covers
-    no curve."""
-    low, high = np.transpose([ax.get_xlim(), ax.get_ylim()])
-    names = Names(ax, lines=np.concatenate([_dense(line, high - low) for line in lines]))
-    named = set()
-    for curve, line in zip(curves, lines, strict=True):
-        name = (curve.kind, curve.resonance.label)
-        inside = line[np.all((line > low) & (line < high), axis=1)]
-        if name in named or not len(inside):
+    """Write the resonance of each kind of curves once, beside the first that has room for it: where it
+    covers no curve, and is nearer to its own than to those of other names."""
+    dense = [_dense(line, np.ptp([ax.get_xlim(), ax.get_ylim()], axis=1)) for line in lines]
+    names = Names(ax, lines=np.concatenate(dense))
+    called = [(curve.kind, curve.resonance.label) for curve in curves]
+    for name in dict.fromkeys(called):
+        kind, label = name
+        own = [line for line, other in zip(lines, called, strict=True) if other == name]
+        points = [point for line in own for point in _places_along(ax, line)]
+        if not points:
             continue
-        named.add(name)
-        shares = 0.5 + np.concatenate([[0.0], *([-apart, apart] for apart in APART)])
-        points = inside[np.round(shares * (len(inside) - 1)).astype(int)]
-        colour, _ = KINDS[curve.kind]
+        others = [line for line, other in zip(dense, called, strict=True) if other != name]
+        rivals = np.concatenate([np.empty((0, 2)), *others])
+        colour, _ = KINDS[kind]
         look: dict[str, Any] = {"fontsize": large(6), "color": colour, "path_effects": halo()}
-        text = typeset(curve.resonance.label)
-        names.add_along(text, [(x, y) for x, y in points.tolist()], OFFSETS, **look)
+        names.add_along(typeset(label), points, OFFSETS, rivals, **look)
+
+
+def _places_along(ax: Axes, line: Array) -> list[tuple[float, float]]:
+    """Points of a line beside which its name may stand: about its middle within the panel."""
+    low, high = np.transpose([ax.get_xlim(), ax.get_ylim()])
+    inside = line[np.all((line > low) & (line < high), axis=1)]
+    if not len(inside):
+        return []
+    shares = 0.5 + np.concatenate([[0.0], *([-apart, apart] for apart in APART)])
+    return [(x, y) for x, y in inside[np.round(shares * (len(inside) - 1)).astype(int)].tolist()]
 
 
 def _dense(line: Array, extent: Array) -> Array:

@@ -19,12 +19,15 @@ from disc_model.figures.labels import without_font
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
 from disc_model.figures.types import Array, Artist, Axes
 from disc_model.parameters import Parameters
 
 NAME = "case"
 """The label by which a reader names a case."""
 MARKERS = "osD^vP"
+OF_ONE_COLOUR = ("run", "spectrum")
+"""Kinds of pictures in which a case alone has one line in a colour of its variable."""
 WIDTHS = (0.6, 1.8, 3.2)
 """Of whole lines that lie on each other, points."""
 Limits = tuple[tuple[float, float], tuple[float, float]]
@@ -163,8 +166,27 @@ def draw_case(
         _stand_beside(page, case, panels, common)
         return False
     draw_alone()
+    for ax, drawn in zip(page.axes, page.added(), strict=True):
+        for former in _alone_beside(ax, case.kind):
+            tell_axes_apart(ax, drawn, *former)
     _remember_alone(page, case, panels)
     return True
+
+
+def is_beside(ax: Axes, kind: str) -> bool:
+    """Whether other axes on the same place, with heights of their own, show a case alone in a picture
+    of a kind."""
+    return any(_alone_beside(ax, kind))
+
+
+def _alone_beside(ax: Axes, kind: str) -> list[tuple[Axes, list[Any]]]:
+    """Such axes, and what was drawn there."""
+    found = []
+    for other in shown_beside(ax):
+        panels = _panels_on(other, kind)
+        if kind in OF_ONE_COLOUR and len(panels) == 1:
+            found.append((other, [reference() for reference in panels[0].drawn]))
+    return found
 
 
 def _remember_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:

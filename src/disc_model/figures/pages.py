@@ -11,12 +11,18 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import without_font
-from disc_model.figures.legends import figure_legend, legend_below, legend_inside, twins_of
+from disc_model.figures.labels import is_square, without_font
+from disc_model.figures.legends import (
+    figure_legend,
+    legend_below,
+    legend_beside,
+    legend_inside,
+    twins_of,
+)
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
 from disc_model.figures.types import Artist, Axes
 
-Place = Literal["inside", "below"]
+Place = Literal["inside", "beside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
 PLACED = "_disc_model_placed"
@@ -72,7 +78,8 @@ class Page:
     asked : labels that the reader asks for
     shown : what each panel shows along its axes
     handles : entries of the legend; none if there is none
-    beside : where the legend stands on a reader's axes; below them if it would cover something
+    beside : where the legend stands on a reader's axes; below them, or beside a square panel, if it would
+        cover something
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
     joins : whether the entries of a legend that the axes have are kept
@@ -110,6 +117,14 @@ class Page:
     @property
     def figure(self) -> Any:
         return self.ax.get_figure()
+
+    @property
+    def beside_last(self) -> list[Axes]:
+        """The bars, and the panels in the row of the last one, below which its legend may stand too."""
+        last = self.axes[-1].get_position(original=True)
+        heights = [ax.get_position(original=True) for ax in self.axes[:-1]]
+        row = zip(self.axes[:-1], heights, strict=True)
+        return [*self.bars, *(ax for ax, place in row if np.isclose(place.y0, last.y0))]
 
     def show(self, *panels: Quantities) -> None:
         """Say what the panels show, before anything is drawn; raises `ParameterError` if a reader's
@@ -257,11 +272,24 @@ def write_legend(page: Page, wishes: Wishes) -> None:
         figure_legend(page.figure, page.handles, title=page.heading)
     else:
         page.handles = _joined_with_twins(page)
-        if page.beside == "inside":
-            page.legend = legend_inside(page.ax, page.handles, title=page.heading)
-        if page.beside == "below" or page.legend is None:
-            page.beside = "below"
-            last = page.axes[-1]
-            page.legend = legend_below(
-                last, page.handles, page.bars, page.spare, title=page.heading
-            )
+        _place_legend(page)
+
+
+def _place_legend(page: Page) -> None:
+    """Write the legend inside a reader's axes, beside a square panel, or below the axes."""
+    page.legend = None
+    if page.beside == "inside":
+        page.legend = legend_inside(page.ax, page.handles, title=page.heading)
+    if page.beside != "below" and page.legend is None and is_square(page.ax):
+        page.beside = "beside"
+        anchor = page.ax.get_anchor()
+        page.ax.set_anchor("W")  # so that all room is on one side
+        page.legend = legend_beside(page.ax, page.handles, title=page.heading)
+        if page.legend is None:
+            page.ax.set_anchor(anchor)
+    if page.legend is None:
+        page.beside = "below"
+        last = page.axes[-1]
+        page.legend = legend_below(
+            last, page.handles, page.beside_last, page.spare, title=page.heading
+        )

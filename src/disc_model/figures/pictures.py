@@ -42,8 +42,9 @@ def plot_sweep(  # noqa: PLR0913
     around it has its own. An undecided cell is never hatched. A line of growth rates of cycles is open,
     which marks above the panel say, between neighbours that differ by more than a factor of 2.4, or
     by a tenth of 1/s about zero: the next point may be of another cycle, or the rate is steep, and
-    finer steps show which. Filled marks, and hatched cells of a map, are of a sweep of the speed whose
-    motion had not settled. An axis is logarithmic if three or more
+    finer steps show which. Marks on a grey strip above the panel are of points without a value; no
+    line leads to a value that is the lower bound of its search. Filled marks, and hatched cells of a
+    map, are of a sweep of the speed whose motion had not settled. An axis is logarithmic if three or more
     positive values span a decade or more and have equal ratios within 1e-6, as those of
     `numpy.geomspace`.
 
@@ -63,11 +64,11 @@ def plot_sweep(  # noqa: PLR0913
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures
     ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar",
-        and names of lines, by their variable. On axes that have lines of a sweep, those of another case, or of another
-        variable of the same unit, get a colour and dashes of their own, and the legend names all by what differs.
-        Usual labels are the attributes `long_name` and `units` of a variable, which are yours to set. In a figure
-        without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as by
-        ``figure.subplots_adjust``, until labels, bar and legend lie on the page
+        and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a sweep, those
+        of another case, or of another variable of the same unit, get a colour and dashes of their own, and the legend
+        names all by what differs. Usual labels are the attributes `long_name` and `units` of a variable, which are
+        yours to set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are
+        widened, as by ``figure.subplots_adjust``, until labels, bar and legend lie on the page
 
     Returns
     -------

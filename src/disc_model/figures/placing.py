@@ -4,6 +4,7 @@ the page."""
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from matplotlib.transforms import Bbox
@@ -19,6 +20,20 @@ LEAST_STEP = 0.1  # pixel, less than which is rounding
 LEAST_SIDE = 0.9  # inch, of a panel, up to which gaps between panels are widened
 LEAST_BESIDE = 2.4  # inch of the width of a figure for each of several panels beside each other
 LEAST_SHARE = 0.1  # of their size, or of the page, that axes keep in any case
+
+
+MARGINS = ("left", "right", "bottom", "top", "wspace", "hspace")
+
+
+class Margins(NamedTuple):
+    """Margins of a figure and gaps between its axes: those of its reader, and those that were widened
+    from them."""
+
+    own: dict[str, float]
+    widened: dict[str, float]
+
+
+_MARGINS: WeakKeyDictionary[Any, Margins] = WeakKeyDictionary()
 
 
 class Beyond(NamedTuple):
@@ -48,6 +63,23 @@ def stack_narrow(axes: Sequence[Axes], height: float) -> None:
         ax.set_subplotspec(place)
         ax.tick_params(labelleft=True)  # panels of a row that share an axis leave them out
     page.set_figheight(max(page.get_figheight(), height * len(axes)))
+
+
+def restore_margins(figure: Any) -> None:
+    """Give a figure the margins of its reader back, unless these are others now: what is drawn later
+    may need less room than what stood there before."""
+    now = {name: getattr(figure.subplotpars, name) for name in MARGINS}
+    known = _MARGINS.get(figure)
+    if known is None or known.widened != now:
+        known = Margins(now, now)
+        _MARGINS[figure] = known
+    figure.subplots_adjust(**known.own)
+
+
+def keep_margins(figure: Any) -> None:
+    """Note the margins to which a figure's own ones have been widened."""
+    now = {name: getattr(figure.subplotpars, name) for name in MARGINS}
+    _MARGINS[figure] = _MARGINS[figure]._replace(widened=now)
 
 
 def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:

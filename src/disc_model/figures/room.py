@@ -7,11 +7,17 @@ from weakref import WeakSet
 from matplotlib.text import Text
 
 from disc_model.figures.colours import bars_of
-from disc_model.figures.labels import break_labels, part_numbers, set_upright, spare_numbers
-from disc_model.figures.legends import finds_room_below, finds_room_inside
+from disc_model.figures.labels import (
+    break_labels,
+    part_numbers,
+    set_upright,
+    spare_heights,
+    spare_numbers,
+)
+from disc_model.figures.legends import finds_room_below, finds_room_beside, finds_room_inside
 from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
-from disc_model.figures.placing import fit_to_page
+from disc_model.figures.placing import fit_to_page, keep_margins, restore_margins
 from disc_model.figures.types import Axes
 
 ROUNDS = 4  # in which legends find their places after axes have got other sizes
@@ -31,9 +37,15 @@ def make_room(page: Page, wishes: Wishes) -> None:
         part_numbers(ax)
 
     plain = figure.get_layout_engine() is None
+    if plain:
+        restore_margins(figure)
+        keep_margins(figure)
+        break_labels(figure, [*panels, *chain(*panels.values())])
     for _ in range(ROUNDS):
         if plain:
+            restore_margins(figure)
             fit_to_page(figure, panels)
+            keep_margins(figure)
         if len(panels) > len(page.axes):
             break_labels(figure, [*panels, *chain(*panels.values())])
         figure.draw_without_rendering()  # sets the places
@@ -45,9 +57,12 @@ def make_room(page: Page, wishes: Wishes) -> None:
             write_legend(former, asked)
             _remember(former, asked)
     if plain:
+        restore_margins(figure)
         fit_to_page(figure, panels)
+        keep_margins(figure)
     for ax, bars in panels.items():
         part_numbers(ax)
+        spare_heights(ax)
         for bar in bars:
             spare_numbers(bar)
 
@@ -87,5 +102,7 @@ def _cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
 def _finds_room(page: Page) -> bool:
     """Whether the legend of a picture covers nothing, and meets nothing beside it."""
     if page.beside == "below":
-        return finds_room_below(page.axes[-1], page.bars)
+        return finds_room_below(page.axes[-1], page.beside_last)
+    if page.beside == "beside":
+        return finds_room_beside(page.ax)
     return finds_room_inside(page.ax)

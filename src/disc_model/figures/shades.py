@@ -50,6 +50,8 @@ def _shade(phase: str) -> Artist:
 def shade_ramps(axes: Sequence[Axes], ramps: Sequence[Course]) -> list[Artist]:
     """Shade the time of each ramp that is seen, between lines where it begins and ends; returns
     entries of a legend, which state its values, or one for many ramps of a parameter."""
+    if len(axes) == 0:
+        return []
     low, high = axes[0].get_xlim()
     ramped = dict.fromkeys(ramp.parameter for ramp in ramps)
     looks = dict(zip(ramped, cycle(RAMPS), strict=False))

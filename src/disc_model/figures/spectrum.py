@@ -11,7 +11,7 @@ from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN, sample, wide
 from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
+from disc_model.figures.overlay import Case, Lines, Style, draw_case, is_beside, name_of_case
 from disc_model.figures.peak_names import name_lines
 from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
 from disc_model.figures.types import Artist, Axes
@@ -52,8 +52,9 @@ def plot_spectrum(
             former = words_of(axes.xaxis.label)
             found = amplitudes(samples, variable, highest)
             panels = [_beside(axes, samples, variable, found)]
+            named = not is_beside(axes, "spectrum")  # peaks on other axes have the same names
             alone = draw_case(
-                page, overlaid, panels, lambda: draw_spectrum(axes, samples, variable, found)
+                page, overlaid, panels, lambda: draw_spectrum(axes, samples, variable, found, named)
             )
             resolutions_differ = words_of(axes.xaxis.label) != former
             if not alone and resolutions_differ:
@@ -85,14 +86,17 @@ def _check_range(samples: xr.Dataset, highest: float | None) -> None:
     require((within, "highest", highest, rule))
 
 
-def draw_spectrum(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:
-    """Draw the amplitude of a variable over the frequency, with the names of its lines."""
+def draw_spectrum(
+    ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes, named: bool = True
+) -> None:
+    """Draw the amplitude of a variable over the frequency, with the names of its lines if `named`."""
     colour = sampled(variable, samples)[2]
     ax.semilogy(shown.frequency, shown.amplitude, color=colour, linewidth=wide(0.7))
     _label(ax, samples, variable, shown)
     ax.set_xlim((0, shown.highest))
     ax.set_ylim(shown.lowest, _upper_end(ax, shown))
-    name_lines(ax, shown.peaks, shown.resolution)
+    if named:
+        name_lines(ax, shown.peaks, shown.resolution)
 
 
 def _label(ax: Axes, samples: xr.Dataset, variable: str, shown: Amplitudes) -> None:

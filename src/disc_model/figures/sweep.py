@@ -15,7 +15,15 @@ from disc_model.figures.curve import MARKS, draw_lines
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.sweep_choice import SHARES, Drawn, case_of, choose_drawn, said_of, values_of
+from disc_model.figures.sweep_choice import (
+    SHARES,
+    Drawn,
+    case_of,
+    choose_drawn,
+    options_of,
+    said_of,
+    values_of,
+)
 from disc_model.figures.sweep_lines import (
     join_lines,
     lines_beside,
@@ -89,8 +97,9 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     """Draw lines beside those of other variables of the same unit, and of other cases."""
     others = lines_on(page.ax)
     labels = (label_of(study[drawn.across])[0], label_in(study, drawn.variable))
-    lines = lines_of(study, drawn.variable, labels, name, values_of(study))
-    lines.shown.said = said_of(study)
+    options = options_of(study)
+    lines = lines_of(study, drawn.variable, labels, name, {**options, **values_of(study)})
+    lines.shown.said = {**options, **said_of(study)}
     quantities = quantities_of(lines, others)
     page.show(quantities)
     marks = {}

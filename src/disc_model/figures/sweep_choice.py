@@ -36,6 +36,12 @@ FIRST_OF_SEVERAL = {
     "value": "lowest natural frequency of disc and attached slider",
 }
 """Names of the first value of such variables that have several at each point."""
+OPTIONS = {
+    "stays": "stays of {} s",
+    "evaluation_time": "last {} s of stays",
+    "horizon": "horizon {} s",
+}
+"""What legends say of options that differ between sweeps."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 
@@ -208,6 +214,21 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
     for name, values in study.coords.items():
         if values.size == 1 and values.attrs.get("units", "1") != "1" and not known_name(values):
             said[str(name)] = f"{name} = {value_text(study, str(name))}"
+    return said
+
+
+def options_of(study: xr.Dataset) -> dict[str, str]:
+    """Words for the options with which a study was computed, by their names, such as the length of
+    stays: those that are numbers or words."""
+    options = json.loads(study.attrs.get("options", "{}"))
+    if {"dwell", "max_dwell"} <= {*options}:
+        stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
+        options["stays"] = " to ".join(stays)
+    said = {}
+    for name, value in options.items():
+        if isinstance(value, str | float | int) and not isinstance(value, bool):
+            shown = f"{value:g}" if isinstance(value, float | int) else value
+            said[name] = OPTIONS.get(name, f"{name.replace('_', ' ')} {{}}").format(shown)
     return said
 
 

@@ -12,13 +12,15 @@ import xarray as xr
 
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.family import LOOKS, Member, names_of, retitle
+from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
 from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on, unit_in
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
 
+CASE = "case"
+"""The label by which a reader names all lines of a sweep."""
 LOOSE = {"a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "over", "the", "to", "with"}
 LOOSE |= {"that", "which", "whose"}
 """Words at which what a name is of begins."""
@@ -59,9 +61,13 @@ def lines_beside(ax: Axes) -> list[Lines]:
 
 
 def names_asked(labels: Any, variables: Sequence[str]) -> tuple[dict[str, str], Any]:
-    """The names that a reader gives lines, by variables, and the other labels."""
+    """The names that a reader gives lines, by variables, and the other labels; one of the case is
+    that of all its lines."""
     if not isinstance(labels, Mapping):
         return {}, labels
+    case, labels = name_in(labels, CASE)
+    if case:
+        labels = {**dict.fromkeys(variables, case), **labels}
     names = {name: text for name, text in labels.items() if name in variables}
     for name, text in names.items():
         require((isinstance(text, str), f"labels.{name}", text, "must be a text"))
@@ -139,6 +145,15 @@ def _within(name: str) -> str:
     return name[0].lower() + name[1:] if first[1:].islower() else name
 
 
+def _distinct(names: Sequence[str], family: Sequence[Member]) -> list[str]:
+    """Names of lines, with their variables where a reader gives several of them one name."""
+    found = []
+    for name, each in zip(names, family, strict=True):
+        alike = each.name and names.count(name) > 1
+        found.append(f"{name}, {_within(each.values['variable'])}" if alike else name)
+    return found
+
+
 def next_look(ax: Axes) -> Look:
     """The look of the next lines on axes."""
     return LOOKS[len(lines_beside(ax)) % len(LOOKS)]
@@ -156,7 +171,7 @@ def join_lines(page: Page, new: Lines) -> None:
         short = each.phrase.removesuffix(tail).rstrip(" ,")
         each.shown.values = {**each.shown.values, "variable": short}
     if len(family) > 1:
-        names = names_of(shown, "sweep")
+        names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page.figure, shown)
 
     page.joins = True

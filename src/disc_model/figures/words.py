@@ -142,8 +142,8 @@ WITHOUT = {
     "if contact is not lost": "contact is not lost",
     "without one": "no cycle",
     "if there is none": "none found",
-    "if at none or at the lowest": "at no speed, or at the lowest already",
-    "if it still does at the lowest": "none, or still at the lowest speed",
+    "if at none or at the lowest": "none within the bounds",
+    "if it still does at the lowest": "none within the bounds",
     "if there is none, or it continues": "none, or it continues",
     "if it was not": "it was not left",
 }
@@ -279,6 +279,8 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
     if name == "critical_speed" and "scan_Omega" in study.coords:
         speeds = study["scan_Omega"].values
         return f"none from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+    if name == "value" and study.attrs.get("function") == "critical":
+        return _none_up_to_bound(study)
     if name not in study:
         return ""
     of_quantity = GONE.get(str(study.attrs.get("quantity", "")), {})
@@ -289,6 +291,17 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
         if dim in dims:
             return reason
     return WITHOUT.get(str(study[name].attrs.get("long_name", "")).partition(", nan ")[2], "")
+
+
+def _none_up_to_bound(study: xr.Dataset) -> str:
+    """What is said of a search that has found no critical value: the motion is stable at all values
+    up to the upper bound, which is in the unit of the value; "" of a bound that is a text."""
+    highest = json.loads(study.attrs.get("options", "{}")).get("bounds", ["", ""])[1]
+    if isinstance(highest, str):
+        return f"none up to {highest}" if highest else ""
+    shown = measured(study["value"].copy(data=np.full(study["value"].shape, float(highest))))
+    unit = unit_text(study["value"].attrs.get("units", "1"))
+    return f"none up to {shown.values.flat[0]:.6g} {unit}".rstrip()
 
 
 def horizon_text(study: xr.Dataset) -> str:

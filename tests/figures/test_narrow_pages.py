@@ -1,0 +1,311 @@
+"""Pictures on a reader's axes in figures as low and narrow as those of a journal's column."""
+
+import functools
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+from matplotlib.colors import same_color, to_hex
+from matplotlib.text import Text
+
+import disc_model as dm
+from disc_model.figures.gap_rows import rows_above
+from disc_model.figures.labels import break_labels, in_lines
+from disc_model.figures.names import Names
+from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.sizes import COLUMN, INCH, PAGE
+from tests.figures.reading import assert_numbers_are_apart
+
+CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
+LEAST = 23.0
+"""Side of panels, mm, that the documentation promises."""
+
+
+def assert_on_page(figure: Any) -> None:
+    """All words lie on the page, and none of a legend on numbers or labels."""
+    figure.draw_without_rendering()
+    width, height = figure.bbox.size
+    for ax in figure.axes:
+        legend = ax.get_legend()
+        labels = [axis.label for axis in (ax.xaxis, ax.yaxis) if axis.get_visible()]
+        texts = [*labels, *ax.texts]
+        texts += [each for each in ax.get_children() if isinstance(each, Text)]
+        texts += legend.get_texts() if legend is not None else []
+        for text in texts:
+            box = text.get_window_extent()
+            inside = min(box.x0, box.y0) > -1 and box.x1 < width + 1 and box.y1 < height + 1
+            assert inside or not text.get_text().strip(), text.get_text()
+        assert_numbers_are_apart(ax)
+
+
+def side(ax: Any) -> float:
+    """The shorter side of a panel, mm."""
+    return float(min(ax.bbox.width, ax.bbox.height) / ax.figure.dpi * INCH)
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+@pytest.mark.parametrize("count", [1, 2])
+def test_multipliers_keep_their_circle_beside_their_legend(
+    layout: Any, width: float, count: int
+) -> None:
+    """The legend stood below it even on wide pages, and left a circle of 8 mm below a note that ran
+    off the page."""
+    figure, ax = pyplot.subplots(figsize=(width, 2.4), layout=layout)
+    for speed in (15, 13)[:count]:
+        dm.floquet(CASE.replace(Omega=speed)).plot(ax=ax)
+    assert_on_page(figure)
+    assert side(ax) >= LEAST
+    pyplot.close(figure)
+
+
+def test_a_label_of_an_axis_that_is_shorter_than_its_words_is_broken() -> None:
+    """It stayed in one line, and left the page."""
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 2.4))
+    ax.set_position((0.2, 0.2, 0.05, 0.05))
+    words = "a note of some words"
+    ax.set_title(words, loc="left")
+    break_labels(figure, [ax])
+    assert ax.get_title(loc="left") == in_lines(words, len(words.split()))
+    pyplot.close(figure)
+
+
+SPEEDS = [10.0, 12.0, 14.0, 16.0, 18.0, 20.0]
+STATUS = {"flag_values": np.arange(2, dtype=np.int8), "flag_meanings": "ok no_cycle"}
+
+
+def growth(rates: Any) -> xr.Dataset:
+    """Growth rates of a cycle over the speed, nan where none was found, and its periods."""
+    found = np.array(rates)
+    data = {
+        "growth_rate": (
+            "Omega",
+            found,
+            {"units": "s-1", "long_name": "growth rate of the stick-slip cycle"},
+        ),
+        "period": (
+            "Omega",
+            np.where(np.isnan(found), np.nan, 0.016 - 1e-4 * np.arange(6)),
+            {"units": "s", "long_name": "period of the stick-slip cycle"},
+        ),
+        "status": ("Omega", np.isnan(found).astype(np.int8), STATUS),
+    }
+    speed = ("Omega", SPEEDS, {"units": "rad s-1"})
+    return xr.Dataset(data, {"Omega": speed}, {"base": '{"N": 385}'})
+
+
+def rows_of(figure: Any) -> list[Any]:
+    """The rows of marks above all panels of a figure."""
+    return [row for ax in figure.axes for row in rows_above(ax)]
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_twin_axes_of_a_column_say_once_what_has_no_value(layout: Any) -> None:
+    """Each wrote it over the words of the other, and labels of many lines left the page."""
+    study = growth([0.01, 0.0, -0.1, np.nan, 0.6, 0.1])
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 2.4), layout=layout)
+    dm.plot_sweep(study, "growth_rate", ax=ax)
+    dm.plot_sweep(study, "period", ax=ax.twinx())
+    assert_on_page(figure)
+    said = [row.words.get_text().replace("\n", " ") for row in rows_of(figure)]
+    assert said == ["no cycle found", OPEN]
+    assert [len(row.rows) for row in rows_of(figure)] == [2, 1]
+    assert side(ax) > 18
+    pyplot.close(figure)
+
+
+def test_a_row_of_marks_is_nearer_to_its_own_words_on_a_strip() -> None:
+    """A stroke lay midway between two notes, and a ring above the frame looked like a value."""
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 2.4))
+    dm.plot_sweep(growth([0.01, 0.0, -0.1, np.nan, 0.6, 0.1]), "growth_rate", ax=ax)
+    figure.draw_without_rendering()
+    below, above = rows_above(ax)
+    middle = above.rows[0].get_window_extent()
+    centre = 0.5 * (middle.y0 + middle.y1)
+    to_own = above.words.get_window_extent().y0 - centre
+    to_other = centre - below.words.get_window_extent().y1
+    assert to_other > 1.3 * to_own
+    for each in (below, above):
+        strip = each.strip.get_window_extent()
+        marks = each.rows[0].get_window_extent()
+        assert strip.y0 <= 0.5 * (marks.y0 + marks.y1) <= strip.y1
+        assert strip.width == pytest.approx(ax.bbox.width)
+    pyplot.close(figure)
+
+
+def test_numbers_of_a_low_scale_of_growth_rates_do_not_meet() -> None:
+    """0.5, 0.2 and 0.1 were printed on each other."""
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 1.8))
+    dm.plot_sweep(growth([0.01, 0.0, -0.1, -0.1, 0.6, 0.1]), "growth_rate", ax=ax)
+    assert_on_page(figure)
+    assert "0.1" in {each.get_text() for each in ax.get_yticklabels()}
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("height", [50, 60, 76])
+@pytest.mark.parametrize("width", [84, 174])
+def test_speeds_of_a_hysteresis_that_were_not_found_fit_a_low_page(
+    width: float, height: float
+) -> None:
+    """Two long notes above the panel pushed label and legend off the page."""
+    speed = {"units": "rad s-1"}
+    begins = (
+        "speed at which separation first is found on the way up, nan if at none or at the lowest"
+    )
+    ends = "lowest speed to which it persists on the way down, nan if it still does at the lowest"
+    data = {
+        name: ("N", [np.nan, np.nan], {**speed, "long_name": words})
+        for name, words in (("onset_speed", begins), ("offset_speed", ends))
+    }
+    study = xr.Dataset(data, {"N": ("N", [300.0, 320.0], {"units": "N"})})
+    figure, ax = pyplot.subplots(figsize=(width / INCH, height / INCH))
+    dm.plot_sweep(study, ["onset_speed", "offset_speed"], ax=ax)
+    assert_on_page(figure)
+    [row] = rows_above(ax)
+    assert row.words.get_text() == "none within the bounds"
+    pyplot.close(figure)
+
+
+def test_margins_are_as_wide_as_the_last_picture_needs() -> None:
+    """They were never narrower again than a former title had needed."""
+    figures = []
+    for former in (False, True):
+        figure, ax = pyplot.subplots(figsize=(COLUMN, 2.4))
+        if former:
+            dm.plot_sweep(growth(6 * [0.02]), "growth_rate", ax=ax, title="a\nb\nc\nd")
+            ax.clear()
+        dm.plot_sweep(growth([0.01, 0.02, 0.03, 0.02, 0.01, 0.0]), "growth_rate", ax=ax)
+        figure.draw_without_rendering()
+        figures.append(ax.get_subplotspec().get_position(figure).bounds)
+        pyplot.close(figure)
+    assert figures[0] == pytest.approx(figures[1], abs=0.01)
+
+
+def test_both_columns_of_runs_have_room_for_their_legend() -> None:
+    """It stood below the second column alone, and left the page."""
+    figure, axes = pyplot.subplots(3, 2, figsize=(COLUMN, 3.6))
+    for speed in (15, 18):
+        dm.simulate(CASE.replace(Omega=speed), 1).plot(ax=axes)
+    assert_on_page(figure)
+    legend = axes[2, 1].get_legend()
+    assert legend.get_window_extent().x0 < axes[2, 1].bbox.x0
+    pyplot.close(figure)
+
+
+@functools.cache
+def run() -> dm.Result:
+    return dm.simulate(CASE, 8, {"late": dm.Window(last=0.5, rate=1e4)})
+
+
+def shown_of(ax: Any) -> Any:
+    """The line of a variable, which has more points than those that mark something."""
+    return max(ax.lines, key=lambda line: len(line.get_xdata()))
+
+
+@pytest.mark.parametrize("variables", [("P", "u"), ("u", "u_velocity")])
+@pytest.mark.parametrize("spectrum", [False, True])
+def test_heights_of_twin_axes_have_the_colours_of_their_lines(
+    variables: tuple[str, str], spectrum: bool
+) -> None:
+    """No word said which line belonged to which axis, and phases were shaded twice."""
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 2.4))
+    both = [ax, ax.twinx()]
+    for each, variable in zip(both, variables, strict=True):
+        if spectrum:
+            run().plot_spectrum("late", variable=variable, ax=each)
+        else:
+            run().plot("late", variables=[variable], ax=each)
+    assert_on_page(figure)
+    colours = [shown_of(each).get_color() for each in both]
+    assert len({to_hex(colour) for colour in colours}) == 2
+    for each, colour in zip(both, colours, strict=True):
+        assert same_color(each.yaxis.label.get_color(), colour)
+        assert all(same_color(text.get_color(), colour) for text in each.get_yticklabels())
+    assert not both[1].collections, "shaded once"
+    assert not both[1].texts, "peaks are named once"
+    pyplot.close(figure)
+
+
+def directions(up: Any, down: Any) -> xr.Dataset:
+    """Ranges on the way up and down of a sweep of the speed."""
+    values = ("direction", "Omega"), np.array([up, down]), {"units": "m", "long_name": "range"}
+    coords = {"direction": ["up", "down"], "Omega": ("Omega", [8.0, 9.0, 10.0])}
+    return xr.Dataset({"range": values}, coords)
+
+
+def test_marks_below_those_of_another_line_are_larger() -> None:
+    """Open marks of "up" were wholly hidden below those of "down"."""
+    for up, larger in (([0.0, 0.0, 1.0], True), ([0.1, 0.2, 1.0], False)):
+        ax = dm.plot_sweep(directions(up, [0.0, 0.0, 0.5]), "range", x="Omega")
+        first, second = ax.lines[:2]
+        assert (first.get_markersize() > 1.5 * second.get_markersize()) == larger
+        pyplot.close("all")
+
+
+def test_no_line_leads_to_a_value_at_the_bound_of_its_search() -> None:
+    """Nothing is known of it but that it is there or below, and a gap had no reason."""
+    value = {"units": "rad s-1", "long_name": "critical value of speed"}
+    data = {
+        "value": ("N", [12.0, 12.0, 12.6, 13.4, np.nan], value),
+        "at_lower_bound": ("N", np.array([1, 1, 0, 0, 0], dtype=np.int8)),
+    }
+    attrs = {"function": "critical", "options": '{"bounds": [12, 14.5], "name": "Omega"}'}
+    study = xr.Dataset(data, {"N": [280.0, 300.0, 320.0, 340.0, 385.0]}, attrs)
+    ax = dm.plot_sweep(study, "value")
+    joined = [line for line in ax.lines if line.get_linestyle() == "-"]
+    lowest = [float(np.nanmin(line.get_ydata())) for line in joined if len(line.get_xdata())]
+    assert min(lowest) > 12.1
+    alone = [line for line in ax.lines if line.get_linestyle() == "None"]
+    assert any([*line.get_xdata()] == [280.0, 300.0] for line in alone)
+    [row] = rows_above(ax)
+    assert row.words.get_text() == "none up to 14.5 rad/s"
+    pyplot.close("all")
+
+
+def named(ax: Any) -> list[str]:
+    """What the legend of a panel says, in rows."""
+    return [text.get_text().replace("\n", " ") for text in ax.get_legend().get_texts()]
+
+
+def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
+    """They were "sweep 1" and "sweep 2", and a label of the case was refused."""
+    sweeps = []
+    for stays in ("5.0, 5.0", "20.0, 160.0"):
+        dwell, longest = stays.split(", ")
+        options = f'{{"dwell": {dwell}, "max_dwell": {longest}, "tol": 1e-10}}'
+        attrs = {"options": options, "base": '{"N": 300}'}
+        found = directions([0.0, 0.1, 1.0], [0.5, 0.7, 0.9])
+        sweeps.append(found.assign_attrs(attrs).isel(direction=0, drop=True))
+    _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
+    for sweep in sweeps:
+        dm.plot_sweep(sweep, "range", ax=axes[0])
+    assert named(axes[0]) == ["stays of 5 s", "stays of 20 to 160 s"]
+    for sweep, name in zip(sweeps, ("short", "long"), strict=True):
+        dm.plot_sweep(sweep, "range", ax=axes[1], labels={"case": name})
+    assert named(axes[1]) == ["short", "long"]
+    pyplot.close("all")
+
+
+def test_errors_of_exponents_are_in_the_legend() -> None:
+    """Their bars had no word."""
+    _, ax = pyplot.subplots(figsize=(COLUMN, 3))
+    dm.lyapunov_exponents(CASE, 0.5, count=2).plot(ax=ax)
+    assert all("± standard error" in each for each in named(ax))
+    pyplot.close("all")
+
+
+def test_a_name_of_a_curve_is_nearer_to_it_than_to_others() -> None:
+    """The name of one curve stood beside another."""
+    figure, ax = pyplot.subplots(figsize=(4, 4))
+    ax.set_xlim(0, 1)
+    ax.set_ylim(0, 1)
+    names = Names(ax)
+    rival = np.column_stack([np.linspace(0, 1, 101), np.full(101, 0.47)])
+    names.add_along("name", [(0.5, 0.5)], [(0, -4), (0, 4)], rival)
+    figure.canvas.draw()
+    [text] = ax.texts
+    assert text.get_visible()
+    assert text.get_window_extent().y0 > ax.transData.transform((0.5, 0.5))[1]
+    pyplot.close(figure)
