@@ -21,7 +21,7 @@ from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import Peak, peaks
 from disc_model.figures.classes import LOOKS, lightness
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED
+from disc_model.figures.drawing import BLACK, GREY, OPEN_STEP, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, _draw_steps, _Step
 from disc_model.figures.sliding_outcome import percent
@@ -70,6 +70,7 @@ def test_a_gap_between_exponents_is_explained() -> None:
     exponents["exponent"][:] = [[0.3], [-0.2], [-0.21]]
     ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
     assert said in labels(ax)
+    assert lines(ax)[said].get_marker() is OPEN_STEP, "there was no sample of such a line"
 
 
 def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
@@ -561,7 +562,8 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
 
 
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
-    assert labels(sliding_modes()) == ["mode decays", "mode grows"]
+    below = "decays faster than 0.9/s: l = 1, l = 3"
+    assert labels(sliding_modes()) == ["mode decays", "mode grows", below]
     assert "all of its values" in labels(sensitivity())
 
 
@@ -625,6 +627,11 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
     campbell_diagram._legend(figure, studies)
     shown = labels(figure)
     assert name in shown
+    [legend] = figure.legends
+    samples = dict(zip(shown, legend.legend_handles, strict=True))
+    if name.startswith("line open"):
+        shape = samples[name].get_marker()
+        assert np.array_equal(shape.vertices, OPEN_STEP.vertices), "there was no sample of it"
     assert "speed of a peak" not in shown
     figure = Figure(figsize=(7, 4))
     campbell_diagram._legend(figure, studies[:1])
