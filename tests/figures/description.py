@@ -27,6 +27,7 @@ from matplotlib.figure import Figure
 from matplotlib.legend import Legend
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
+from matplotlib.path import Path as Outline
 from matplotlib.spines import Spine
 from matplotlib.text import Annotation, Text
 
@@ -106,7 +107,10 @@ def look_of_line(line: Line2D) -> str:
         face = colour(line.get_markerfacecolor())
         edge = colour(line.get_markeredgecolor())
         size = number(line.get_markersize())
-        parts.append(f"marks {line.get_marker()} of {size} {face} edge {edge}")
+        shape = line.get_marker()
+        if isinstance(shape, Outline):
+            shape = "path"
+        parts.append(f"marks {shape} of {size} {face} edge {edge}")
     return ", ".join(parts)
 
 

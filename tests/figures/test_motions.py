@@ -22,7 +22,7 @@ from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell import Peak, peaks
 from disc_model.figures.classes import LOOKS, lightness
-from disc_model.figures.drawing import BLACK, GREY, SEPARATED
+from disc_model.figures.drawing import BLACK, GREY, OPEN_STEP, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
 from disc_model.figures.names import Names
@@ -79,6 +79,7 @@ def test_a_gap_between_exponents_is_explained() -> None:
     exponents["exponent"][:] = [[0.3], [-0.2], [-0.21]]
     ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
     assert said in labels(ax)
+    assert lines(ax)[said].get_marker() is OPEN_STEP, "there was no sample of such a line"
 
 
 @pytest.mark.parametrize("seen_by", ["kind", "period_events"])
@@ -753,6 +754,11 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
     campbell_diagram._legend(figure, studies)
     shown = labels(figure)
     assert name in shown
+    [legend] = figure.legends
+    samples = dict(zip(shown, legend.legend_handles, strict=True))
+    if name.startswith("line open"):
+        shape = samples[name].get_marker()
+        assert np.array_equal(shape.vertices, OPEN_STEP.vertices), "there was no sample of it"
     assert "speed of a peak" not in shown
     figure = Figure(figsize=(7, 4))
     campbell_diagram._legend(figure, studies[:1])

@@ -546,7 +546,8 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert names == ["unstable near the static start", "cycles computed", "no cycle found"]
     assert lines(ax)["no cycle found"].get_xdata().tolist() == [25]
-    assert ax.get_title(loc="left") == "unstable from 21 kN/m"
+    note = "unstable from 21 kN/m\ntongues below 5 kN/m may be missed"
+    assert ax.get_title(loc="left") == note
 
 
 def test_a_panel_above_a_legend_keeps_its_height_beside_a_label_of_several_lines() -> None:

@@ -15,6 +15,7 @@ from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
 from disc_model.figures.sliding_modes import LEAST, _name_decays
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
+from tests.figures.reading import labels
 from tests.studies.conftest import SMALL, computed
 
 SCAN = {"start": 0, "stop": 0.4, "count": 5}
@@ -106,6 +107,23 @@ def test_fast_decay_does_not_hide_growth(over_mu: xr.Dataset) -> None:
         figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(study)})
         least = 1.1 * float(study["mode_growth_rate"].min())
         assert figure.axes[1].get_ylim()[0] == pytest.approx(max(least, -largest), rel=1e-9)
+
+
+def test_modes_below_the_axis_of_growth_are_named(over_mu: xr.Dataset) -> None:
+    """A mode that decays fast was among the frequencies and missing among the growth rates."""
+    rates = over_mu["mode_growth_rate"]
+    in_plane = over_mu["diameters"] == -1
+    assert in_plane.any()
+    fast = over_mu.assign(mode_growth_rate=rates.where(~in_plane, -50.0))
+    kept = over_mu.assign(mode_growth_rate=rates.where(rates > 0, 1e-3 * rates))
+    figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(fast)})
+    lowest = -figure.axes[1].get_ylim()[0]
+    [entry] = [text for text in labels(figure) if text.startswith("decays faster")]
+    assert entry.startswith(f"decays faster than {lowest:.3g}/s: in-plane")
+    assert [line for line in figure.axes[1].lines if line.get_marker() == "v"]
+    figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(kept)})
+    assert not [text for text in labels(figure) if text.startswith("decays faster")]
+    assert not [line for line in figure.axes[1].lines if line.get_marker() == "v"]
 
 
 def test_linear_analysis_beside_the_motion() -> None:

@@ -11,12 +11,14 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import name_of
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import OPEN
-from disc_model.figures.words import unit_text
+from disc_model.figures.words import label_of, unit_text
+from disc_model.studies.run import describe
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
 from tests.figures.reading import assert_numbers_are_apart, labels
@@ -26,6 +28,7 @@ CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
+KNOWN["value"] = "Critical static friction μ_s"
 KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
 KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
@@ -120,7 +123,7 @@ UNASKED = {
     dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations",
-    dm.critical: "Critical value of coefficient of static friction",
+    dm.critical: r"Critical static friction $\mathrm{μ_s}$",
     dm.continue_cycle: "What became of the computation",
     own: "Range of my slider (mm)",
 }
@@ -375,6 +378,36 @@ def test_four_maps_in_two_rows_keep_what_they_say_apart(layout: str | None) -> N
         assert ax.bbox.height > 0.15 * figure.bbox.height
         assert ax.bbox.width > 0.2 * figure.bbox.width
     pyplot.close("all")
+
+
+def test_runs_without_a_separation_have_none_within_their_time() -> None:
+    """They had "no value"."""
+    study = dm.sweep(dm.simulate, CASE, t_end=0.5, Omega=[5.0, 6.0])
+    assert np.isnan(study["first_separation"]).all()
+    ax = dm.plot_sweep(study, "first_separation")
+    assert [text.get_text() for text in ax.texts] == ["none within 0.5 s"]
+    study["time_reached"][0] = 0.2
+    ax = dm.plot_sweep(study, "first_separation")
+    assert [text.get_text() for text in ax.texts] == ["none within 0.5 s, or ended early"]
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("name", "label", "factor"),
+    [
+        ("Omega", "Critical speed Ω (rad/s)", 1.0),
+        ("k_p", "Critical in-plane spring $k_p$ (kN/m)", 1e-3),
+        ("mu_k_over_mu_s", "Critical ratio μ_k/μ_s", 1.0),
+        ("E", "Critical Young's modulus E (GPa)", 1e-9),
+    ],
+)
+def test_a_critical_value_has_the_name_of_its_parameter(
+    name: str, label: str, factor: float
+) -> None:
+    words = {**describe(name), "long_name": f"critical value of {describe(name)['long_name']}"}
+    found, by = label_of(xr.DataArray(1.0, name="value", attrs=words))
+    assert typeset(found) == typeset(label)
+    assert by == factor
 
 
 def test_a_legend_covers_no_point_after_further_panels_are_drawn() -> None:

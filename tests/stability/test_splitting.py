@@ -1,5 +1,6 @@
 """Split pairs in steady sliding: the periodic equations, and both of their limits."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -106,6 +107,16 @@ def test_both_limits_are_reached() -> None:
     scale = large.together - large.apart
     assert large.growth_rate == pytest.approx(large.apart, abs=0.03 * scale)
     assert large.matters
+
+
+def test_both_limits_are_no_bounds() -> None:
+    """The page on brake discs said that the growth rate lies between them."""
+    above = dm.split_growth(dm.Parameters(N=385, Omega=100, c_p=5), 0.02)
+    below = dm.split_growth(dm.Parameters(N=385, Omega=100), 0.02)
+    assert above.growth_rate > 1.01 * max(above.together, above.apart)
+    assert below.growth_rate < 0.995 * min(below.together, below.apart)
+    page = (Path(__file__).parents[2] / "docs" / "brake_disc.md").read_text(encoding="utf-8")
+    assert "they are no bounds" in " ".join(page.split())
 
 
 def test_splits_are_those_of_the_file(tmp_path: Any) -> None:

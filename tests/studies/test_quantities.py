@@ -103,6 +103,29 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
     assert any(np.isfinite(one[key]).any() for key in numbers) or name == "stability_curves"
 
 
+def unexplained(study: Any) -> list[str]:
+    """Numbers that are nan somewhere, and whose long names do not say why."""
+    found = []
+    for name, variable in study.data_vars.items():
+        missing = variable.dtype.kind in "fc" and np.isnan(variable.values).any()
+        if missing and "nan" not in variable.attrs["long_name"]:
+            found.append(str(name))
+    return found
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("name", quantity_names())
+def test_a_study_says_what_nan_means(name: str) -> None:
+    """Points of a disc at events, energies and whole curves were nan without a word."""
+    options = [{}]
+    if name == "bifurcation":
+        options = [{}, {"section": "event"}]
+    for chosen in options:
+        raw = grid(name)
+        raw["options"] = raw["options"] | chosen
+        assert unexplained(computed(**raw)) == []
+
+
 @pytest.mark.parametrize("name", quantity_names())
 def test_a_quantity_says_what_it_costs_and_what_its_motions_show(name: str) -> None:
     quantity = quantity_of(name)

@@ -151,7 +151,7 @@ def test_results_of_each_class_have_their_own_units_and_names() -> None:
     case = P.replace(n_diameters=1)
     cycle = sweep(dm.floquet, case, N=[300])
     assert cycle["growth_rate"].attrs["long_name"] == (
-        "growth rate of disturbances of the stick-slip cycle"
+        "growth rate of disturbances of the stick-slip cycle, nan if there is no cycle"
     )
     assert cycle["sliding_growth_rate"].attrs["long_name"].endswith("steady sliding")
     assert cycle["period"].attrs["units"] == "s"
@@ -218,6 +218,19 @@ def test_all_that_a_sweep_gathers_has_a_unit_and_a_name(name: str) -> None:
     for key, variable in swept.variables.items():
         assert variable.attrs.get("long_name"), key
         assert variable.dtype.kind in "UO" or variable.attrs.get("units"), key
+        missing = variable.dtype.kind in "fc" and np.isnan(variable.values).any()
+        assert not missing or "nan" in variable.attrs["long_name"], key
+
+
+def test_what_nan_means_is_in_sweeps_and_not_on_axes() -> None:
+    """Balances of energy are nan but where all steps are audited, and nothing said so."""
+    swept = sweep(dm.simulate, P.replace(n_diameters=1), N=[300], t_end=0.1)
+    assert swept["energy_residual_inplane"].attrs["long_name"] == (
+        "accumulated relative residual of the in-plane energy balance, nan unless every step is audited"
+    )
+    moving = "nan unless friction acts on a surface that moves"
+    assert swept["surface_speed"].attrs["long_name"].endswith(moving)
+    assert "nan" not in label_of(swept["surface_speed"])[0]
 
 
 def test_a_sweep_gathers_branches_with_their_parameter() -> None:

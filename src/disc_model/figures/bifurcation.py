@@ -18,6 +18,7 @@ from disc_model.figures.drawing import (
     mark,
     mark_cases,
     mark_failed,
+    open_line,
     panels,
     plain_decades,
     wide,
@@ -207,7 +208,7 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str
     if moving.any():
         ax.plot([], [], "o", label="not converged", color=GREY, **ring)
     if opened.any():
-        ax.plot([], [], linestyle="", label="line open: another motion")
+        ax.add_line(open_line("line open: another motion", BLACK, wide(0.8)))
     mark_failed(ax, along[np.isnan(exponent[0])])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")
     legend_above(ax)

@@ -15,6 +15,7 @@ from disc_model.figures.drawing import (
     large,
     letters,
     mark,
+    open_line,
     panels,
     sample,
     say_beside,
@@ -110,7 +111,7 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
     if any(unjoined(rate).any() for rate in rates):
         handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
-        handles.append(sample(linestyle="", label=OPEN))
+        handles.append(open_line(OPEN, BLACK, wide(0.8)))
     if any(np.isnan(rate).any() for rate in rates):
         handles.append(Patch(label="no growth rate", **BAND))
     figure_legend(figure, handles, columns=3)

@@ -94,12 +94,21 @@ def plot_critical(
                 markeredgewidth=wide(0.6),
                 transform=axes.get_xaxis_transform(),
             )
-        if critical.at_lower_bound:
-            page.note = "already unstable at the lower bound"
-        elif not np.isnan(critical.value):
-            page.note = f"unstable from {critical.value * factor:.5g} {unit}".strip()
+        page.note = _note_of(critical, factor, unit)
         axes.set_xlabel(label)
         axes.set_ylabel(words.rate)
         axes.set_xlim((x[0], x[-1]))
         page.explain([*axes.get_legend_handles_labels()[0], *lowest])
     return page.ax
+
+
+def _note_of(critical: Critical, factor: float, unit: str) -> str:
+    """From where on the motion is unstable, and what may have been overlooked."""
+    step = f"{critical.resolution * factor:.2g} {unit}".strip()
+    overlooked = f"tongues below {step} may be missed"
+    if critical.at_lower_bound:
+        return f"already unstable at the lower bound\n{overlooked}"
+    if np.isnan(critical.value):
+        return overlooked
+    first = f"unstable from {critical.value * factor:.5g} {unit}".strip()
+    return f"{first}\n{overlooked}"

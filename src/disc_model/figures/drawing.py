@@ -14,6 +14,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.axis import Axis
 from matplotlib.lines import Line2D
+from matplotlib.path import Path
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import (
     FuncFormatter,
@@ -68,6 +69,9 @@ BORDERS: dict[str, dict[str, Any]] = {
 """Lines of all stability charts, for a line width of 1 point."""
 DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
 """Ticks of a logarithmic axis."""
+
+OPEN_STEP = Path([(-1, -0.25), (-0.2, -0.25), (0.2, 0.25), (1, 0.25)], [1, 2, 1, 2])
+"""Two pieces of a line, moved to and drawn, at two heights: the sample of one that is open there."""
 
 # ---- Sizes that follow the settings in force
 
@@ -208,6 +212,12 @@ def plain_decades(axis: Axis, least: float = 0.0) -> None:
 def sample(**look: Any) -> Artist:
     """A line or mark for a legend."""
     return Line2D([], [], **look)
+
+
+def open_line(label: str, color: Any, width: float) -> Line2D:
+    """A line for a legend that is open at a step, as in its panel; width in points."""
+    look: dict[str, Any] = {"color": color, "markersize": mark(10), "markeredgewidth": width}
+    return Line2D([], [], label=label, linestyle="", marker=OPEN_STEP, **look)
 
 
 def halo(width: float = 1.5, colour: str = "white") -> list[Any]:

@@ -42,6 +42,9 @@ BELOW = ((-4, -4), (4, -4), (-4, -12))
 """and of one that grows so fast that there may be room below."""
 HEADROOM = 1.25  # upper end of that axis over the largest rate, whose name stands above it
 LEAST = 0.1  # 1/s, upper end of the axis of growth rates at least
+AT_EDGE = 0.03  # of the panel, height of the marks of modes below it
+MARKS = 12  # marks of such a mode along the panel, about
+MOST_NAMES = 4  # names of such modes in the legend
 
 
 class Line(NamedTuple):
@@ -74,18 +77,20 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     if across.values.size > 1:
         tops[0].set_xlim(across.values[0], across.values[-1])
     bottoms[0].set_ylabel("Growth rate (1/s)")
-    bottoms[0].set_ylim(min(low for low, _ in limits), HEADROOM * greatest)
+    lowest = min(low for low, _ in limits)
+    bottoms[0].set_ylim(lowest, HEADROOM * greatest)
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
         _name_decays(bottom, column, greatest)
+        _mark_below(bottom, column, lowest)
     letters(axes, titles_of(parts))
-    _legend(figure, columns)
+    _legend(figure, columns, lowest)
     return figure
 
 
-def _legend(figure: Figure, columns: Sequence[xr.Dataset]) -> None:
-    """Name the widths of the lines that are drawn."""
+def _legend(figure: Figure, columns: Sequence[xr.Dataset], lowest: float) -> None:
+    """Name the widths of the lines that are drawn, and the modes below the axis of growth rates."""
     rates = np.concatenate([column["mode_growth_rate"].values.ravel() for column in columns])
     largest = np.concatenate([column["largest_growth_rate"].values.ravel() for column in columns])
     handles = []
@@ -93,6 +98,13 @@ def _legend(figure: Figure, columns: Sequence[xr.Dataset]) -> None:
         handles.append(sample(color=GREY, linewidth=wide(DECAYS), label="mode decays"))
     if (largest > ROUNDING).any():
         handles.append(sample(color=BLACK, linewidth=wide(GROWS), label="mode grows"))
+    names = [*dict.fromkeys(line.name for column in columns for line in below(column, lowest))]
+    if names:
+        said = names[:MOST_NAMES]
+        if len(names) > MOST_NAMES:
+            said.append(f"{len(names) - MOST_NAMES} more")
+        label = f"decays faster than {-lowest:.3g}/s: {', '.join(said)}"
+        handles.append(sample(label=label, **_look_below()))
     figure_legend(figure, handles)
 
 
@@ -130,7 +142,23 @@ def lines_of(study: xr.Dataset) -> list[Line]:
     return lines
 
 
+def below(study: xr.Dataset, lowest: float) -> list[Line]:
+    """The lines that are below the axis of growth rates, which begins at `lowest` (1/s), wherever
+    they have one."""
+    found = []
+    for line in lines_of(study):
+        rates = line.rate[np.isfinite(line.rate)]
+        if rates.size and rates.max() < lowest:
+            found.append(line)
+    return found
+
+
 # ---- Drawing
+
+
+def _look_below() -> dict[str, Any]:
+    """Look of modes below the axis of growth rates."""
+    return {"color": GREY, "marker": "v", "linestyle": "", "markersize": mark(3)}
 
 
 def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
@@ -197,6 +225,16 @@ def _name_frequencies(ax: Axes, study: xr.Dataset, highest: float) -> None:
         place = (left, float(heights[part.modes].mean()))
         if place[1] <= highest:
             say(ax, part.name, place, (3, 0), fontsize=large(7), bbox=white)
+
+
+def _mark_below(ax: Axes, study: xr.Dataset, lowest: float) -> None:
+    """Mark at the lower edge where modes decay so fast that their lines are below the panel."""
+    along = measured(study["value"]).values
+    transform = ax.get_xaxis_transform()
+    for line in below(study, lowest):
+        places = along[np.isfinite(line.rate)]
+        places = places[:: max(1, places.size // MARKS)]
+        ax.plot(places, np.full(places.size, AT_EDGE), transform=transform, **_look_below())
 
 
 def _name_decays(ax: Axes, study: xr.Dataset, greatest: float) -> None:

@@ -12,9 +12,18 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import variables
-from disc_model.data.variables import EXCLUDED, SERIES, SHOWN, axis_of, flag_names, typeset
+from disc_model.data.variables import (
+    EXCLUDED,
+    SERIES,
+    SHOWN,
+    attributes,
+    axis_of,
+    flag_names,
+    typeset,
+)
 from disc_model.figures.classes import name_of
 from disc_model.figures.kinds.base import si_unit
+from disc_model.parameters import RATIOS, Parameters
 from disc_model.units import in_si
 
 MODES = {
@@ -70,6 +79,10 @@ SHORT = {
 """What labels call variables whose long names explain them."""
 WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
 """Variables that say what a motion does within the horizon that a study states."""
+CRITICAL = "critical value of "
+"""What long names of critical values say before that of the parameter."""
+PERSONS = ("Young", "Poisson")
+"""Beginnings of names that are always written with a capital."""
 BELOW_ANY = "growth rate −∞"  # of a disturbance that is gone within a period, as on a rigid disc
 NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
@@ -146,6 +159,9 @@ WITHOUT = {
     "if it still does at the lowest": "none within the bounds",
     "if there is none, or it continues": "none, or it continues",
     "if it was not": "it was not left",
+    "if no step is audited": "no step is audited",
+    "unless every step is audited": "not every step is audited",
+    "unless friction acts on a surface that moves": "friction acts on no surface that moves",
 }
 """What figures say for what long names say after "nan"."""
 IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
@@ -180,7 +196,7 @@ LOAD, _ = axis_of("N")
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     name, unit, factor = named(variable)
-    label = typeset(name) if known_name(variable) else name
+    label = typeset(name) if known_name(variable) or parameter_searched(variable) else name
     if unit:
         label = f"{label} ({unit})"
     return label, factor
@@ -195,6 +211,11 @@ def named(variable: xr.DataArray) -> Named:
         return Named(f"{shown.name} {shown.symbol}".strip(), shown.unit, shown.factor)
     # disturbances have one name in all figures
     words = _words_of(variable).replace("disturbances of ", "")
+    critical = parameter_searched(variable)
+    if critical:
+        shown = SHOWN[critical]
+        symbol = f"Critical {_within_words(shown.name)} {shown.symbol}".strip()
+        return Named(symbol, shown.unit, shown.factor)
     phrase = words[0].upper() + words[1:]
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
@@ -208,6 +229,26 @@ def named(variable: xr.DataArray) -> Named:
     if IN_THOUSANDTHS.get(base) == f"m{units}":
         return Named(phrase, IN_THOUSANDTHS[base], 1e3)
     return Named(phrase, unit_text(units), 1.0)
+
+
+def parameter_searched(variable: xr.DataArray) -> str:
+    """The parameter of which a variable is the critical value, as `critical` finds it; "" if it is
+    none."""
+    words = _words_of(variable)
+    if not words.startswith(CRITICAL):
+        return ""
+    meaning = words.removeprefix(CRITICAL)
+    for name in (*Parameters.model_fields, *RATIOS):
+        if name in SHOWN and attributes(name)["long_name"] == meaning:
+            return name
+    return ""
+
+
+def _within_words(name: str) -> str:
+    """The name of a parameter behind other words: small, unless it is that of a person."""
+    if name.startswith(PERSONS):
+        return name
+    return name[:1].lower() + name[1:]
 
 
 def _name_of_own(name: str) -> str:
@@ -246,7 +287,8 @@ def _is_own(variable: xr.DataArray) -> bool:
         return False
     if variable.attrs.get("units") != sampled.attributes.get("units"):
         return True
-    return name in SERIES and variable.attrs.get("long_name") != sampled.long_name
+    long_name = str(variable.attrs.get("long_name", ""))
+    return name in SERIES and long_name.partition(", nan ")[0] != sampled.long_name
 
 
 def label_in(study: xr.Dataset, name: str) -> str:
@@ -266,11 +308,23 @@ def missing_text(study: xr.Dataset, name: str) -> str:
     if name in study and study[name].dtype.kind == "f" and np.isneginf(study[name]).any():
         return BELOW_ANY
     horizon = horizon_text(study)
+    if name == "first_separation" and study.attrs.get("function") == "simulate":
+        return _without_separation(study)
     if name != "first_separation" or not horizon:
         return _reason_in(study, name) or name_of(NO_VALUE)
     if json.loads(study.attrs["options"]).get("extrapolate"):  # then some that occur have no time
         return f"none within {horizon}, or not timed"
     return f"none within {horizon}"
+
+
+def _without_separation(study: xr.Dataset) -> str:
+    """What a sweep of `simulate` says of points without a separation: within which time there is
+    none."""
+    ends = study["t_end"].values
+    known = np.unique(ends[np.isfinite(ends)])
+    within = f"none within {known[0]:g} s" if known.size == 1 else "none within the run"
+    left = study["first_separation"].isnull() & (study["time_reached"] < study["t_end"])
+    return f"{within}, or ended early" if left.any() else within
 
 
 def _reason_in(study: xr.Dataset, name: str) -> str:

@@ -10,7 +10,8 @@ and the equations of steady sliding are periodic: half a turn brings the same di
 growth rates are logarithms of Floquet multipliers. The split couples the waves that travel with
 and against the slider, of which friction feeds one and damps the other. If it is small they stay
 apart, as in an axisymmetric disc. If it is large, each half moves by itself, by turns at each place
-of the slider, and grows by the mean of both rates.
+of the slider, and grows by the mean of both rates. Both limits are no bounds: where pairs couple
+with each other or with the slider, the growth rate may be above both or below both.
 """
 
 import math
@@ -50,13 +51,14 @@ NOTICED = 0.1  # relative change of the growth rate that matters
 
 @dataclass(frozen=True, eq=False, repr=False)
 class SplitGrowth(Summarised, EqualByValue):
-    """Growth rates of steady sliding of a disc with split pairs, and of both limits.
+    """Growth rates of steady sliding of a disc with split pairs, and of both limits, which are no
+    bounds.
 
     Attributes
     ----------
     together : 1/s, largest growth rate with the mean frequency of each pair, as `steady_sliding`
         has it
-    growth_rate : 1/s, with the splits
+    growth_rate : 1/s, with the splits; it may be above or below both `together` and `apart`
     apart : 1/s, with each half by itself, which large splits approach
     pairs : DataFrame with a row for each pair: diameters, circles, frequency_Hz, split, and growth
         rates together and apart of the modes of steady sliding in which this pair moves most
@@ -102,7 +104,8 @@ def split_growth(case: Parameters, split: float | Iterable[float] | None = None)
     frequencies, with the split, and of each half by itself.
 
     Antinodes of all pairs lie at the same place of the disc. The growth rates are those of small
-    motions; the forced vibration that a split disc has besides is left out.
+    motions; the forced vibration that a split disc has besides is left out. The first and the last
+    of them are limits of small and of large splits, and no bounds.
 
     Parameters
     ----------

@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, TRUTH
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
@@ -100,9 +101,10 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
         name = str(key)
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            variables[name] = xr.Variable(
-                (f"{name}_index",)[: array.ndim], array, _attributes_of(result, name, function)
-            )
+            attributes = _attributes_of(result, name, function)
+            if array.dtype.kind in "fc":
+                attributes = with_reason(attributes, reason_of(type(result).__name__, name))
+            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attributes)
     return variables
 
 

@@ -13,6 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
+from disc_model.data.missing import explained
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
 from disc_model.errors import DiscModelError, as_text
 from disc_model.parameters import RATIOS
@@ -80,7 +81,8 @@ def merge_batches(
         **_common_attributes(described, quantity),
         **common_provenance(batches),
     }
-    return summarised(xr.Dataset(variables, coords, every), quantity)
+    study = summarised(xr.Dataset(variables, coords, every), quantity)
+    return explained(study, described[0].quantity)
 
 
 def _places(
@@ -210,7 +212,7 @@ def merge_cases(
         column = np.array([text.get(name, "") for text in texts], dtype=str)
         table[name] = ("case", column, {"long_name": meaning})
     table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
-    return xr.DataTree(table, children=cases)
+    return xr.DataTree(explained(table, "Result"), children=cases)
 
 
 _TEXTS = {
