@@ -242,7 +242,7 @@ def test_no_function_of_the_package_is_long(source):
 
 def test_few_modules_of_the_package_import_many(source):
     """Those that name all parts of something: the command line, the package, a table of parts."""
-    assert len(source.many_imports) <= 17, source.many_imports
+    assert len(source.many_imports) <= 18, source.many_imports
 
 
 def test_hardly_a_module_of_the_package_is_imported_by_a_text(source):

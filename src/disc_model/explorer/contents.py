@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import chain
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -107,7 +106,9 @@ def _study_contents(
     base = json.loads(study.attrs.get("base", "{}"))
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}
-    exact = {call.get("sampled", ""), *chain(*call["along"].values())}  # numbers of a point's case
+    # numbers of a point's case
+    exact = {name for names in call["along"].values() for name in names}
+    exact.add(call.get("sampled", ""))
     return {
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,

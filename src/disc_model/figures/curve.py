@@ -151,11 +151,7 @@ def draw_lines(
         colour = colours[part.name]
         look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
         look |= {"marker": marks[part.name], "markersize": sizes[part.name]}
-        if bounds[part.name].any():
-            # what is at a bound may lie anywhere below it, so that no line leads there
-            at_bound = {**look, "linestyle": "", "label": "_nolegend_"}
-            ax.plot(along[bounds[part.name]], heights[bounds[part.name]], **at_bound)
-            heights = np.where(bounds[part.name], np.nan, heights)
+        heights = _draw_at_bound(ax, along, heights, bounds[part.name], look)
         if gapless:
             look["markevery"] = _marked(heights)
         elif heights.size > CROWDED:
@@ -207,6 +203,17 @@ def _at_bound_by_part(study: xr.Dataset, array: xr.DataArray, by: str | None) ->
     if bound is None:
         bound = array.copy(data=np.zeros(array.shape, dtype=bool))
     return {part.name: part.data.values for part in parts_along(bound, by)}
+
+
+def _draw_at_bound(
+    ax: Axes, along: Array, heights: Array, at_bound: Mask, look: Mapping[str, Any]
+) -> Array:
+    """Draw the points of a line that are at the bound of a search, and return the heights of the others:
+    the value may lie anywhere below, so that no line leads there."""
+    if at_bound.any():
+        alone = {**look, "linestyle": "", "label": "_nolegend_"}
+        ax.plot(along[at_bound], heights[at_bound], **alone)
+    return np.where(at_bound, np.nan, heights)
 
 
 def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:

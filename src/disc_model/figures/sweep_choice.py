@@ -161,17 +161,21 @@ def _drawn_dims(study: xr.Dataset) -> list[str]:
     return [dim for dim in named if dim in study["status"].dims]
 
 
+def _usual_variable(study: xr.Dataset, choices: Sequence[str]) -> str:
+    """The first of the variables preferred, or else of numbers, or of all; "" without any."""
+    flat = [name for name in choices if study[name].ndim < 3]
+    of_function = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    preferred = [name for name in (of_function, *PREFERRED) if name in flat]
+    numeric = [name for name in flat if study[name].dtype.kind in "fi"]
+    return next(iter([*preferred, *numeric, *choices]), "")
+
+
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     """The variable that is drawn; raises `ParameterError`."""
     numbers = {*_drawn_dims(study)}
     over = {str(name): {*values.dims} for name, values in study.items()}
     choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
-    flat = [name for name in choices if len(over[name]) < 3]
-    of_function = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
-    preferred = [name for name in (of_function, *PREFERRED) if name in flat]
-    numeric = [name for name in flat if study[name].dtype.kind in "fi"]
-    usual = next(iter([*preferred, *numeric, *choices]), "")
-    named = variable or usual
+    named = variable or _usual_variable(study, choices)
     points = "must have two points or more along a number or a word"
     require((bool(numbers), "study", "a single point", points))
     rule = f"must be one over the grid{suggestion(named, choices)}"
