@@ -664,7 +664,9 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
 
 
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
-    assert labels(sliding_modes()) == ["mode decays", "mode grows"]
+    *lines_of_modes, below_the_axis = labels(sliding_modes())
+    assert lines_of_modes == ["mode decays", "mode grows"]
+    assert below_the_axis == "decays faster than 0.9/s: l = 1, l = 3"
     assert {"all of its values", "95 % interval"} <= {*labels(sensitivity())}
 
 
