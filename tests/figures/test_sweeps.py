@@ -919,3 +919,13 @@ def test_points_without_a_cycle_are_not_unstable_ones() -> None:
     line = dm.plot_sweep(stable.sel(N=300), "stable")
     assert [text.get_text() for text in line.texts] == ["no cycle found"]
     pyplot.close("all")
+
+
+def test_a_line_of_small_rates_is_open_between_two_cycles() -> None:
+    """It was joined through zero: from one cycle to another, at 385 N and mu_k = 0.15."""
+    rates = np.array([-0.0011, -0.0042, -0.0138, -0.0406, 0.0393, 0.0121, 0.0058])
+    assert np.flatnonzero(rate_scale.opens(rates)).tolist() == [3]
+    assert not rate_scale.opens(np.abs(rates[:4])).any()
+    peak = np.array([0.01, 0.03, 0.06, 0.03, 0.01])
+    assert not rate_scale.opens(peak).any()
+    assert rate_scale.opens(rates[:1]).size == 0

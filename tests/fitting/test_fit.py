@@ -200,7 +200,7 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert not fit.consistent
     said = dict(fit.summary())
     doubt = f"model or uncertainties are wrong, chi squared is {fit.chi_squared:.3g} times its"
-    assert fit.doubt == f"{doubt} degrees of freedom"
+    assert fit.doubt == f"{doubt} degrees of freedom, and frequency_0_0 deviates most"
     assert said["consistent"] == f"no: {fit.doubt}"
     assert said["intervals"] == f"none: {fit.doubt}"
     assert " to " not in said["E"]
@@ -210,7 +210,7 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert not unlucky.consistent
     assert unlucky.doubt == (
         "model or uncertainties may be wrong, chi squared is 4.2 times its degrees of freedom: "
-        "4 % of right ones have as much"
+        "4 % of right ones have as much, and frequency_0_0 deviates most"
     )
 
 
@@ -484,6 +484,43 @@ def test_a_search_goes_on_beside_gaps_without_a_cycle() -> None:
 
 
 @pytest.mark.compiled
+def test_a_bound_that_holds_a_parameter_is_said() -> None:
+    """The measurements were said not to determine it, though they are exact. A bound between the value
+    and an end of its interval was not said at all."""
+    case = dm.Parameters(N=385, Omega=14)
+    true = case.replace(k_p=19000.0)
+    speeds = (11.5, 13.0, 14.8)
+    measured = [
+        dm.Measurement(
+            "period", dm.floquet(true.replace(Omega=speed)).period, 1e-5, {"Omega": speed}
+        )
+        for speed in speeds
+    ]
+    free = dm.fit(case, ["k_p"], measured)
+    assert free.at_bounds == {}
+    assert free.consistent
+    held = dm.fit(case, ["k_p"], measured, bounds={"k_p": (19500, 22000)})
+    assert held.at_bounds == {"k_p": 19500.0}
+    assert "k_p is held by its bound 19500" in held.doubt
+    assert "do not determine" not in held.doubt
+    near = 19000 + 0.5 * free.parameters["k_p"].deviation
+    below = case.replace(k_p=18500.0)
+    beside = dm.fit(below, ["k_p"], measured, bounds={"k_p": (18000, near)})
+    assert beside.at_bounds == {"k_p": near}
+    assert not beside.consistent
+
+
+@pytest.mark.compiled
+def test_the_measurement_that_deviates_most_is_named() -> None:
+    case = dm.Parameters(N=385, Omega=14)
+    measured = []
+    for speed, error in ((11.5, 0.0), (13.0, 1e-3), (14.0, 0.0), (14.8, 0.0)):
+        period = dm.floquet(case.replace(Omega=speed)).period
+        measured.append(dm.Measurement("period", period + error, 1e-5, {"Omega": speed}))
+    assert "period (Omega=13) deviates most" in dm.fit(case, ["k_p"], measured).doubt
+
+
+@pytest.mark.compiled
 def test_a_fold_within_an_interval_is_said() -> None:
     """It said that the measurements do not determine mu_s, and gave an end at which there is no
     cycle."""
@@ -569,7 +606,8 @@ def test_a_measured_value_in_another_unit_is_doubted(value: float, said: str) ->
         (15730.0, 0.0157, "s", "was 15.73 ms meant?"),
         (0.5, 0.4e-6, "m", "was 500 nm meant?"),
         (15.73, 0.05, "s", "was 15.73 ms meant?"),
-        (1.0, 1e-4, "m", "meant?"),
+        (2.2, 0.021, "m", "was 22 mm meant?"),
+        (1.0, 1e-4, "m", "or start from another case"),
         (1.5, 0.0157, "s", ""),
         (-5.0, 0.02, "1/s", ""),
         (-3.0, 0.02, "s", ""),

@@ -233,6 +233,12 @@ def test_what_nan_means_is_in_sweeps_and_not_on_axes() -> None:
     assert "nan" not in label_of(swept["surface_speed"])[0]
 
 
+def test_numbers_among_words_are_words() -> None:
+    """The sweep was lost when all of it had been computed."""
+    swept = sweep(lambda case: {"x": 1.5 if case.N < 150 else "none"}, P, N=[100, 200])
+    assert swept["x"].values.tolist() == ["1.5", "none"]
+
+
 def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     """Points of branches had neither their speeds nor multipliers."""
     options: dict[str, Any] = {"name": "Omega", "bounds": (14.8, 15.2)}
@@ -244,8 +250,9 @@ def test_a_sweep_gathers_branches_with_their_parameter() -> None:
         np.testing.assert_array_equal(first[name], branch[name])
     assert swept["Omega"].attrs["units"] == "rad s-1"
     assert swept["ended"].sel(N=385).item() == branch.attrs["ended"]
-    with refusal(r"draw each by itself, as by continue_cycle"):
-        dm.plot_sweep(swept, "growth_rate")
+    for branches in (swept, swept.sel(N=385)):
+        with refusal(r"draw each by itself, as by continue_cycle"):
+            dm.plot_sweep(branches)
 
 
 def test_values_of_a_search_are_in_the_unit_of_its_parameter() -> None:

@@ -26,7 +26,7 @@ TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a 
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
 FAR = 100.0  # ratio of a measured value to a computed one, or the inverse, beyond which its unit is doubted
-NEAR = 30.0  # and up to which one with another unit would be near it
+NEAR = 4.0  # and up to which one with another unit would be near it
 PREFIXES = {"m": 1e-3, "µ": 1e-6, "n": 1e-9}  # of seconds and metres
 
 
@@ -118,6 +118,9 @@ def _out_of_reach(value: float, given: float, unit: str) -> str:
         how = f"1/{_rounded(1 / ratio)} of"
     text = f"{value:.6g} {unit} is {how} the {given:.4g} {unit} that the case gives"
     meant = value / 1000.0 ** round(math.log10(ratio) / 3)
+    hundredth = value / 100.0 ** math.copysign(1, ratio - 1)
+    if unit == "m" and abs(math.log(hundredth / given)) < abs(math.log(meant / given)):
+        meant = hundredth
     if 1 / NEAR <= meant / given <= NEAR:
         return f"{text}: was {_in_usual_unit(meant, unit)} meant?"
     return f"{text}: check its unit, or start from another case"

@@ -24,18 +24,11 @@ from disc_model.figures.gap_rows import add_row
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
-from disc_model.figures.rate_scale import (
-    OPEN,
-    STEP,
-    are_of_cycles,
-    are_rates,
-    on_scale,
-    scale_heights,
-)
+from disc_model.figures.rate_scale import OPEN, are_of_cycles, are_rates, opens, scale_heights
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
-    broken,
+    beyond_lowest_speed,
     gaps,
     parts_along,
     picked,
@@ -56,6 +49,8 @@ from disc_model.figures.words import (
     named,
 )
 
+CONTACT_LOST = "contact lost at the lowest speed"
+"""Said of points at which separation begins or ends below all speeds of a sweep."""
 PLAIN = Look(BLACK)
 """Look of a single line."""
 MARKS = "os^Dv<>"
@@ -244,10 +239,11 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
 
 
 def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
-    """A line, with gaps between growth rates of cycles that differ by more than `STEP`."""
+    """A line, with gaps between growth rates that belong to different cycles."""
     if not jumps:
         return [along, heights]
-    return broken(along, heights, STEP, on_scale(heights))
+    places = np.flatnonzero(opens(heights)) + 1
+    return [np.insert(values.astype(float), places, np.nan) for values in (along, heights)]
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -415,13 +411,23 @@ def _reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.Dat
         if name != name_of(NO_VALUE):
             found[name] = gone
             continue
-        reason = missing_text(study, str(array.name))
-        if doubtful is None:
-            found[reason] = gone
-            continue
-        found[reason] = gone & ~doubtful
-        found[f"{reason}, {UNSETTLED.label}"] = gone & doubtful
+        for reason, points in _without_value(study, str(array.name), gone).items():
+            if doubtful is None:
+                found[reason] = points
+                continue
+            found[reason] = points & ~doubtful
+            found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
     return found
+
+
+def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points that were computed and have no value, by the words for them; a speed at which separation
+    begins or ends may also lie below the lowest speed of a sweep."""
+    reason = missing_text(study, name)
+    below = beyond_lowest_speed(study, name)
+    if below is None:
+        return {reason: gone}
+    return {reason: gone & ~below, CONTACT_LOST: gone & below}
 
 
 def _mark_jumps(
@@ -433,7 +439,7 @@ def _mark_jumps(
     if ax.get_xscale() == "log":
         middle = np.sqrt(along[:-1] * along[1:])
     for part in parts:
-        is_gap = np.abs(np.diff(on_scale(part.data.values))) > STEP
+        is_gap = opens(part.data.values)
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": colours[part.name]}
             add_row(ax, OPEN, middle[is_gap], **look)

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import GREY, plain_decades, wide
-from disc_model.figures.types import Array, Axes
+from disc_model.figures.types import Array, Axes, Mask
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step from there finds another cycle."""
@@ -53,6 +53,20 @@ def scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
 def on_scale(rates: Array) -> Array:
     """Heights of growth rates on their scale."""
     return np.arcsinh(rates / LINEAR)
+
+
+def opens(rates: Array) -> Mask:
+    """Where a line of growth rates of cycles is open, one fewer than the rates: at steps beyond `STEP`,
+    and at such as go back further than the rate has come on either side, as between two cycles of
+    small rates."""
+    steps = np.diff(on_scale(rates))
+    found = np.abs(steps) > STEP
+    before = steps[:-2]
+    step = steps[1:-1]
+    after = steps[2:]
+    goes_back = (step * before < 0) & (step * after < 0)
+    found[1:-1] |= goes_back & (np.abs(step) > np.maximum(np.abs(before), np.abs(after)))
+    return found
 
 
 def scale_rates(ax: Axes) -> None:

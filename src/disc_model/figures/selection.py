@@ -257,6 +257,15 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
+def beyond_lowest_speed(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points of sweeps of the speed at which contact is lost at the lowest speed already, or still, so
+    that separation begins or ends at a lower one; None of other variables."""
+    if variable not in ("onset_speed", "offset_speed") or "separation_rate" not in study:
+        return None
+    swept = swept_speeds(study)
+    return swept.onset_at_bound if variable == "onset_speed" else swept.end_at_bound
+
+
 def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of sweeps of the speed whose value describes, or rests on, a motion that had not settled
     when its stay ended; None of other variables."""

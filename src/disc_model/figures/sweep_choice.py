@@ -71,6 +71,9 @@ def choose_drawn(
 ) -> tuple[xr.Dataset, list[Drawn]]:
     """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
     are lines over the same dimension. Raises `ParameterError`."""
+    branches = study.attrs.get("function") == "continue_cycle" and "special" in study.dims
+    remedy = "holds branches: draw each by itself, as by continue_cycle(...).plot(ax=ax)"
+    require((not branches, "study", "a sweep of continue_cycle", remedy))
     if not variables[0]:
         study = _with_first_values(study)
     whole = _varying(_with_names_of_discs(study))
@@ -182,8 +185,6 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     further = [dim for dim in over.get(named, ()) if dim not in study.coords]
     if further:
         rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
-    if "special" in study.dims:
-        rule = "must have no branches: draw each by itself, as by continue_cycle(...).plot(ax=ax)"
     require((named in choices, "variable", named, rule))
     return named
 

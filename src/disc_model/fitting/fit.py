@@ -183,8 +183,10 @@ class Fit(Summarised, Drawn, EqualByValue):
         predictions would have it
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there
-    doubt : all reasons why values and intervals mean nothing: a search that has not converged, parameters that are not
-        determined, an interval in which the motion ends, too large a chi squared; "" where there is none
+    at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go
+    doubt : all reasons why values and intervals mean nothing: a search that has not converged, a bound in the way,
+        parameters that are not determined, an interval in which the motion ends, too large a chi squared, with the
+        measurement that deviates most; "" where there is none
     consistent : whether there is no `doubt`
 
     Examples
@@ -211,6 +213,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     message: str
     indistinct: tuple[str, ...] = ()
     unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    at_bounds: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -241,12 +244,14 @@ class Fit(Summarised, Drawn, EqualByValue):
         reasons = []
         if not self.converged:
             reasons.append("the search has not converged")
+        for name, bound in self.at_bounds.items():
+            reasons.append(_is_held(name, bound))
+        if self.converged and self._misses:
+            reasons.append(self._misfit)
         if self.indistinct:
             reasons.append(_undetermined(self.indistinct))
         for name, ends in self.unpredicted.items():
             reasons += [_ends_within(name, end) for end in ends]
-        if self.converged and self._misses:
-            reasons.append(self._misfit)
         return "; ".join(reasons)
 
     @property
@@ -264,15 +269,17 @@ class Fit(Summarised, Drawn, EqualByValue):
     @property
     def _misfit(self) -> str:
         """How large chi squared is, in words."""
+        wrong = f"a bound, {WRONG}" if self.at_bounds else WRONG
         if self.freedom == 0:
-            return f"{WRONG} are wrong, chi squared is {self.chi_squared:.3g} and should be 0"
+            return f"{wrong} are wrong, chi squared is {self.chi_squared:.3g} and should be 0"
         reduced = self.chi_squared / self.freedom
         size = f"chi squared is {reduced:.3g} times its degrees of freedom"
+        worst = int(np.argmax(np.abs(self.deviations)))
+        most = f"{self.measurements[worst].name} deviates most"
         if self._chance < ALL_BUT_IMPOSSIBLE:
-            return f"{WRONG} are wrong, {size}"
-        return (
-            f"{WRONG} may be wrong, {size}: {100 * self._chance:.2g} % of right ones have as much"
-        )
+            return f"{wrong} are wrong, {size}, and {most}"
+        share = f"{100 * self._chance:.2g} % of right ones have as much"
+        return f"{wrong} may be wrong, {size}: {share}, and {most}"
 
     @property
     def correlation(self) -> Array:
@@ -342,6 +349,11 @@ def _undetermined(names: Sequence[str]) -> str:
         return f"the measurements do not determine {names[0]}: measure more"
     together = ", ".join(names[:-1]) + f" and {names[-1]}"
     return f"the measurements do not determine {together} apart: fix one of them, or measure more"
+
+
+def _is_held(name: str, bound: float) -> str:
+    """Return that a parameter is at a bound, or so near that its interval would pass it."""
+    return f"{name} is held by its bound {bound:.6g}, which its interval passes: widen the bound, or fix it"
 
 
 def _ends_within(name: str, end: float) -> str:
@@ -578,7 +590,7 @@ def fit(
             gtol=TOLERANCE,
         )
         indistinct = _indistinct(problem, search, jacobians[0], deviations)
-        found = _result(problem, search, confidence, indistinct)
+        found = _result(problem, search, confidence, indistinct, limits)
     warn_of_doubts(found.case)
     return found
 
@@ -696,8 +708,14 @@ def _chosen(names: Sequence[str], mask: Mask) -> tuple[str, ...]:
     return tuple(name for name, chosen in zip(names, mask, strict=True) if chosen)
 
 
-def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple[str, ...]) -> Fit:
-    """Return the fit at the end of a search over scaled parameters, of which some may be
+def _result(
+    problem: _Problem,
+    search: Any,
+    confidence: float,
+    indistinct: tuple[str, ...],
+    limits: Mapping[str, Interval],
+) -> Fit:
+    """Return the fit at the end of a search over scaled parameters within limits, of which some may be
     indistinct."""
     from scipy import stats
 
@@ -712,6 +730,13 @@ def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple
     low = fitted - reach
     high = fitted + reach
     unpredicted: dict[str, tuple[float, ...]] = {}
+    at_bounds = {}
+    for i, name in enumerate(names):
+        for bound in limits.get(name, ()):
+            if low[i] <= bound <= high[i]:
+                at_bounds[name] = float(bound)
+    if at_bounds:  # what holds one of them moves the others
+        indistinct = ()
     for i, name in enumerate(names):
         if name in indistinct:
             deviation[i] = low[i] = high[i] = math.nan
@@ -742,6 +767,7 @@ def _result(problem: _Problem, search: Any, confidence: float, indistinct: tuple
         message=str(search.message).strip("`. ").replace("`", "") + ".",
         indistinct=indistinct,
         unpredicted=unpredicted,
+        at_bounds=at_bounds,
     )
 
 

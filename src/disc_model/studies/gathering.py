@@ -165,8 +165,8 @@ def stacked(
 
 def _type_of(kinds: set[str], *, complete: bool) -> tuple[Any, Any]:
     """The type that holds values of some of numpy's kinds, and what stands for missing ones: whole
-    numbers and truth have none unless all values are there."""
-    if kinds <= {"U"}:
+    numbers and truth have none unless all values are there. Numbers among words become words."""
+    if "U" in kinds:
         return object, ""
     if "c" in kinds:
         return complex, complex(math.nan, math.nan)
@@ -189,5 +189,5 @@ def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
     for i, row in enumerate(rows):
         if row is not None:
             place: Any = (i, *map(slice, row.shape))
-            array[place] = row
+            array[place] = row.astype(str) if dtype is object else row
     return array.astype(str) if dtype is object else array
