@@ -124,13 +124,12 @@ UNASKED = {
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations",
     dm.critical: r"Critical static friction $\mathrm{μ_s}$",
-    dm.continue_cycle: "What became of the computation",
     own: "Range of my slider (mm)",
 }
 """Labels of what is drawn if no variable is asked for."""
 
 
-@pytest.mark.parametrize("function", FUNCTIONS, ids=lambda function: function.__name__)
+@pytest.mark.parametrize("function", UNASKED, ids=lambda function: function.__name__)
 def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
     ax = dm.plot_sweep(swept(function).sel(N=385))
     assert " ".join(ax.get_ylabel().split()) == UNASKED[function]
@@ -918,6 +917,21 @@ def test_points_without_a_cycle_are_not_unstable_ones() -> None:
     assert "no cycle found" in [text.get_text() for text in legend.get_texts()]
     line = dm.plot_sweep(stable.sel(N=300), "stable")
     assert [text.get_text() for text in line.texts] == ["no cycle found"]
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("names", [["low", "high"], ["high", "low"]])
+def test_a_logarithmic_axis_fits_all_of_its_lines(names: list[str]) -> None:
+    """The last line alone decided it, and what is not positive of the others was lost."""
+    values = {"low": ("N", [-1.0, 0.0, 2.0]), "high": ("N", [3.0, 40.0, 500.0])}
+    study = xr.Dataset(values, {"N": [100.0, 200.0, 300.0]})
+    for variable in study.values():
+        variable.attrs.update(units="N", long_name=f"force at the {variable.name} end")
+    ax = dm.plot_sweep(study, names, log=True)
+    assert ax.get_yscale() == "symlog"
+    least, greatest = ax.get_ylim()
+    assert least < -1
+    assert greatest > 500
     pyplot.close("all")
 
 

@@ -753,6 +753,8 @@ def test_a_parameter_that_is_searched_is_not_swept() -> None:
     rule = "mu_k: must not be swept, because critical searches along it"
     with refusal(rule):
         sweep(dm.critical, P, name="mu_k", bounds=(0.1, 0.3), points=3, mu_k=[0.1, 0.2])
+    with refusal("Omega: must not be swept, because continue_cycle"):
+        sweep(dm.continue_cycle, P, name="Omega", bounds=(13, 15), Omega=[14.0, 14.5])
     with refusal("Omega: must not be swept, because hysteresis"):
         sweep(dm.hysteresis, P, bounds=(14, 15), dwell=2, Omega=[10.0, 12.0])
 

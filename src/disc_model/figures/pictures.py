@@ -40,9 +40,11 @@ def plot_sweep(  # noqa: PLR0913
     rates, all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its
     neighbours at the left and right or above and below have one other outcome, or none of the eight
     around it has its own. An undecided cell is never hatched. A line of growth rates of cycles is open,
-    which marks above the panel say, between neighbours that differ by more than a factor of 2.4, or
-    by a tenth of 1/s about zero: the next point may be of another cycle, or the rate is steep, and
-    finer steps show which. Marks on a grey strip above the panel are of points without a value; no
+    which marks above the panel say, between neighbours that differ by 0.09/s or more if both are
+    small, or by a factor of 2.4 if both are large, or where it goes back further than it has come on
+    either side: the next point may be of another cycle, or the rate is steep. A line that is not
+    open may join different cycles as well; finer steps show them. Marks on a grey
+    strip above the panel are of points without a value; no
     line leads to a value that is the lower bound of its search. Filled marks, and hatched cells of a
     map, are of a sweep of the speed whose motion had not settled. An axis is logarithmic if three or more
     positive values span a decade or more and have equal ratios within 1e-6, as those of

@@ -33,21 +33,31 @@ def are_of_cycles(array: xr.DataArray, rates: bool) -> bool:
 
 def scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
     """Scale the vertical axis: as growth rates have it, or logarithmic, through zero if some values
-    are not positive."""
+    of the lines on the axes are not positive."""
+    heights = _heights_on(ax)
     if are_rates(array, log):
         scale_rates(ax)
-    elif log and needs_zero(array.values):
-        linear = linear_to(array.values)
+    elif log and needs_zero(heights):
+        linear = linear_to(heights)
         ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         # numbers below the linear part's end would cover that of zero
-        ends = (float(array.min()), float(array.max()))
+        ends = (float(np.nanmin(heights)), float(np.nanmax(heights)))
         ax.set_yticks(decades_through_zero(linear, *ends))
         ax.yaxis.set_major_formatter("{x:g}")
-        if (array > 0).any():
+        if (heights > 0).any():
             ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
     elif log:
         ax.set_yscale("log")
         plain_decades(ax.yaxis)
+
+
+def _heights_on(ax: Axes) -> Array:
+    """Heights of all points of lines on axes."""
+    found = [np.zeros(0)]
+    for line in ax.lines:
+        if all(line.get_transform().contains_branch_seperately(ax.transData)):
+            found.append(np.asarray(line.get_ydata(), dtype=float))
+    return np.concatenate(found)
 
 
 def on_scale(rates: Array) -> Array:

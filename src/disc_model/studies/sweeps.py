@@ -140,9 +140,10 @@ def _is_ours(function: Any) -> bool:
 
 def _searched(function: Any, title: str, options: Mapping[str, Any]) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
-    mean nothing: of `critical` the one that it searches, of a quantity those of its scan."""
+    mean nothing: of `critical` and `continue_cycle` the one along which they go, of a quantity those
+    of its scan."""
     ours = _is_ours(function)
-    if ours and title == "critical":
+    if ours and title in ("critical", "continue_cycle"):
         return {options["name"]}
     if ours and title in quantity_names():
         return {*quantity_of(title).scans}
