@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
-from disc_model.figures.selection import broken, failed
+from disc_model.figures.selection import failed, opened
 from disc_model.figures.types import Array, Axes, Figure, Mask, Words
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -179,10 +179,9 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str
     moving = flag_names(lyapunov["converged"])[: len(EXPONENTS)] == "no"
     factor = axis_of(name)[1]
     along = lyapunov[name].values * factor
-    opened = motion_changes(study, study[name].values * factor, along)
-    opened |= (np.abs(np.diff(exponent, axis=1)) > ANOTHER).any(axis=0)
-    motion = np.concatenate([[0], np.cumsum(opened)])
-    alone = np.concatenate([[True], opened]) & np.concatenate([opened, [True]])
+    changes = motion_changes(study, study[name].values * factor, along)
+    changes |= (np.abs(np.diff(exponent, axis=1)) > ANOTHER).any(axis=0)
+    alone = np.concatenate([[True], changes]) & np.concatenate([changes, [True]])
 
     ax.axhline(0, color=GREY, linewidth=wide(0.8))
     ring: dict[str, Any] = {
@@ -192,7 +191,7 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str
     }
     for i, colour in zip(range(len(exponent)), EXPONENTS, strict=False):
         label = f"exponent {i + 1}" if i else "largest exponent"
-        x, y = broken(along, exponent[i], 0.5, motion)
+        x, y = opened(along, exponent[i], changes)
         ax.plot(x, y, ".-", color=colour, markersize=mark(3), linewidth=wide(0.8), label=label)
         band = ERRORS * np.interp(x, along, error[i])
         ax.fill_between(x, y - band, y + band, color=colour, alpha=0.15, linewidth=0)
@@ -207,7 +206,7 @@ def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str
     ax.fill_between([], [], [], color=GREY, alpha=0.3, linewidth=0, label=errors)
     if moving.any():
         ax.plot([], [], "o", label="not converged", color=GREY, **ring)
-    if opened.any():
+    if changes.any():
         ax.add_line(open_line("line open: another motion", BLACK, wide(0.8)))
     mark_failed(ax, along[np.isnan(exponent[0])])
     ax.set_ylabel("Lyapunov\nexponents,\nwithout the\ntrivial one (1/s)")

@@ -14,6 +14,7 @@ from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
+    is_in_data,
     letters,
     mark,
     plain_decades,
@@ -30,6 +31,7 @@ from disc_model.figures.selection import (
     at_lower_bound,
     beyond_lowest_speed,
     gaps,
+    opened,
     parts_along,
     picked,
     remaining,
@@ -166,7 +168,7 @@ def draw_lines(
     ax.margins(0.03)
 
     # what is no value, or none that was found
-    _point_down(ax, study, array, x, colours)
+    _point_down(ax, parts, along, bounds, colours)
     _fill_unsettled(ax, study, array, x, marks, colours, sizes)
     _mark_gaps(ax, study, array, x, marks, colours)
     if jumps:
@@ -242,8 +244,7 @@ def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndar
     """A line, with gaps between growth rates that belong to different cycles."""
     if not jumps:
         return [along, heights]
-    places = np.flatnonzero(opens(heights)) + 1
-    return [np.insert(values.astype(float), places, np.nan) for values in (along, heights)]
+    return opened(along, heights, opens(heights))
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -288,8 +289,7 @@ def _shows_numbers(ax: Axes) -> bool:
         if in_panel or each.collections:
             return True
         for line in each.lines:
-            in_data = all(line.get_transform().contains_branch_seperately(each.transData))
-            if in_data and np.isfinite(line.get_ydata()).any():
+            if is_in_data(each, line) and np.isfinite(line.get_ydata()).any():
                 return True
     return False
 
@@ -338,19 +338,18 @@ def _look() -> dict[str, Any]:
 
 
 def _point_down(
-    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, colours: Mapping[str, Any]
+    ax: Axes,
+    parts: Sequence[Part[xr.DataArray]],
+    along: Array,
+    bounds: Mapping[str, Mask],
+    colours: Mapping[str, Any],
 ) -> None:
     """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
-    bound = at_lower_bound(study, str(array.name))
-    if bound is None or not bound.any():
+    if not any(at_bound.any() for at_bound in bounds.values()):
         return
-    by = remaining(array, [x])
-    along = _along(array[x]).values
     ax.margins(y=ROOM)
-    parts = parts_along(array, by)
-    masks = parts_along(bound, by)
-    for part, mask in zip(parts, masks, strict=True):
-        here = mask.data.values
+    for part in parts:
+        here = bounds[part.name]
         if here.any():
             heights = part.data.values[here]
             draw_arrows(ax, along[here], heights, colours[part.name], "down", ARROW)

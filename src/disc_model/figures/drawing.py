@@ -220,6 +220,12 @@ def open_line(label: str, color: Any, width: float) -> Line2D:
     return Line2D([], [], label=label, linestyle="", marker=OPEN_STEP, **look)
 
 
+def is_in_data(ax: Axes, drawn: Artist) -> bool:
+    """Whether something is drawn in the units of both axes."""
+    across, up = drawn.get_transform().contains_branch_seperately(ax.transData)
+    return bool(across and up)
+
+
 def halo(width: float = 1.5, colour: str = "white") -> list[Any]:
     """An outline of text, lines or marks; width in points, that of what it surrounds included."""
     return [withStroke(linewidth=width, foreground=colour)]

@@ -249,10 +249,7 @@ def spare_numbers(bar: Axes) -> None:
     """Hide numbers beside a bar of colours where they would meet: all but every second one from zero
     or a power of ten on, or every third, and so on."""
     axis: Any = bar.yaxis
-    formatters = [axis.get_major_formatter(), axis.get_minor_formatter()]
-    for each in formatters:
-        if isinstance(each, Sparing):
-            each.hidden = []
+    _show_all_numbers(axis)
     numbers = _numbers_beside(axis)
     values = [number for number, _ in numbers]
     whole = [place for place in (0.0, *_shown(axis, axis.get_majorticklocs())) if place in values]
@@ -275,9 +272,7 @@ def spare_heights(ax: Axes) -> None:
     axis: Any = ax.yaxis
     if ax.get_yscale() == "linear":
         return
-    for each in (axis.get_major_formatter(), axis.get_minor_formatter()):
-        if isinstance(each, Sparing):
-            each.hidden = []
+    _show_all_numbers(axis)
     whole = _shown(axis, axis.get_majorticklocs())
     numbers = sorted(
         _numbers_beside(axis), key=lambda each: (each[0] not in whole, abs(each[0]), each[0])
@@ -291,6 +286,13 @@ def spare_heights(ax: Axes) -> None:
             kept.append(box)
     if hidden:
         _hide_numbers(axis, hidden)
+
+
+def _show_all_numbers(axis: Any) -> None:
+    """Show what formatters have left out."""
+    for each in (axis.get_major_formatter(), axis.get_minor_formatter()):
+        if isinstance(each, Sparing):
+            each.hidden = []
 
 
 def _hide_numbers(axis: Any, hidden: list[float]) -> None:

@@ -76,7 +76,7 @@ def restore_margins(figure: Any) -> None:
     figure.subplots_adjust(**known.own)
 
 
-def keep_margins(figure: Any) -> None:
+def _keep_margins(figure: Any) -> None:
     """Note the margins to which a figure's own ones have been widened."""
     now = {name: getattr(figure.subplotpars, name) for name in MARGINS}
     _MARGINS[figure] = _MARGINS[figure]._replace(widened=now)
@@ -87,8 +87,16 @@ def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
     them, and between those of neighbours in a grid.
 
     Axes of a grid get larger margins and gaps, as by `subplots_adjust`, so that rows and columns stay
-    in line and a later `tight_layout` works; others shrink.
+    in line and a later `tight_layout` works; others shrink. They begin from those of the reader each
+    time, since what is drawn now may need less.
     """
+    restore_margins(figure)
+    _widen_for(figure, panels)
+    _keep_margins(figure)
+
+
+def _widen_for(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
+    """Widen margins and gaps, or shrink axes, until all has room or nothing changes."""
     for _ in range(ROUNDS):
         figure.draw_without_rendering()  # sets the places
         changed = False

@@ -6,7 +6,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
-from disc_model.figures.drawing import GREY, plain_decades, wide
+from disc_model.figures.drawing import GREY, is_in_data, plain_decades, wide
 from disc_model.figures.types import Array, Axes, Mask
 
 LINEAR = 0.1
@@ -55,7 +55,7 @@ def _heights_on(ax: Axes) -> Array:
     """Heights of all points of lines on axes."""
     found = [np.zeros(0)]
     for line in ax.lines:
-        if all(line.get_transform().contains_branch_seperately(ax.transData)):
+        if is_in_data(ax, line):
             found.append(np.asarray(line.get_ydata(), dtype=float))
     return np.concatenate(found)
 

@@ -17,7 +17,7 @@ from disc_model.figures.labels import (
 from disc_model.figures.legends import finds_room_below, finds_room_beside, finds_room_inside
 from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
-from disc_model.figures.placing import fit_to_page, keep_margins, restore_margins
+from disc_model.figures.placing import fit_to_page, restore_margins
 from disc_model.figures.types import Axes
 
 ROUNDS = 4  # in which legends find their places after axes have got other sizes
@@ -39,13 +39,10 @@ def make_room(page: Page, wishes: Wishes) -> None:
     plain = figure.get_layout_engine() is None
     if plain:
         restore_margins(figure)
-        keep_margins(figure)
         break_labels(figure, [*panels, *chain(*panels.values())])
     for _ in range(ROUNDS):
         if plain:
-            restore_margins(figure)
             fit_to_page(figure, panels)
-            keep_margins(figure)
         if len(panels) > len(page.axes):
             break_labels(figure, [*panels, *chain(*panels.values())])
         figure.draw_without_rendering()  # sets the places
@@ -57,9 +54,7 @@ def make_room(page: Page, wishes: Wishes) -> None:
             write_legend(former, asked)
             _remember(former, asked)
     if plain:
-        restore_margins(figure)
         fit_to_page(figure, panels)
-        keep_margins(figure)
     for ax, bars in panels.items():
         part_numbers(ax)
         spare_heights(ax)

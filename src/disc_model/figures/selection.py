@@ -307,7 +307,12 @@ def broken(x: Array, y: Array, jump: float, height: Array | None = None) -> list
     heights = y
     if height is not None:
         heights = height
-    places = np.flatnonzero(np.abs(np.diff(heights)) > jump) + 1
+    return opened(x, y, np.abs(np.diff(heights)) > jump)
+
+
+def opened(x: Array, y: Array, steps: Mask) -> list[Array]:
+    """A line with gaps at some of the steps between its points, of which there is one fewer."""
+    places = np.flatnonzero(steps) + 1
     return [np.insert(values.astype(float), places, np.nan) for values in (x, y)]
 
 

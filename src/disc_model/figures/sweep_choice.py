@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require, suggestion
+from disc_model.figures.selection import without_single
 from disc_model.figures.words import known_name, value_text, what_case
 from disc_model.parameters import Disc
 
@@ -102,9 +103,7 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
         "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]
     )
     kept = ("energy",) if alone else ()
-    return study.squeeze(
-        [dim for dim, size in study.sizes.items() if size == 1 and dim not in kept]
-    )
+    return without_single(study, *kept)
 
 
 def _with_first_values(study: xr.Dataset) -> xr.Dataset:

@@ -7,7 +7,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
-from disc_model.figures.drawing import INDIGO
+from disc_model.figures.drawing import INDIGO, is_in_data
 from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Artist, Axes
 
@@ -42,13 +42,7 @@ def shown_beside(ax: Axes) -> list[Axes]:
 def _in_data(ax: Axes, drawn: Sequence[Artist]) -> list[Any]:
     """The lines and bands that are drawn in the units of both axes."""
     kinds = (Line2D, PolyCollection)
-    return [each for each in drawn if isinstance(each, kinds) and _is_in_data(ax, each)]
-
-
-def _is_in_data(ax: Axes, drawn: Any) -> bool:
-    """Whether something is drawn in the units of both axes."""
-    across, up = drawn.get_transform().contains_branch_seperately(ax.transData)
-    return bool(across and up)
+    return [each for each in drawn if isinstance(each, kinds) and is_in_data(ax, each)]
 
 
 def _colour_of(drawn: Any) -> str:
