@@ -30,7 +30,9 @@ from disc_model.figures.selection import (
     Part,
     at_lower_bound,
     beyond_lowest_speed,
+    doubts,
     gaps,
+    near_another,
     opened,
     parts_along,
     picked,
@@ -142,6 +144,9 @@ def draw_lines(
         line = single.line(THIN).get("linestyle", "-")
     sizes = _sizes(parts)
     bounds = _at_bound_by_part(study, array, by)
+    steps = {part.name: np.zeros(along.size - 1, dtype=bool) for part in parts}
+    if jumps:
+        steps = _open_steps(study, array, by)
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
         heights = part.data.values
@@ -154,7 +159,7 @@ def draw_lines(
         elif heights.size > CROWDED:
             alone = len(marks) == 1
             look |= _draw_dots(ax, along, heights, colour, joined=bool(line), alone=alone)
-        [first, *_] = ax.plot(*_pieces(along, heights, jumps), **look)
+        [first, *_] = ax.plot(*opened(along, heights, steps[part.name]), **look)
         drawn.append((title, first))
 
     # scales and labels
@@ -169,10 +174,10 @@ def draw_lines(
 
     # what is no value, or none that was found
     _point_down(ax, parts, along, bounds, colours)
-    _fill_unsettled(ax, study, array, x, marks, colours, sizes)
+    _fill_doubtful(ax, study, array, x, marks, colours, sizes)
     _mark_gaps(ax, study, array, x, marks, colours)
     if jumps:
-        _mark_jumps(ax, parts, along, colours)
+        _mark_jumps(ax, steps, along, colours)
     return drawn
 
 
@@ -240,11 +245,16 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
         ax.tick_params(axis="x", labelrotation=90)
 
 
-def _pieces(along: np.ndarray, heights: np.ndarray, jumps: bool) -> list[np.ndarray]:
-    """A line, with gaps between growth rates that belong to different cycles."""
-    if not jumps:
-        return [along, heights]
-    return opened(along, heights, opens(heights))
+def _open_steps(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
+    """The steps at which each line of growth rates of cycles is open: those that may lead to another
+    cycle, and those to or from a cycle that the motion is not near."""
+    other = near_another(study, str(array.name))
+    if other is None:
+        other = array.copy(data=np.zeros(array.shape, dtype=bool))
+    found = {}
+    for part, apart in zip(parts_along(array, by), parts_along(other, by), strict=True):
+        found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
+    return found
 
 
 def _marked(heights: np.ndarray) -> list[int]:
@@ -355,7 +365,7 @@ def _point_down(
             draw_arrows(ax, along[here], heights, colours[part.name], "down", ARROW)
 
 
-def _fill_unsettled(
+def _fill_doubtful(
     ax: Axes,
     study: xr.Dataset,
     array: xr.DataArray,
@@ -364,22 +374,22 @@ def _fill_unsettled(
     colours: Mapping[str, Any],
     sizes: Mapping[str, float],
 ) -> None:
-    """Fill the marks of points that rest on a motion which had not settled; those of a panel have one
-    entry in the legend."""
-    mask = unsettled(study, str(array.name))
-    if mask is None or not (mask & array.notnull()).any():
-        return
-    look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
-    if UNSETTLED.label not in ax.get_legend_handles_labels()[1]:
-        ax.plot([], [], color=GREY, marker="o", label=UNSETTLED.label, **look)
+    """Fill the marks of points whose value may be another than that of a settled motion; those of a
+    panel have one entry in the legend."""
     by = remaining(array, [x])
     along = _along(array[x]).values
-    for part, chosen in zip(parts_along(array, by), parts_along(mask, by), strict=True):
-        here = chosen.data.values & np.isfinite(part.data.values)
-        if here.any():
-            look |= {"marker": marks[part.name], "color": colours[part.name]}
-            look["markersize"] = sizes[part.name] + mark(1)
-            ax.plot(along[here], part.data.values[here], label="_nolegend_", **look)
+    for reason, doubtful in doubts(study, str(array.name)).items():
+        if not (doubtful & array.notnull()).any():
+            continue
+        look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
+        if reason.label not in ax.get_legend_handles_labels()[1]:
+            ax.plot([], [], color=GREY, marker="o", label=reason.label, **look)
+        for part, chosen in zip(parts_along(array, by), parts_along(doubtful, by), strict=True):
+            here = chosen.data.values & np.isfinite(part.data.values)
+            if here.any():
+                look |= {"marker": marks[part.name], "color": colours[part.name]}
+                look["markersize"] = sizes[part.name] + mark(1)
+                ax.plot(along[here], part.data.values[here], label="_nolegend_", **look)
 
 
 def _mark_gaps(
@@ -430,15 +440,14 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
 
 
 def _mark_jumps(
-    ax: Axes, parts: Sequence[Part[xr.DataArray]], along: Array, colours: Mapping[str, Any]
+    ax: Axes, steps: Mapping[str, Mask], along: Array, colours: Mapping[str, Any]
 ) -> None:
-    """Mark the gaps of lines between growth rates above the panel by strokes halfway between their
-    points, in the colours of the lines: no points lie there."""
+    """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
+    between their points, in the colours of the lines: no points lie there."""
     middle = 0.5 * (along[:-1] + along[1:])
     if ax.get_xscale() == "log":
         middle = np.sqrt(along[:-1] * along[1:])
-    for part in parts:
-        is_gap = opens(part.data.values)
+    for name, is_gap in steps.items():
         if is_gap.any():
-            look = {"marker": "|", "markersize": mark(5), "color": colours[part.name]}
+            look = {"marker": "|", "markersize": mark(5), "color": colours[name]}
             add_row(ax, OPEN, middle[is_gap], **look)

@@ -10,9 +10,9 @@ from matplotlib.colors import to_hex
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
-from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, Look
+from disc_model.figures.classes import LOOKS, NEAR_ANOTHER, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
-from disc_model.figures.selection import class_of_gap, has_values, statuses_like
+from disc_model.figures.selection import class_of_gap, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import NO_VALUE, label_of, missing_text
 
@@ -24,6 +24,7 @@ MAP_LOOKS = {
     NEGATIVE: STABLE,
     NEUTRAL: Look("neutral", to_hex(cm.vik(0.5))),
     UNRESOLVED.label: UNRESOLVED,
+    NEAR_ANOTHER.label: NEAR_ANOTHER,
 }
 """Looks of all that a map of growth rates shows beside its colours."""
 
@@ -73,6 +74,8 @@ def marks_of(plane: xr.Dataset, name: str = "growth_rate") -> dict[str, Mask]:
     marks = {NEGATIVE: rates < -ROUNDING, NEUTRAL: np.abs(rates) <= ROUNDING}
     if are_ordered(plane[name]):
         marks[UNRESOLVED.label] = isolated(plane, name)
+    for look, mask in doubts(plane, name).items():
+        marks[look.label] = mask.transpose(*plane[name].dims).values
     return marks
 
 

@@ -17,7 +17,7 @@ from disc_model.figures.cells import (
     paint,
     scale_of,
 )
-from disc_model.figures.classes import AT_BOUND, LOOKS, UNRESOLVED, UNSETTLED
+from disc_model.figures.classes import AT_BOUND, LOOKS, NEAR_ANOTHER, UNRESOLVED, UNSETTLED
 from disc_model.figures.colours import USUAL, ColourWishes, colours_of, draw_bar, is_growth
 from disc_model.figures.drawing import COLUMN, letter, panels, plain_decades, set_label
 from disc_model.figures.growth import growth_panels
@@ -28,6 +28,7 @@ from disc_model.figures.selection import (
     Part,
     at_lower_bound,
     classes_of_gaps,
+    doubts,
     has_values,
     parts_along,
     picked,
@@ -36,7 +37,6 @@ from disc_model.figures.selection import (
     statuses,
     statuses_like,
     titles_of,
-    unsettled,
 )
 from disc_model.figures.types import Artist, Axes, Figure, FigureBase
 from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
@@ -180,7 +180,7 @@ def number_panels(
         missing = classes_of_gaps(plane, array)
         paint(ax, edges, missing, LOOKS)
         used |= set(missing.flat)
-        marked = {AT_BOUND: at_lower_bound(plane, variable), UNSETTLED: unsettled(plane, variable)}
+        marked = {AT_BOUND: at_lower_bound(plane, variable), **doubts(plane, variable)}
         for look, mask in marked.items():
             if mask is not None and mask.any():
                 cells = mask.transpose(*array.dims).values
@@ -189,7 +189,7 @@ def number_panels(
 
     unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
     looks = {**MARKED, NO_VALUE: unvalued}
-    looks |= {look.label: look for look in (AT_BOUND, UNSETTLED)}
+    looks |= {look.label: look for look in (AT_BOUND, UNSETTLED, NEAR_ANOTHER)}
     if not has_values(planes, variable):
         return entries(used, looks)
     draw_bar(figure, axes, mesh, colours, label)

@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.classes import name_of
+from disc_model.figures.classes import NEAR_ANOTHER, UNSETTLED, Look, name_of
 from disc_model.figures.kinds.base import NORM
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.words import NO_VALUE, named_value, rank_of, value_text
@@ -41,6 +41,8 @@ OF_STAYS = (
     "sweep_separation_rate",
 )
 """Variables that describe the motion at the end of each stay of a sweep of the speed."""
+OF_CYCLES = ("growth_rate", "period", "stick_fraction")
+"""Variables of a cycle."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -278,6 +280,21 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
         swept = swept_speeds(study)
         return swept.onset_unsettled if variable == "onset_speed" else swept.end_unsettled
     return None
+
+
+def near_another(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose value is that of an unstable cycle, where the motion from the static start has come
+    near another one; None of other variables and studies."""
+    if variable not in OF_CYCLES or "other_growth_rate" not in study:
+        return None
+    return study["other_growth_rate"].notnull()
+
+
+def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
+    """Points whose value is another than that of a settled motion from the static start may be, by the
+    look that says why."""
+    masks = {UNSETTLED: unsettled(study, variable), NEAR_ANOTHER: near_another(study, variable)}
+    return {look: mask for look, mask in masks.items() if mask is not None and mask.any()}
 
 
 # ---- Stretches along an axis

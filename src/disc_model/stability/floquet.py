@@ -1,12 +1,29 @@
 """`floquet`: a cycle of a case and its stability."""
 
+from dataclasses import replace
+
+import numpy as np
+
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, with_known_names
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle, guess_faults
+from disc_model.stability.cycle import (
+    SAME_POINT,
+    SLIPPING,
+    STICK_SLIP,
+    FloquetResult,
+    cycle_of,
+    find_cycle,
+    guess_faults,
+)
+from disc_model.stability.return_map import ReturnMap, newton
 from disc_model.stability.slipping_cycle import find_slipping_cycle
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
+
+SETTLED = 300
+"""Releases after which the motion from the static start is compared with an unstable cycle that was found near
+it: after fewer it may still be on its way."""
 
 
 @compiling()
@@ -37,7 +54,9 @@ def floquet(
     Returns
     -------
     FloquetResult
-        It is also returned if no cycle exists: `status` and `message` then say what was found instead.
+        It is also returned if no cycle exists: `status` and `message` then say what was found instead. Where the cycle
+        is unstable, and the motion from the static start is near another one after 300 releases, `message` says so, and
+        `other_growth_rate` is that of the other: the last state of a simulation leads to it as `guess`.
 
     Raises
     ------
@@ -67,4 +86,34 @@ def floquet(
     raise_faults(foreign_case(case) + wrong)
     if kind == SLIPPING:
         return find_slipping_cycle(case, float(tol), guess)
-    return find_cycle(case, float(tol), guess, releases)
+    cycle = find_cycle(case, float(tol), guess, releases)
+    if guess is None and cycle.releases == 1 and not cycle.stable:
+        return _beside_motion(cycle)
+    return cycle
+
+
+def _beside_motion(cycle: FloquetResult) -> FloquetResult:
+    """An unstable cycle that was sought near the static start; its message says so if the motion from
+    there has come near another one."""
+    assert cycle.state is not None
+    map_ = ReturnMap(cycle.parameters, cycle.tol)
+    start = map_.first_release
+    if not start.reached:
+        return cycle
+    motion = map_.evaluate(start.x, releases=SETTLED, tangent=False)
+    if not motion.returned:
+        return cycle
+
+    own = map_.point(cycle.state)
+    distance = np.linalg.norm(motion.end - own)
+    if distance <= SAME_POINT * np.linalg.norm(own):
+        return cycle
+    other = newton(map_, motion.end)
+    if other is None or np.linalg.norm(other.start - motion.end) >= distance:
+        return cycle
+    if np.linalg.norm(other.start - own) <= SAME_POINT * np.linalg.norm(own):
+        return cycle
+    rate = cycle_of(map_, other).growth_rate
+    where = f"after {SETTLED} releases the motion from the static start is near another cycle"
+    message = f"{cycle.message}; {where}, with growth rate {rate:.6g} 1/s"
+    return replace(cycle, message=message, other_growth_rate=rate)
