@@ -14,6 +14,7 @@ import disc_model as dm
 from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import name_of
+from disc_model.figures.curve import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import OPEN
@@ -579,6 +580,29 @@ def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int)
     top = rows_above(ax)[1].words.get_window_extent()
     assert top.y1 <= figure.bbox.y1
     assert top.x1 <= figure.bbox.x1
+
+
+def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
+    """They stood on the line as any other."""
+    speeds = [7.3, 7.35, 7.4]
+    found = dm.sweep(dm.floquet, CASE.replace(N=375), Omega=speeds, N=[370, 375])
+    assert found["other_growth_rate"].notnull().values.T.tolist() == [
+        3 * [False],
+        [False, True, False],
+    ]
+    words = "the motion is near another cycle"
+    for variable, open_at in (("growth_rate", [7.325, 7.375]), ("period", [])):
+        ax = dm.plot_sweep(found.sel(N=375), variable)
+        filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
+        places = [[*line.get_xdata()] for line in filled if line.get_marker() in MARKS]
+        assert places == [[], [7.35]], "the first is the legend's"
+        assert labels(ax.figure) == [words]
+        steps = [place for rows in rows_above(ax) for row in rows.rows for place in row.get_xdata()]
+        assert steps == pytest.approx(open_at)  # to rounding
+        assert words not in labels(dm.plot_sweep(found.sel(N=370), variable).figure)
+        plane = dm.plot_sweep(found, variable)
+        assert words in labels(plane.figure)
+        pyplot.close("all")
 
 
 def test_a_smooth_line_of_growth_rates_is_not_open() -> None:

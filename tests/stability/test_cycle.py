@@ -263,3 +263,30 @@ def test_how_long_a_slider_slips_on_is_stated():
     found = _without_return(ReturnMap(P), transitions.TIME_OVER, 0.123)
     assert found.status is CycleStatus.NO_STICK_SLIP
     assert found.message.endswith("the slider slips on for 0.123 s without sticking")
+
+
+@pytest.mark.parametrize("speed", [7.35, 7.75])
+def test_an_unstable_cycle_says_that_the_motion_is_near_another(speed: float):
+    """Its growth rate, 0.28/s, stood as that of the motion, which grows by less than 0.001/s."""
+    case = Parameters(N=375, Omega=speed)
+    found = floquet(case)
+    assert found.growth_rate > 0.2
+    motion = floquet(case, guess=simulate(case, 20).final_state)
+    # both are that cycle's, to a residual of 1e-12 over its period of 0.02 s
+    assert found.other_growth_rate == pytest.approx(motion.growth_rate, abs=1e-8)
+    assert (
+        f"near another cycle, with growth rate {found.other_growth_rate:.6g} 1/s" in found.message
+    )
+    assert "the motion is near another cycle" in repr(found)
+    assert math.isnan(motion.other_growth_rate)
+
+
+def test_the_motion_near_its_own_cycle_is_near_no_other():
+    """Neither near a stable cycle nor while it leaves an unstable one."""
+    signs = set()
+    for load, speed in ((385, 15), (375, 7.0), (375, 8.75)):
+        found = floquet(Parameters(N=load, Omega=speed))
+        signs.add(found.stable)
+        assert math.isnan(found.other_growth_rate)
+        assert "another" not in found.message
+    assert signs == {True, False}

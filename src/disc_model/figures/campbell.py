@@ -25,7 +25,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import Campbell
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, named_modes
-from disc_model.figures.rate_scale import LINEAR, OPEN, scale_rates
+from disc_model.figures.rate_scale import LINEAR, scale_rates
 from disc_model.figures.selection import (
     NORM,
     broken,
@@ -111,7 +111,8 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
     if any(unjoined(rate).any() for rate in rates):
         handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
-        handles.append(open_line(OPEN, BLACK, wide(0.8)))
+        wide_step = f"line open: a step of over {LINEAR:g}/s"
+        handles.append(open_line(wide_step, BLACK, wide(0.8)))
     if any(np.isnan(rate).any() for rate in rates):
         handles.append(Patch(label="no growth rate", **BAND))
     figure_legend(figure, handles, columns=3)

@@ -144,9 +144,7 @@ def draw_lines(
         line = single.line(THIN).get("linestyle", "-")
     sizes = _sizes(parts)
     bounds = _at_bound_by_part(study, array, by)
-    steps = {part.name: np.zeros(along.size - 1, dtype=bool) for part in parts}
-    if jumps:
-        steps = _open_steps(study, array, by)
+    steps = _open_steps(study, array, by) if jumps else {}
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
         heights = part.data.values
@@ -159,7 +157,10 @@ def draw_lines(
         elif heights.size > CROWDED:
             alone = len(marks) == 1
             look |= _draw_dots(ax, along, heights, colour, joined=bool(line), alone=alone)
-        [first, *_] = ax.plot(*opened(along, heights, steps[part.name]), **look)
+        pieces = [along, heights]
+        if jumps:
+            pieces = opened(along, heights, steps[part.name])
+        [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
     # scales and labels

@@ -15,8 +15,7 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
@@ -26,7 +25,7 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
     multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
     MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
-    cycle = floquet(p, tol=tol)
+    cycle = find_cycle(p, tol)
     modes = sliding_modes(p, cycle.sliding)
     columns = np.full((3, len(modes.frequency)), math.nan)
     disc = modes.diameters >= 0

@@ -31,9 +31,9 @@ class Floquet(Quantity):
         return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.floquet import floquet
+        from disc_model.stability.cycle import find_cycle
 
-        cycle = floquet(point.parameters, tol=self.tol)
+        cycle = find_cycle(point.parameters, self.tol)
         leading = (
             complex(cycle.multipliers[0])
             if cycle.status is CycleStatus.OK
@@ -47,8 +47,8 @@ class Floquet(Quantity):
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
     def state_at(self, point: Point) -> State:
-        from disc_model.stability.floquet import floquet
+        from disc_model.stability.cycle import find_cycle
 
-        state = floquet(point.parameters, tol=self.tol).raise_for_status().state
+        state = find_cycle(point.parameters, self.tol).raise_for_status().state
         assert state is not None
         return state

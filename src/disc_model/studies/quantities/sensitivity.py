@@ -238,9 +238,9 @@ def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    from disc_model.stability.floquet import floquet
+    from disc_model.stability.cycle import find_cycle
 
-    cycle = floquet(p, tol=tol)
+    cycle = find_cycle(p, tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
     if cycle.motion in SAMPLE_CYCLES:
         return row, ""
