@@ -742,7 +742,7 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
     [
         ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
         ([-0.05, -0.05, -0.30, -0.05, -0.05], "not resolved by the steps"),
-        ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: another cycle, or too wide a step"),
+        ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: a step of over 0.1/s"),
     ],
 )
 def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
