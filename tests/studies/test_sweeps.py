@@ -251,8 +251,71 @@ def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     assert swept["Omega"].attrs["units"] == "rad s-1"
     assert swept["ended"].sel(N=385).item() == branch.attrs["ended"]
     for branches in (swept, swept.sel(N=385)):
-        with refusal(r"draw each by itself, as by continue_cycle"):
+        with refusal(r"draw each by itself, as by disc_model.Branch.from_dataset\(study"):
             dm.plot_sweep(branches)
+
+
+def swept_branches() -> xr.Dataset:
+    """Branches of different lengths, and a point without one."""
+    case = P.replace(Omega=15)
+    options = {"name": "Omega", "bounds": (14.8, 15.2), "values": [15.15]}
+    return sweep(dm.continue_cycle, case, N=[300, 385, -1], **options)
+
+
+@pytest.mark.parametrize("N", [300, 385])
+def test_a_point_of_a_sweep_is_the_branch_of_a_direct_call(N: float) -> None:
+    """It was refused: padded with nan, its attributes those of the sweep, its counts real numbers."""
+    swept = swept_branches()
+    branch = dm.continue_cycle(P.replace(Omega=15, N=N), "Omega", (14.8, 15.2), values=[15.15])
+    for point in (swept.sel(N=N), swept.sel(N=[N])):
+        again = dm.Branch.from_dataset(point)
+        xr.testing.assert_identical(again.to_dataset(), branch.to_dataset())
+        assert repr(again) == repr(branch)
+        assert again.case == branch.case
+        assert again.state(-1) == branch.state(-1)
+        assert again.plot().get_ylabel() == branch.plot().get_ylabel()
+
+
+def test_branches_of_discs_with_fewer_modes_have_no_modes_of_others() -> None:
+    options = {"name": "Omega", "bounds": (14.8, 15.2)}
+    case = P.replace(N=300, Omega=15)
+    swept = sweep(dm.continue_cycle, case, n_diameters=[-1, 4], **options)
+    rigid = dm.Branch.from_dataset(swept.sel(n_diameters=-1))
+    branch = dm.continue_cycle(case.replace(n_diameters=-1), **options)
+    xr.testing.assert_identical(rigid.to_dataset(), branch.to_dataset())
+
+
+def test_a_stored_sweep_has_its_branches(tmp_path: Path) -> None:
+    swept = swept_branches()
+    expected = dm.Branch.from_dataset(swept.sel(N=385)).to_dataset()
+    for file in ("swept.nc", "swept.mat"):
+        dm.save(swept, tmp_path / file)
+        point = dm.load(tmp_path / file).sel(N=385)
+        xr.testing.assert_identical(dm.Branch.from_dataset(point).to_dataset(), expected)
+
+
+def test_what_is_no_branch_of_a_sweep_is_refused() -> None:
+    swept = swept_branches()
+    with refusal(r"data: must be one branch of the sweep.*data\.isel\(N=0\)"):
+        dm.Branch.from_dataset(swept)
+    with refusal(r"data: must be a branch, but this point .* failed: ParameterError: N=-1: must"):
+        dm.Branch.from_dataset(swept.sel(N=-1))
+    for other in (swept.drop_vars("a").sel(N=300), sweep(dm.floquet, P, N=[300]).sel(N=300)):
+        with refusal(r"must be a dataset of Branch\.to_dataset, or a point of a sweep"):
+            dm.Branch.from_dataset(other)
+
+
+def test_branches_of_a_function_of_ones_own_are_branches_too() -> None:
+    """Its case may be another than that of the sweep."""
+
+    def softer(case: dm.Parameters) -> dm.Branch:
+        return dm.continue_cycle(case.replace(k_p=15000), "Omega", (13.9, 14.1))
+
+    swept = sweep(softer, P, N=[300])
+    branch = dm.Branch.from_dataset(swept.sel(N=300))
+    assert branch.case == P.replace(N=300, k_p=15000)
+    with refusal(r"draw each by itself"):
+        dm.plot_sweep(swept)
 
 
 def test_values_of_a_search_are_in_the_unit_of_its_parameter() -> None:
