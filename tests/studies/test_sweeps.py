@@ -239,6 +239,25 @@ def test_numbers_among_words_are_words() -> None:
     assert swept["x"].values.tolist() == ["1.5", "none"]
 
 
+def test_what_a_sweep_would_leave_out_is_refused() -> None:
+    """Samples, curves and fitted parameters were computed at each point and lost without a word."""
+    windows = {"late": dm.Window(last=0.1, rate=1e3)}
+    with refusal(r"windows=\{'late'.*a sweep keeps no samples: sweep a function of your own"):
+        sweep(dm.simulate, P, N=[300], t_end=0.2, windows=windows)
+    plane = {"Omega": (10, 14), "mu_k": (0.2, 0.3)}
+    with refusal(r"function=neutral_curves: a sweep keeps no curves"):
+        sweep(dm.neutral_curves, P, N=[300], bounds=plane, lines=[0.25])
+    with refusal(r"function=fit: a sweep keeps no fitted parameters"):
+        sweep(dm.fit, P, N=[300], vary=["mu_s"], measured={"period": (0.015, 1e-5)})
+    assert sweep(dm.simulate, P, N=[300], t_end=0.2, windows=None)["status"].item() == "ok"
+
+
+def test_a_sweep_gathers_nothing_private_of_a_state() -> None:
+    swept = sweep(dm.initial_state, P, N=[300])
+    assert [name for name in swept if str(name).startswith("_")] == []
+    assert "psi" in swept
+
+
 def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     """Points of branches had neither their speeds nor multipliers."""
     options: dict[str, Any] = {"name": "Omega", "bounds": (14.8, 15.2)}
@@ -367,9 +386,9 @@ def test_a_sweep_states_the_arguments_of_its_function(tmp_path: Path) -> None:
     dm.save(swept, tmp_path / "swept.nc")
     assert dm.load(tmp_path / "swept.nc").attrs["options"] == swept.attrs["options"]
 
-    windows = {"late": dm.Window(last=0.1, rate=1e3)}
-    simulated = sweep(dm.simulate, P, Omega=[14.0], t_end=0.2, windows=windows)
-    assert "rate=1000" in json.loads(simulated.attrs["options"])["windows"]["late"]
+    execution = dm.Execution(max_steps=10_000)
+    simulated = sweep(dm.simulate, P, Omega=[14.0], t_end=0.2, execution=execution)
+    assert "max_steps=10000" in json.loads(simulated.attrs["options"])["execution"]
 
 
 # ---- Values that vary together
@@ -676,7 +695,9 @@ def test_an_error_of_another_kind_names_the_point(workers: int) -> None:
 
     with pytest.raises(RuntimeError, match="no answer") as caught:
         sweep(found, dm.Parameters(N=385, Omega=15), Omega=[10, 12], mu_k=[0.4], workers=workers)
-    assert caught.value.__notes__ == ["at the point Omega=12.0, mu_k=0.4 of the sweep"]
+    remedy = 'with errors="record" a sweep goes on after such an error'
+    note = f"at the point Omega=12.0, mu_k=0.4 of the sweep; {remedy}"
+    assert caught.value.__notes__ == [note]
 
 
 @pytest.mark.parametrize("workers", [1, 2])

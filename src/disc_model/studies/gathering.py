@@ -114,7 +114,8 @@ def _named_values(result: Any) -> Mapping[str, Any]:
     if isinstance(result, Result):
         return result.scalars()
     if is_dataclass(result):
-        values = {field.name: getattr(result, field.name) for field in fields(result)}
+        names = [field.name for field in fields(result) if not field.name.startswith("_")]
+        values = {name: getattr(result, name) for name in names}
         for verdict in ("stable", "at_lower_bound"):
             if hasattr(result, verdict):
                 values[verdict] = getattr(result, verdict)
