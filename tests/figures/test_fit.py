@@ -62,6 +62,13 @@ def test_deviations_are_in_standard_deviations_of_which_two_are_expected(panels:
     assert right.get_xlabel() == "Deviation (standard deviations)"
 
 
+def test_the_legend_says_what_the_band_is(panels: Any) -> None:
+    """It was said on a page of the documentation only."""
+    legend = panels[0].figure.legends or [ax.get_legend() for ax in panels if ax.get_legend()]
+    said = [text.get_text() for text in legend[0].get_texts()]
+    assert "95 % if the fit is right" in said
+
+
 @pytest.mark.parametrize("beside", [True, False])
 def test_rows_of_readers_panels_are_level_and_named_once(beside: bool) -> None:
     """Panels that share no axis had other limits, and numbers for names."""

@@ -291,7 +291,10 @@ def test_texts_with_units_are_read() -> None:
 def test_a_fit_shows_values_intervals_and_deviations() -> None:
     measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.0, 0.5)}
     fit = dm.fit(DISC, ["E"], measured)
-    assert re.fullmatch(r"Fit\(E=1\.5\d*e\+11 ± [\d.e+]+; chi squared .*freedom\)", repr(fit))
+    assert re.fullmatch(
+        r"Fit\(E=1\.5\d*e\+11 ± [\d.e+]+; ± one standard deviation; chi squared .*freedom\)",
+        repr(fit),
+    )
     page = fit._repr_html_()
     for word in ("E", "Pa", "frequency_0_0", "239", "Hz", "consistent"):
         assert word in page
@@ -511,6 +514,61 @@ def test_a_bound_that_holds_a_parameter_is_said() -> None:
 
 
 @pytest.mark.compiled
+def damping(case: dm.Parameters) -> float:
+    """A quantity that is a parameter, so that limits are known in closed form."""
+    return case.c_p
+
+
+@pytest.mark.parametrize("bounds", [{"c_p": (0, 50)}, None])
+@pytest.mark.parametrize("measured", [-1.0, 0.0, 0.5])
+def test_a_parameter_that_may_be_zero_has_an_upper_limit(
+    measured: float, bounds: dict[str, Any] | None
+) -> None:
+    """It was said to be held by its bound, and without bounds to be undetermined by a search that had not
+    converged."""
+    table = [dm.Measurement(damping, measured, 1.0)]
+    found = dm.fit(BLOCK.replace(c_p=2), ["c_p"], table, bounds=bounds)
+    z = 1.6449
+    limit = measured + z if measured >= 0 else measured + math.sqrt(measured**2 + z**2)
+    assert found.converged
+    assert found.limits["c_p"] == pytest.approx(limit, rel=1e-3)
+    assert f"c_p is below {limit:.3g} N s/m at 95 % confidence" in found.doubt
+    assert "the interval of c_p passes 0, beyond which there is no case" in found.doubt
+    assert "widen" not in found.doubt
+
+
+def test_upper_limits_lie_above_the_true_value_in_95_of_100_draws() -> None:
+    drawn = np.random.default_rng(5).normal(size=300)
+    start = BLOCK.replace(c_p=2)
+    for true in (0.0, 0.5, 1.0):
+        above = 0
+        for error in drawn:
+            table = [dm.Measurement(damping, true + error, 1.0)]
+            found = dm.fit(start, ["c_p"], table, bounds={"c_p": (0, 50)})
+            above += not found.limits.get("c_p", math.inf) < true
+        assert above >= binom.ppf(0.01, len(drawn), 0.95)
+
+
+def test_a_limit_of_a_cycle_is_where_chi_squared_has_risen_as_far() -> None:
+    truth = DISC.replace(N=385, Omega=14)
+    cycle = Prediction(truth)
+    table = {"period": (cycle.of("period"), 1e-5), "growth_rate": (cycle.of("growth_rate"), 0.05)}
+    found = dm.fit(truth.replace(c_p=0.3), ["c_p"], table)
+    at_limit = Prediction(truth.replace(c_p=found.limits["c_p"]))
+    rise = sum(((at_limit.of(name) - value) / s) ** 2 for name, (value, s) in table.items())
+    assert rise - found.chi_squared == pytest.approx(1.6449**2, rel=0.05)
+
+
+def test_a_parameter_without_effect_up_to_a_limit_has_none() -> None:
+
+    def flat(case: dm.Parameters) -> float:
+        return min(case.c_p, 1.0)
+
+    found = dm.fit(BLOCK, ["c_p"], [dm.Measurement(flat, 0.0, 1.0)], bounds={"c_p": (0, 50)})
+    assert math.isnan(found.limits["c_p"])
+    assert "confidence" not in found.doubt
+
+
 def test_the_measurement_that_deviates_most_is_named() -> None:
     case = dm.Parameters(N=385, Omega=14)
     measured = []

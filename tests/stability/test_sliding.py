@@ -180,6 +180,11 @@ LOOSE = {"k_p": 0, "mu_k": 0}
         ({"Omega": 0}, SlidingStatus.AT_REST),
         # above a resonance the disc yields upwards, and the slider's spring with it
         ({"Omega": 1520.0}, SlidingStatus.NO_CONTACT),
+        # softened, the spring pulls less than N presses
+        ({"Omega": 1520.0, "k": 100.0}, SlidingStatus.OK),
+        # a lower speed was advised, which changes nothing without a load
+        ({"N": 0}, SlidingStatus.NO_LOAD),
+        ({"N": 0, "Omega": 1520.0}, SlidingStatus.NO_LOAD),
         (BONDED, SlidingStatus.OK),
         # a bond that pulls tilts the disc against the slip
         ({**BONDED, "N": 1e6, "D_star": 2e-4}, SlidingStatus.PARADOX),

@@ -239,6 +239,25 @@ def test_numbers_among_words_are_words() -> None:
     assert swept["x"].values.tolist() == ["1.5", "none"]
 
 
+def test_what_a_sweep_would_leave_out_is_refused() -> None:
+    """Samples, curves and fitted parameters were computed at each point and lost without a word."""
+    windows = {"late": dm.Window(last=0.1, rate=1e3)}
+    with refusal(r"windows=\{'late'.*a sweep keeps no samples: sweep a function of your own"):
+        sweep(dm.simulate, P, N=[300], t_end=0.2, windows=windows)
+    plane = {"Omega": (10, 14), "mu_k": (0.2, 0.3)}
+    with refusal(r"function=neutral_curves: a sweep keeps no curves"):
+        sweep(dm.neutral_curves, P, N=[300], bounds=plane, lines=[0.25])
+    with refusal(r"function=fit: a sweep keeps no fitted parameters"):
+        sweep(dm.fit, P, N=[300], vary=["mu_s"], measured={"period": (0.015, 1e-5)})
+    assert sweep(dm.simulate, P, N=[300], t_end=0.2, windows=None)["status"].item() == "ok"
+
+
+def test_a_sweep_gathers_nothing_private_of_a_state() -> None:
+    swept = sweep(dm.initial_state, P, N=[300])
+    assert [name for name in swept if str(name).startswith("_")] == []
+    assert "psi" in swept
+
+
 def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     """Points of branches had neither their speeds nor multipliers."""
     options: dict[str, Any] = {"name": "Omega", "bounds": (14.8, 15.2)}
@@ -251,8 +270,71 @@ def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     assert swept["Omega"].attrs["units"] == "rad s-1"
     assert swept["ended"].sel(N=385).item() == branch.attrs["ended"]
     for branches in (swept, swept.sel(N=385)):
-        with refusal(r"draw each by itself, as by continue_cycle"):
+        with refusal(r"draw each by itself, as by disc_model.Branch.from_dataset\(study"):
             dm.plot_sweep(branches)
+
+
+def swept_branches() -> xr.Dataset:
+    """Branches of different lengths, and a point without one."""
+    case = P.replace(Omega=15)
+    options = {"name": "Omega", "bounds": (14.8, 15.2), "values": [15.15]}
+    return sweep(dm.continue_cycle, case, N=[300, 385, -1], **options)
+
+
+@pytest.mark.parametrize("N", [300, 385])
+def test_a_point_of_a_sweep_is_the_branch_of_a_direct_call(N: float) -> None:
+    """It was refused: padded with nan, its attributes those of the sweep, its counts real numbers."""
+    swept = swept_branches()
+    branch = dm.continue_cycle(P.replace(Omega=15, N=N), "Omega", (14.8, 15.2), values=[15.15])
+    for point in (swept.sel(N=N), swept.sel(N=[N])):
+        again = dm.Branch.from_dataset(point)
+        xr.testing.assert_identical(again.to_dataset(), branch.to_dataset())
+        assert repr(again) == repr(branch)
+        assert again.case == branch.case
+        assert again.state(-1) == branch.state(-1)
+        assert again.plot().get_ylabel() == branch.plot().get_ylabel()
+
+
+def test_branches_of_discs_with_fewer_modes_have_no_modes_of_others() -> None:
+    options = {"name": "Omega", "bounds": (14.8, 15.2)}
+    case = P.replace(N=300, Omega=15)
+    swept = sweep(dm.continue_cycle, case, n_diameters=[-1, 4], **options)
+    rigid = dm.Branch.from_dataset(swept.sel(n_diameters=-1))
+    branch = dm.continue_cycle(case.replace(n_diameters=-1), **options)
+    xr.testing.assert_identical(rigid.to_dataset(), branch.to_dataset())
+
+
+def test_a_stored_sweep_has_its_branches(tmp_path: Path) -> None:
+    swept = swept_branches()
+    expected = dm.Branch.from_dataset(swept.sel(N=385)).to_dataset()
+    for file in ("swept.nc", "swept.mat"):
+        dm.save(swept, tmp_path / file)
+        point = dm.load(tmp_path / file).sel(N=385)
+        xr.testing.assert_identical(dm.Branch.from_dataset(point).to_dataset(), expected)
+
+
+def test_what_is_no_branch_of_a_sweep_is_refused() -> None:
+    swept = swept_branches()
+    with refusal(r"data: must be one branch of the sweep.*data\.isel\(N=0\)"):
+        dm.Branch.from_dataset(swept)
+    with refusal(r"data: must be a branch, but this point .* failed: ParameterError: N=-1: must"):
+        dm.Branch.from_dataset(swept.sel(N=-1))
+    for other in (swept.drop_vars("a").sel(N=300), sweep(dm.floquet, P, N=[300]).sel(N=300)):
+        with refusal(r"must be a dataset of Branch\.to_dataset, or a point of a sweep"):
+            dm.Branch.from_dataset(other)
+
+
+def test_branches_of_a_function_of_ones_own_are_branches_too() -> None:
+    """Its case may be another than that of the sweep."""
+
+    def softer(case: dm.Parameters) -> dm.Branch:
+        return dm.continue_cycle(case.replace(k_p=15000), "Omega", (13.9, 14.1))
+
+    swept = sweep(softer, P, N=[300])
+    branch = dm.Branch.from_dataset(swept.sel(N=300))
+    assert branch.case == P.replace(N=300, k_p=15000)
+    with refusal(r"draw each by itself"):
+        dm.plot_sweep(swept)
 
 
 def test_values_of_a_search_are_in_the_unit_of_its_parameter() -> None:
@@ -304,9 +386,9 @@ def test_a_sweep_states_the_arguments_of_its_function(tmp_path: Path) -> None:
     dm.save(swept, tmp_path / "swept.nc")
     assert dm.load(tmp_path / "swept.nc").attrs["options"] == swept.attrs["options"]
 
-    windows = {"late": dm.Window(last=0.1, rate=1e3)}
-    simulated = sweep(dm.simulate, P, Omega=[14.0], t_end=0.2, windows=windows)
-    assert "rate=1000" in json.loads(simulated.attrs["options"])["windows"]["late"]
+    execution = dm.Execution(max_steps=10_000)
+    simulated = sweep(dm.simulate, P, Omega=[14.0], t_end=0.2, execution=execution)
+    assert "max_steps=10000" in json.loads(simulated.attrs["options"])["execution"]
 
 
 # ---- Values that vary together
@@ -613,7 +695,9 @@ def test_an_error_of_another_kind_names_the_point(workers: int) -> None:
 
     with pytest.raises(RuntimeError, match="no answer") as caught:
         sweep(found, dm.Parameters(N=385, Omega=15), Omega=[10, 12], mu_k=[0.4], workers=workers)
-    assert caught.value.__notes__ == ["at the point Omega=12.0, mu_k=0.4 of the sweep"]
+    remedy = 'with errors="record" a sweep goes on after such an error'
+    note = f"at the point Omega=12.0, mu_k=0.4 of the sweep; {remedy}"
+    assert caught.value.__notes__ == [note]
 
 
 @pytest.mark.parametrize("workers", [1, 2])

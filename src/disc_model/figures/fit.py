@@ -31,6 +31,7 @@ DIFFERENCE = "Difference from the measured value (%)"
 DEVIATION = "Deviation (standard deviations)"
 ROWS = "Measurements"
 EXPECTED = 2.0  # standard deviations, within which most deviations are if the model is right
+BAND = "95 % if the fit is right"
 LEAST_SPAN = 3.0  # standard deviations that are shown at least, on both sides
 WORDS = {
     "period": "period",
@@ -65,7 +66,8 @@ def plot_fit(
         _draw_differences(left, fit)
         _draw_deviations(right, fit)
         _set_rows(left, right, fit)
-        page.explain(left.get_legend_handles_labels()[0])
+        shown = [handle for ax in (left, right) for handle in ax.get_legend_handles_labels()[0]]
+        page.explain(shown)
     return np.array([left, right], dtype=object)
 
 
@@ -95,7 +97,7 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
 
 def _draw_deviations(ax: Axes, fit: Fit) -> None:
     """Draw computed minus measured values, in standard deviations."""
-    ax.axvspan(-EXPECTED, EXPECTED, color=GREY, alpha=0.15, linewidth=0)
+    ax.axvspan(-EXPECTED, EXPECTED, color=GREY, alpha=0.15, linewidth=0, label=BAND)
     ax.axvline(0, color=GREY, linewidth=wide(0.6))
     ax.plot(fit.deviations, _rows(fit), **_computed())
     span = max(LEAST_SPAN, 1.1 * float(np.abs(fit.deviations).max()))

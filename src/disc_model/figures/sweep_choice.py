@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.errors import require, suggestion
+from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.words import known_name, value_text, what_case
 from disc_model.parameters import Disc
@@ -72,9 +73,7 @@ def choose_drawn(
 ) -> tuple[xr.Dataset, list[Drawn]]:
     """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
     are lines over the same dimension. Raises `ParameterError`."""
-    branches = study.attrs.get("function") == "continue_cycle" and "special" in study.dims
-    remedy = "holds branches: draw each by itself, as by continue_cycle(...).plot(ax=ax)"
-    require((not branches, "study", "a sweep of continue_cycle", remedy))
+    _refuse_branches(study)
     if not variables[0]:
         study = _with_first_values(study)
     whole = _varying(_with_names_of_discs(study))
@@ -88,6 +87,15 @@ def choose_drawn(
         rule = "must be lines over the same dimension to be drawn together"
         require((alike, "variable", each.variable, rule))
     return varying, drawn
+
+
+def _refuse_branches(study: xr.Dataset) -> None:
+    """Raise `ParameterError` for branches of a sweep, each of which has points of its own."""
+    if not is_of_sweep(study):
+        return
+    branch = f"disc_model.Branch.from_dataset({selected_text(study, 'study')})"
+    rule = f"holds branches: draw each by itself, as by {branch}.plot(ax=ax)"
+    raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 
 def _drawn(study: xr.Dataset, variable: str, column: str, x: str) -> Drawn:

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -29,6 +29,7 @@ from disc_model.errors import (
     suggestion,
     violations,
 )
+from disc_model.fitting.limits import limit_beyond
 from disc_model.fitting.prediction import (
     Prediction,
     Unpredicted,
@@ -184,6 +185,9 @@ class Fit(Summarised, Drawn, EqualByValue):
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there
     at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go
+    limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
+        above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
+        another parameter is in doubt
     doubt : all reasons why values and intervals mean nothing: a search that has not converged, a bound in the way,
         parameters that are not determined, an interval in which the motion ends, too large a chi squared, with the
         measurement that deviates most; "" where there is none
@@ -214,6 +218,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     indistinct: tuple[str, ...] = ()
     unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     at_bounds: Mapping[str, float] = field(default_factory=dict)
+    limits: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -221,8 +226,10 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, fitted in self.parameters.items():
             spread = "" if doubt else f" ± {fitted.deviation:.2g}"
             values.append(f"{name}={fitted.value:.6g}{spread}")
+        meaning = "" if doubt else "± one standard deviation"
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
-        return "; ".join(filter(None, [f"Fit({', '.join(values)}", cost, doubt])) + ")"
+        parts = [f"Fit({', '.join(values)}", meaning, cost, doubt]
+        return "; ".join(filter(None, parts)) + ")"
 
     @property
     def freedom(self) -> int:
@@ -245,7 +252,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         if not self.converged:
             reasons.append("the search has not converged")
         for name, bound in self.at_bounds.items():
-            reasons.append(_is_held(name, bound))
+            reasons.append(_is_held(name, bound, name in self.limits))
+            reasons += self._limit_texts(name)
         if self.converged and self._misses:
             reasons.append(self._misfit)
         if self.indistinct:
@@ -253,6 +261,15 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, ends in self.unpredicted.items():
             reasons += [_ends_within(name, end) for end in ends]
         return "; ".join(reasons)
+
+    def _limit_texts(self, name: str) -> Iterator[str]:
+        """Yield in words the limit of a parameter, if it has one."""
+        limit = self.limits.get(name, math.nan)
+        if math.isnan(limit):
+            return
+        side = "below" if limit > self.parameters[name].value else "above"
+        value = number_text(limit, _unit_of_parameter(name), 3)
+        yield f"{name} is {side} {value} at {100 * self.confidence:.3g} % confidence"
 
     @property
     def _misses(self) -> bool:
@@ -351,8 +368,12 @@ def _undetermined(names: Sequence[str]) -> str:
     return f"the measurements do not determine {together} apart: fix one of them, or measure more"
 
 
-def _is_held(name: str, bound: float) -> str:
-    """Return that a parameter is at a bound, or so near that its interval would pass it."""
+def _is_held(name: str, bound: float, is_last: bool) -> str:
+    """Return that a parameter is at a bound, which may be the last value of any case, or so near that
+    its interval would pass it."""
+    if is_last:
+        passed = f"the interval of {name} passes {bound:.6g}, beyond which there is no case"
+        return f"{passed}: fix it, or measure more"
     return f"{name} is held by its bound {bound:.6g}, which its interval passes: widen the bound, or fix it"
 
 
@@ -454,6 +475,14 @@ class _Problem:
             return error.faults[0].path[0] == "measured"
         return False
 
+    def is_last(self, i: int, bound: float, side: int) -> bool:
+        """Whether no case has a value of a parameter beyond a bound, on the other side than this."""
+        try:
+            self.case.replace(**{self.names[i]: bound - side * STEP * float(self.scale[i])})
+        except ParameterError:
+            return True
+        return False
+
     def jacobian(self, values: Array) -> Array:
         """Return derivatives of the predictions, (m, n)."""
         here: list[Array] = []  # computed where it is needed
@@ -551,7 +580,7 @@ def fit(
     >>> measured = {"frequency_0_0": (239.0, 0.5), "frequency_2_0": (292.5, 0.5)}
     >>> found = dm.fit(p, vary=["E", "nu"], measured=measured)
     >>> found
-    Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; chi squared ... with 0 degrees of freedom)
+    Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; ± one standard deviation; chi squared ...)
     """
     from scipy import optimize
 
@@ -574,13 +603,9 @@ def fit(
         jacobians.append(jacobian)
         return jacobian
 
-    ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
-    # the start and the result are doubted, not what is tried on the way
-    with trial_cases():
-        computed = problem.first_predictions(begin)
-        named = [(each.name, each.value, each.unit) for each in measurements]
-        warn_of_measured(named, computed.tolist())
-        search = optimize.least_squares(
+    def searched(begin: Array, limits: Mapping[str, Interval]) -> Any:
+        ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
+        return optimize.least_squares(
             deviations,
             begin / problem.scale,
             jac=slopes,
@@ -589,10 +614,65 @@ def fit(
             ftol=TOLERANCE,
             gtol=TOLERANCE,
         )
+
+    # the start and the result are doubted, not what is tried on the way
+    with trial_cases():
+        computed = problem.first_predictions(begin)
+        named = [(each.name, each.value, each.unit) for each in measurements]
+        warn_of_measured(named, computed.tolist())
+        search = searched(begin, limits)
         indistinct = _indistinct(problem, search, jacobians[0], deviations)
+        at_zero = _limits_at_zero(problem, search, limits)
+        if at_zero and {*indistinct} <= {*at_zero}:
+            limits = {**limits, **at_zero}
+            search = searched(_inside(problem, search.x * problem.scale, limits), limits)
+            indistinct = _indistinct(problem, search, jacobians[0], deviations)
+        if len(indistinct) == 1 and _passes_zero(problem, search, indistinct[0], confidence):
+            limits = {indistinct[0]: (0.0, math.inf), **limits}
         found = _result(problem, search, confidence, indistinct, limits)
+        found = _with_limits(found, problem, search, deviations)
     warn_of_doubts(found.case)
     return found
+
+
+def _limits_at_zero(
+    problem: _Problem, search: Any, limits: Mapping[str, Interval]
+) -> dict[str, Interval]:
+    """Return limits for parameters without any that a search has led to 0, and that cannot be
+    negative: against the rules of cases it does not converge."""
+    found = {}
+    for i, name in enumerate(problem.names):
+        if name not in limits and abs(search.x[i]) <= STEP and problem.is_last(i, 0.0, 1):
+            found[name] = (0.0, math.inf)
+    return found
+
+
+def _passes_zero(problem: _Problem, search: Any, name: str, confidence: float) -> bool:
+    """Whether the confidence interval of a parameter that cannot be negative passes 0."""
+    from scipy import stats
+
+    i = problem.names.index(name)
+    deviation = float(np.linalg.norm(_sensitivity(search.jac).inverse[i]))
+    reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
+    return bool(search.x[i] <= reach) and problem.is_last(i, 0.0, 1)
+
+
+def _with_limits(
+    found: Fit, problem: _Problem, search: Any, deviations: Callable[[Array], Array]
+) -> Fit:
+    """Return the fit with the limits of parameters at bounds that no case can pass."""
+    limits = {}
+    for name, bound in found.at_bounds.items():
+        i = problem.names.index(name)
+        side = 1 if found.parameters[name].value >= bound else -1
+        if not problem.is_last(i, bound, side):
+            continue
+        limits[name] = math.nan
+        if found.converged and not found._misses and len(found.at_bounds) == 1:
+            covariance = found.covariance / np.outer(problem.scale, problem.scale)
+            beyond = limit_beyond(search, covariance, i, side, found.confidence, deviations)
+            limits[name] = beyond * float(problem.scale[i])
+    return replace(found, limits=limits)
 
 
 def _inside(problem: _Problem, start: Array, limits: Mapping[str, Interval]) -> Array:

@@ -40,8 +40,9 @@ class SlidingStatus(StatusBase):
     OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
     NO_CONTACT = (
         "no_contact",
-        "The equilibrium would need a contact force that is not positive: lower Omega.",
+        "The equilibrium would need a contact force that is not positive: lower Omega or k.",
     )
+    NO_LOAD = "no_load", "Nothing presses the slider onto the disc (N = 0): raise N."
     AT_REST = "at_rest", "The disc is not driven (Omega = 0): nothing slides."
     NO_SPRING = (
         "no_spring",
@@ -182,7 +183,7 @@ def _linearised(case: Parameters) -> _Linearised | SlidingStatus:
     compliance = contact_compliance(case)
     a, b, vertical, rate = _equilibrium(case, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
-        return SlidingStatus.NO_CONTACT
+        return SlidingStatus.NO_CONTACT if case.N > 0 else SlidingStatus.NO_LOAD
     alpha = -modes.diameters * rate * b
     beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()

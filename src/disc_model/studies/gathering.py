@@ -14,6 +14,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.missing import reason_of, with_reason
+from disc_model.data.swept_branches import variables_of_branch
 from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, TRUTH
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
@@ -93,7 +94,7 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     if isinstance(result, xr.DataArray):
         result = result.to_dataset(name=result.name or "value")
     elif is_dataclass(result) and hasattr(result, "to_dataset"):
-        result = _of_branch(result.to_dataset())
+        result = variables_of_branch(result.to_dataset())
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
@@ -108,26 +109,13 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     return variables
 
 
-def _of_branch(branch: xr.Dataset) -> xr.Dataset:
-    """The dataset of a branch with why it ended and what it missed, and without the numbers of its
-    points, of which other branches have more."""
-    words = {
-        "ended": "why the branch ended in each direction",
-        "not_reached": "values asked for at which the branch has no cycle, in SI units",
-    }
-    said = {
-        name: xr.DataArray(branch.attrs.get(name, ""), attrs={"long_name": meaning})
-        for name, meaning in words.items()
-    }
-    return branch.drop_vars(["point", "special"]).assign(said)
-
-
 def _named_values(result: Any) -> Mapping[str, Any]:
     """The values of a result by name."""
     if isinstance(result, Result):
         return result.scalars()
     if is_dataclass(result):
-        values = {field.name: getattr(result, field.name) for field in fields(result)}
+        names = [field.name for field in fields(result) if not field.name.startswith("_")]
+        values = {name: getattr(result, name) for name in names}
         for verdict in ("stable", "at_lower_bound"):
             if hasattr(result, verdict):
                 values[verdict] = getattr(result, verdict)

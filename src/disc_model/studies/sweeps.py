@@ -10,7 +10,7 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.errors import Fault, raise_faults
+from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
@@ -22,6 +22,14 @@ from disc_model.studies.run import describe
 from disc_model.studies.workers import checked_workers
 
 FAILED = "failed"  # status of a point whose call raised an error
+RECORD = 'with errors="record" a sweep goes on after such an error'
+OWN = "sweep a function of your own that calls {} and returns numbers of {}"
+WITHOUT_SAMPLES = f"a sweep keeps no samples: {OWN.format('simulate', 'them')}"
+WITHOUT_RESULT = {
+    "neutral_curves": f"a sweep keeps no curves: {OWN.format('it', 'them')}",
+    "fit": f"a sweep keeps no fitted parameters: {OWN.format('it', 'them')}",
+}
+"""Functions of this package whose results a sweep would leave out, and what to do instead."""
 
 
 def sweep(
@@ -73,10 +81,11 @@ def sweep(
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, a value is no number, an
         axis has a value twice, columns differ in length, or no value of an axis or column can be; the message names the
-        row, counted from 0, as in ``zip.N[1]=-1``. And if an argument of the function is missing, or refused at the
-        first point that is a case, or the function returns nothing there. Where numbers of the case break a rule, such
-        as a load below zero or nan for an empty cell of a table, the point has failed. Any other error of the function
-        ends the sweep, with a note of what varies at the point, unless `errors` is "record".
+        row, counted from 0, as in ``zip.N[1]=-1``. If the function would compute what a sweep leaves out, as
+        `neutral_curves`, `fit`, and `simulate` with `windows` do. And if an argument of the function is missing, or
+        refused at the first point that is a case, or the function returns nothing there. Where numbers of the case
+        break a rule, such as a load below zero or nan for an empty cell of a table, the point has failed. Any other
+        error of the function ends the sweep, with a note of what varies at the point, unless `errors` is "record".
 
     Examples
     --------
@@ -98,8 +107,9 @@ def sweep(
     swept = [name for dimension in call.dimensions for name in dimension.columns]
     rule = f"must not be swept, because {call.title} searches along it"
     raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
-    records = are_recorded(errors)
     ours = call.title if _is_ours(function) else ""
+    _refuse_what_is_left_out(ours, call.options)
+    records = are_recorded(errors)
     points = [*call.points()]
     first = _first_possible(case, points)
     row = partial(_row, partial(function, **call.options), case, call, ours, records)
@@ -131,6 +141,15 @@ def _base(case: Parameters, searched: set[str]) -> str:
     stated = {**case.stated, "disc": case.canonical.get("disc")}
     without = {*searched, *(PLATE if case.disc is not None else ())}
     return canonical_json({name: x for name, x in stated.items() if name not in without})
+
+
+def _refuse_what_is_left_out(ours: str, options: Mapping[str, Any]) -> None:
+    """Raise `ParameterError` where a function of this package would compute what a sweep leaves
+    out."""
+    if ours in WITHOUT_RESULT:
+        raise ParameterError(Fault(("function",), ours, WITHOUT_RESULT[ours]))
+    if ours == "simulate" and options.get("windows"):
+        raise ParameterError(Fault.of(("windows",), options["windows"], WITHOUT_SAMPLES))
 
 
 def _is_ours(function: Any) -> bool:
@@ -181,7 +200,7 @@ def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
         raise
     except Exception as error:
         place = ", ".join(f"{name}={value!r}" for name, value in point.items())
-        error.add_note(f"at the point {place} of the sweep")
+        error.add_note(f"at the point {place} of the sweep; {RECORD}")
         raise
 
 

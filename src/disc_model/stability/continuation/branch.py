@@ -257,7 +257,9 @@ class Branch:
         """The branch of a dataset that `to_dataset` has made, also one that was saved and loaded, to
         plot, and to start again from its cycles. Numbers differ by rounding at most.
 
-        Raises `ParameterError` if it is another dataset.
+        Of a sweep of branches, `data` is one point, such as ``swept.sel(N=300)``.
+
+        Raises `ParameterError` if it is another dataset, or a point of a sweep that has failed.
 
         Examples
         --------
@@ -271,6 +273,7 @@ class Branch:
         Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
         """
         stored = StoredBranch(data)
+        data = stored.data
         special = _stored_special_points(stored)
         folds = [each.values for each in special if each.kind == "fold"]
         branch = cls(

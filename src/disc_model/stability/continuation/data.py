@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep, refuse_failed
 from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
 from disc_model.errors import require
 from disc_model.parameters import RATIOS, Parameters
@@ -94,13 +95,17 @@ def dataset_of(branch: Branch) -> xr.Dataset:
 
 
 class StoredBranch:
-    """What a dataset of a branch holds; raises `ParameterError` if it is of something else."""
+    """What a dataset of a branch holds, or a point of a sweep; raises `ParameterError` if it is of
+    something else."""
 
     def __init__(self, data: xr.Dataset) -> None:
+        refuse_failed(data)
+        if is_of_sweep(data):
+            data = branch_of_sweep(data)
         names = ["multipliers", "releases", "special_kind", "a", "special_a"]
         known = isinstance(data, xr.Dataset) and all(name in data for name in names)
         known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
-        rule = "must be a dataset of Branch.to_dataset, whole and unchanged"
+        rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"
         require((known, "data", type(data).__name__, rule))
         self.data = data
         self.case = Parameters.model_validate_json(data.attrs["parameters"])
