@@ -10,7 +10,7 @@ from matplotlib.colors import to_rgb
 from disc_model.data.variables import EVENT_KINDS, LONG_TERM_OUTCOMES, PHASES, STATUSES, Outcome
 from disc_model.explorer import study_contents
 from disc_model.figures.basins import STACKED
-from disc_model.figures.classes import LOOKS, UNRESOLVED, Look, lightness, looks_of
+from disc_model.figures.classes import LOOKS, UNRESOLVED, Look, lightness, looks_of, name_of
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.figures.reading import draw, labels
 
@@ -108,3 +108,17 @@ def test_the_explorer_has_the_colours_patterns_and_names_of_the_figures() -> Non
             "hatch": known.hatch,
             "ink": known.ink,
         }
+
+
+@pytest.mark.parametrize(
+    ("word", "name"),
+    [
+        ("neimark_sacker", "Neimark-Sacker"),
+        ("period_doubling", "period doubling"),
+        ("fold", "fold"),
+    ],
+)
+def test_bifurcations_have_the_names_of_the_field(word: str, name: str) -> None:
+    """Legends said "neimark sacker"."""
+    assert name_of(word) == name
+    assert looks_of([word])[word].label == name

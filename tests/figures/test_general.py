@@ -196,7 +196,7 @@ def test_panels_of_the_brake_disc_name_law_and_damping_of_their_disc() -> None:
 
 
 def test_the_peak_of_a_line_has_a_mark_and_a_legend_can_be_asked_for() -> None:
-    speeds = np.linspace(0, 1, 45)
+    speeds = np.linspace(0, 1, 90)
     rates = np.exp(-((speeds - np.array([[0.51], [0.31]])) ** 2) / 0.01)
     data = {"period": (("k_p", "Omega"), rates, {"units": "s"})}
     attrs = {"base": json.dumps({"normalization": "as_published"}), "options": "{}"}

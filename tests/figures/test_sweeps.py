@@ -33,6 +33,24 @@ KNOWN["value"] = "Critical static friction μ_s"
 KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
 KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
+WITHIN = {
+    "critical_speed": " within 3 s",
+    "outcome": " within 3 s",
+    "separating_fraction": ", within 2 s",
+    "separating_fraction_low": ", within 2 s",
+    "separating_fraction_high": ", within 2 s",
+    "critical_energy": ", within 2 s",
+    "critical_energy_lower": ", within 2 s",
+    "critical_energy_sampled": ", within 2 s",
+    "time_stick": " within 0.5 s",
+    "time_slip": " within 0.5 s",
+    "time_separation": " within 0.5 s",
+    "energy_residual": " within 0.5 s",
+    "energy_residual_transverse": " within 0.5 s",
+    "energy_residual_inplane": " within 0.5 s",
+    "n_events": " within 0.5 s",
+}
+"""The time for which motions are followed, behind the names of variables that depend on it."""
 
 
 def own(case: dm.Parameters) -> xr.Dataset:
@@ -80,7 +98,10 @@ def words_of(variable: xr.DataArray) -> str:
     name = str(variable.name)
     words = str(variable.attrs.get("long_name", name.replace("_", " "))).split(", nan ")[0]
     words = words.replace("disturbances of ", "")
-    return KNOWN.get(name, words[0].upper() + words[1:])
+    within = WITHIN.get(name, "")
+    if name == "surface_speed" and "late stretch" not in words:
+        within = " within 0.5 s"
+    return KNOWN.get(name, words[0].upper() + words[1:]) + within
 
 
 def unit_of(variable: xr.DataArray) -> str:
@@ -119,11 +140,11 @@ UNASKED = {
     dm.floquet: "Growth rate of the stick-slip cycle (1/s)",
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
     dm.outcome: "Outcome within 3 s",
-    dm.critical_speed: "Critical speed (rad/s)",
+    dm.critical_speed: "Critical speed within 3 s (rad/s)",
     dm.basins: "Share of the starts",
     dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
-    dm.simulate: "Number of separations",
+    dm.simulate: "Number of separations within 0.5 s",
     dm.critical: r"Critical static friction $\mathrm{μ_s}$",
     own: "Range of my slider (mm)",
 }
@@ -178,8 +199,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         words = {said.get(word, name_of(word)) for word in found if word}
         assert words <= entries <= words | {"unresolved", "no cycle found", "no value"}
         title = " ".join(legend.get_title().get_text().split())
-        within = " within 3 s" if name == "outcome" else ""
-        assert title == words_of(study[name]) + within
+        assert title == words_of(study[name])
     pyplot.close("all")
 
 
@@ -207,6 +227,33 @@ def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: 
     pyplot.close("all")
 
 
+def marked_points(line: Any) -> int:
+    """The number of points of a line that have a mark."""
+    if line.get_marker() in ("", "None"):
+        return 0
+    chosen = line.get_markevery()
+    return len(line.get_xdata()) if chosen is None else len(chosen)
+
+
+@pytest.mark.parametrize("missing", [[], [3]])
+@pytest.mark.parametrize(("count", "marked"), [(9, 9), (25, 25), (100, 0)])
+def test_lines_beside_each_other_have_marks_at_each_point(
+    count: int, marked: int, missing: list[int]
+) -> None:
+    """Of two lines, one without gaps and more than 24 points had a mark at every second of them."""
+    speeds = np.linspace(10, 20, count)
+    attrs = {"units": "s", "long_name": "period"}
+    periods = 0.01 * speeds
+    periods[missing] = np.nan
+    values = {"first": ("Omega", periods, attrs), "second": ("Omega", 0.02 * speeds, attrs)}
+    study = xr.Dataset(values, {"Omega": speeds})
+    ax = dm.plot_sweep(study, ["first", "second"])
+    lines = [line for line in ax.lines if len(line.get_xdata()) == count]
+    joined = [line for line in lines if line.get_linestyle() != "None"]
+    assert [marked_points(line) for line in joined] == [marked, marked]
+    pyplot.close("all")
+
+
 @pytest.mark.parametrize(
     ("count", "discs", "rings"), [(50, ["a"], [50]), (1000, ["a"], []), (1000, ["a", "b"], [13])]
 )
@@ -220,8 +267,7 @@ def test_many_points_are_no_band_of_rings(count: int, discs: list[str], rings: l
     study = xr.Dataset({"growth_rate": ([*axes], values, attrs)}, axes)
     ax = dm.plot_sweep(study)
     large = [line for line in ax.lines if line.get_marker() == "o"]
-    marked = [len(line.get_xdata()[:: line.get_markevery() or 1]) for line in large]
-    assert marked == rings
+    assert [marked_points(line) for line in large] == rings
     pyplot.close("all")
 
 

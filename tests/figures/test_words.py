@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from disc_model.figures.durations import horizon_text
 from disc_model.figures.multipliers import period_text
 from disc_model.figures.names import name_of
-from disc_model.figures.words import horizon_text, missing_text, named_value, value_text
+from disc_model.figures.words import missing_text, named_value, value_text
 
 
 def along(name: str, value: float) -> xr.DataArray:

@@ -13,16 +13,15 @@ from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
 from disc_model.figures.classes import LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
+from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.words import (
     NO_VALUE,
     UNITS,
-    WITHIN_HORIZON,
     WORDS,
     factors_of,
     known_name,
-    label_in,
     lowered,
     missing_text,
     named,
@@ -342,8 +341,7 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     of the figures."""
     name = str(variable.name)
     described = _named(name, variable.attrs)
-    if name in WITHIN_HORIZON:
-        described["label"] = lowered(label_in(study, name))
+    described["label"] = with_duration(study, name, described["label"])
     described["dims"] = list(variable.dims)
     described["marks"] = _marks(study, name)
     meanings = variable.attrs.get("flag_meanings")

@@ -86,6 +86,8 @@ LOOKS: Mapping[str, Look] = {
     EXCLUDED: Look("left out by the study's rule", "#ffffff"),
     "none": Look("none", "#ffffff"),
 }
+IN_FULL = {"neimark_sacker": "Neimark-Sacker"}
+"""Names of classes that are no plain words."""
 FURTHER_COLOURS = (
     "#56b4e9",
     "#e69f00",
@@ -121,4 +123,6 @@ def looks_of(words: Iterable[str]) -> dict[str, Look]:
 
 def name_of(word: str) -> str:
     """What figures and the explorer call a class."""
-    return LOOKS[word].label if word in LOOKS else word.replace("_", " ")
+    if word in LOOKS:
+        return LOOKS[word].label
+    return IN_FULL.get(word, word.replace("_", " "))

@@ -64,7 +64,7 @@ MARK = 3.0  # points, size of the marks of lines,
 WIDER = 2.5  # by so much larger for each line that others cover,
 WIDEST = 8.0  # but not beyond this
 DOT = 1.5  # points, size of a mark of one of them
-MARKED = 12  # points of a line without gaps that have a mark, about
+MARKED = 12  # points of such a line that have a mark, about
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 ROOM = 0.12  # share of the panel beside its values that has room for them
 
@@ -152,14 +152,14 @@ def draw_lines(
         look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
         look |= {"marker": marks[part.name], "markersize": sizes[part.name]}
         heights = _draw_at_bound(ax, along, heights, bounds[part.name], look)
-        if gapless:
-            look["markevery"] = _marked(heights)
-        elif heights.size > CROWDED:
-            alone = len(marks) == 1
-            look |= _draw_dots(ax, along, heights, colour, joined=bool(line), alone=alone)
         pieces = [along, heights]
         if jumps:
             pieces = opened(along, heights, steps[part.name])
+        if heights.size > CROWDED:
+            alone = len(marks) == 1
+            look |= _few_marks(pieces[1], joined=bool(line), alone=alone)
+            if not gapless:
+                _draw_dots(ax, along, heights, colour)
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
@@ -258,23 +258,21 @@ def _open_steps(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[
     return found
 
 
-def _marked(heights: np.ndarray) -> list[int]:
-    """Points of a line without gaps that have a mark: some, and that of the greatest value."""
-    every = max(1, heights.size // MARKED)
-    return sorted({*range(0, heights.size, every), int(np.argmax(heights))})
-
-
-def _draw_dots(
-    ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any, *, joined: bool, alone: bool
-) -> dict[str, Any]:
-    """Draw each of many points as a dot, so that those by themselves stay visible; returns the look
-    of the marks beside them, of which a line that is alone has none."""
-    ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
+def _few_marks(heights: np.ndarray, *, joined: bool, alone: bool) -> dict[str, Any]:
+    """The look of the marks of many points: a line has some, and that of its greatest value; one that
+    is alone has none."""
     if alone:
         return {"marker": ""}
-    if joined:
-        return {"markevery": heights.size // MARKED}
-    return {"markersize": mark(DOT)}
+    if not joined:
+        return {"markersize": mark(DOT)}
+    every = heights.size // MARKED
+    greatest = int(np.argmax(np.where(np.isfinite(heights), heights, -np.inf)))
+    return {"markevery": sorted({*range(0, heights.size, every), greatest})}
+
+
+def _draw_dots(ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any) -> None:
+    """Draw each of many points as a dot, so that those by themselves stay visible."""
+    ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
 
 
 def _are_counts(variable: xr.DataArray) -> bool:

@@ -168,7 +168,7 @@ def number_panels(
 ) -> list[Artist]:
     """Draw numbers on one scale of colours, a panel for each plane, and classes where there is
     none; returns entries of a legend."""
-    label, factor = label_of(planes[0][variable])
+    _, factor = label_of(planes[0][variable])
     arrays = [plane[variable] for plane in planes]
     numbers = factor * np.concatenate([array.values.ravel() for array in arrays])
     colours = colours_of(numbers, arrays[0], wishes)
@@ -192,5 +192,5 @@ def number_panels(
     looks |= {look.label: look for look in (AT_BOUND, UNSETTLED, NEAR_ANOTHER)}
     if not has_values(planes, variable):
         return entries(used, looks)
-    draw_bar(figure, axes, mesh, colours, label)
+    draw_bar(figure, axes, mesh, colours, label_in(planes[0], variable))
     return entries(used, looks)

@@ -13,6 +13,7 @@ from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
 from disc_model.figures.curve import MARKS, draw_lines
 from disc_model.figures.drawing import COLUMN
+from disc_model.figures.durations import horizon_text
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.sweep_choice import (
@@ -34,7 +35,7 @@ from disc_model.figures.sweep_lines import (
     quantities_of,
 )
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import horizon_text, label_in, label_of, measured
+from disc_model.figures.words import label_in, label_of, measured
 
 
 def plot_sweep(  # noqa: PLR0913

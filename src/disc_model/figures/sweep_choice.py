@@ -39,11 +39,12 @@ FIRST_OF_SEVERAL = {
 }
 """Names of the first value of such variables that have several at each point."""
 OPTIONS = {
-    "stays": "stays of {} s",
-    "evaluation_time": "last {} s of stays",
-    "horizon": "horizon {} s",
+    "stays": "stays of {}",
+    "evaluation_time": "last {} of stays",
+    "horizon": "horizon {}",
+    "t_end": "within {}",
 }
-"""What legends say of options that differ between sweeps."""
+"""What legends say of times among the options that differ between sweeps."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 
@@ -77,7 +78,7 @@ def choose_drawn(
     if not variables[0]:
         study = _with_first_values(study)
     whole = _varying(_with_names_of_discs(study))
-    varying, column = _along_pairs(whole, x)
+    varying, column = _along_pairs(_with_one_horizon(whole), x)
     if not column:
         varying = _ascending(varying)
 
@@ -123,6 +124,16 @@ def _with_first_values(study: xr.Dataset) -> xr.Dataset:
     first = study[name].isel(dict.fromkeys(several, 0))
     attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
     return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
+
+
+def _with_one_horizon(study: xr.Dataset) -> xr.Dataset:
+    """The study with the one horizon that was selected among those with which it was computed, as by
+    ``study.sel(horizon=50)``."""
+    if "horizon" not in study.coords or study["horizon"].ndim:
+        return study
+    options = json.loads(study.attrs.get("options", "{}"))
+    options["horizon"] = study["horizon"].item()
+    return study.assign_attrs(options=json.dumps(options))
 
 
 def _ascending(study: xr.Dataset) -> xr.Dataset:
@@ -235,11 +246,12 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
     options = json.loads(study.attrs.get("options", "{}"))
     if {"dwell", "max_dwell"} <= {*options}:
         stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
-        options["stays"] = " to ".join(stays)
+        options["stays"] = f"{' to '.join(stays)} s"
     said = {}
     for name, value in options.items():
         if isinstance(value, str | float | int) and not isinstance(value, bool):
-            shown = f"{value:g}" if isinstance(value, float | int) else value
+            unit = " s" if name in OPTIONS else ""
+            shown = value if isinstance(value, str) else f"{value:g}{unit}"
             said[name] = OPTIONS.get(name, f"{name.replace('_', ' ')} {{}}").format(shown)
     return said
 

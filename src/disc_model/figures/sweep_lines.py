@@ -12,9 +12,10 @@ import xarray as xr
 
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
+from disc_model.figures.durations import duration_of
 from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
 from disc_model.figures.legends import twins_of
-from disc_model.figures.named_axes import Quantities, shown_on, unit_in
+from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
@@ -33,7 +34,8 @@ class Lines:
     Attributes
     ----------
     across, label : labels of both axes if the lines are alone
-    phrase : name of the variable
+    phrase, unit : name of the variable, and its unit
+    duration : time for which motions were followed, "" if the variable does not depend on it
     shown : what tells the lines from others
     parts : name along a second dimension, "" without one, of each line, and the line
     """
@@ -41,6 +43,8 @@ class Lines:
     across: str
     label: str
     phrase: str
+    unit: str
+    duration: str
     shown: Member
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
@@ -83,21 +87,36 @@ def lines_of(
     name : the one that a reader gives them, "" for none
     case : values of the case that do not vary
     """
-    phrase = named(study[variable]).name
-    return Lines(*labels, phrase, Member(name, {"variable": phrase, **case}))
+    phrase, unit, _ = named(study[variable])
+    duration = duration_of(study, variable)
+    return Lines(*labels, phrase, unit, duration, Member(name, {"variable": phrase, **case}))
 
 
 def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:
-    """What axes show with lines beside others: variables of one unit have a common name."""
+    """What axes show with lines beside others: variables of one unit have a common name, and one
+    variable has its own whatever the times for which motions were followed."""
     labels = {each.label for each in others}
-    label = lines.label
-    unit = unit_in(label)
-    if labels - {label} and {*map(unit_in, labels)} == {unit} != {""}:
-        phrases = [each.phrase for each in (*others, lines)]
-        label = f"{common_name(phrases)} ({unit})"
-        labels |= {f"{common_name(phrases[:-1])} ({unit})"}
-        return Quantities(lines.across, label, alike=labels)
-    return Quantities(lines.across, label)
+    units = {each.unit for each in (*others, lines)}
+    phrases = {each.phrase for each in (*others, lines)}
+    of_one_kind = len(units) == 1 and (len(phrases) == 1 or units != {""})
+    if labels - {lines.label} and of_one_kind:
+        labels.add(_common_label(others))
+        return Quantities(lines.across, _common_label([*others, lines]), alike=labels)
+    return Quantities(lines.across, lines.label)
+
+
+def _common_label(family: Sequence[Lines]) -> str:
+    """The label of an axis for several lines of one unit, with the time for which motions were followed
+    if it is that of all."""
+    first = family[0]
+    if len({each.label for each in family}) == 1:
+        return first.label
+    words = first.phrase
+    if len({each.phrase for each in family}) > 1:
+        words = common_name([each.phrase for each in family])
+    if len({each.duration for each in family}) == 1 and first.duration:
+        words = f"{words} within {first.duration}"
+    return f"{words} ({first.unit})" if first.unit else words
 
 
 def common_name(phrases: Sequence[str]) -> str:

@@ -22,6 +22,7 @@ from disc_model.data.variables import (
     typeset,
 )
 from disc_model.figures.classes import name_of
+from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
 from disc_model.figures.kinds.base import si_unit
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.units import in_si
@@ -77,8 +78,8 @@ SHORT = {
     "offset_speed": "speed at which separation ends on the way down",
 }
 """What labels call variables whose long names explain them."""
-WITHIN_HORIZON = ("outcome", "scan_outcome", "kind")
-"""Variables that say what a motion does within the horizon that a study states."""
+TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
+"""Variables that have no value where contact is kept up to the horizon."""
 CRITICAL = "critical value of "
 """What long names of critical values say before that of the parameter."""
 PERSONS = ("Young", "Poisson")
@@ -292,14 +293,13 @@ def _is_own(variable: xr.DataArray) -> bool:
 
 
 def label_in(study: xr.Dataset, name: str) -> str:
-    """Axis label of a variable of a study; of one that depends on the horizon, with the horizon."""
+    """Axis label of a variable of a study; of one that depends on the time for which motions were
+    followed, with this time."""
     label = label_of(study[name])[0]
-    horizon = horizon_text(study)
-    if name not in WITHIN_HORIZON or not horizon:
-        return label
-    if name not in SHORT:
-        label += ","
-    return f"{label} within {horizon}"
+    unit = named(study[name]).unit
+    ending = f" ({unit})" if unit else ""
+    words = label.removesuffix(ending)
+    return with_duration(study, name, words) + ending
 
 
 def missing_text(study: xr.Dataset, name: str) -> str:
@@ -307,22 +307,24 @@ def missing_text(study: xr.Dataset, name: str) -> str:
     below any axis."""
     if name in study and study[name].dtype.kind == "f" and np.isneginf(study[name]).any():
         return BELOW_ANY
-    horizon = horizon_text(study)
     if name == "first_separation" and study.attrs.get("function") == "simulate":
         return _without_separation(study)
-    if name != "first_separation" or not horizon:
-        return _reason_in(study, name) or name_of(NO_VALUE)
-    if json.loads(study.attrs["options"]).get("extrapolate"):  # then some that occur have no time
-        return f"none within {horizon}, or not timed"
-    return f"none within {horizon}"
+    horizon = horizon_text(study)
+    if name in TIMES_OF_SEPARATION and horizon:
+        # some that occur have no time where departures are extrapolated
+        timed = not json.loads(study.attrs["options"]).get("extrapolate")
+        return f"none within {horizon}" if timed else f"none within {horizon}, or not timed"
+    reason = _reason_in(study, name) or name_of(NO_VALUE)
+    duration = duration_of(study, name)
+    if duration and reason != name_of(NO_VALUE):
+        return f"{reason} within {duration}"
+    return reason
 
 
 def _without_separation(study: xr.Dataset) -> str:
     """What a sweep of `simulate` says of points without a separation: within which time there is
     none."""
-    ends = study["t_end"].values
-    known = np.unique(ends[np.isfinite(ends)])
-    within = f"none within {known[0]:g} s" if known.size == 1 else "none within the run"
+    within = f"none within {run_text(study) or 'the run'}"
     left = study["first_separation"].isnull() & (study["time_reached"] < study["t_end"])
     return f"{within}, or ended early" if left.any() else within
 
@@ -337,7 +339,8 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
         return _none_up_to_bound(study)
     if name not in study:
         return ""
-    of_quantity = GONE.get(str(study.attrs.get("quantity", "")), {})
+    quantity = study.attrs.get("quantity", study.attrs.get("function", ""))
+    of_quantity = GONE.get(str(quantity), {})
     if name in of_quantity:
         return of_quantity[name]
     dims = study[name].dims
@@ -356,16 +359,6 @@ def _none_up_to_bound(study: xr.Dataset) -> str:
     shown = measured(study["value"].copy(data=np.full(study["value"].shape, float(highest))))
     unit = unit_text(study["value"].attrs.get("units", "1"))
     return f"none up to {shown.values.flat[0]:.6g} {unit}".rstrip()
-
-
-def horizon_text(study: xr.Dataset) -> str:
-    """The one horizon that a study states, with its unit; "" if there is none."""
-    horizon = json.loads(study.attrs.get("options", "{}")).get("horizon")
-    if isinstance(horizon, str):
-        return horizon
-    if isinstance(horizon, float | int):
-        return f"{horizon:g} s"
-    return ""
 
 
 def unit_text(units: str) -> str:
