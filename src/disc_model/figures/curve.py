@@ -8,65 +8,51 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.ticker import AutoLocator, NullLocator
 
-from disc_model.figures.arrows import draw_arrows
 from disc_model.figures.branch_lines import THIN, Look
-from disc_model.figures.classes import UNSETTLED, name_of
+from disc_model.figures.curve_marks import (
+    MARK,
+    Looks,
+    fill_doubtful,
+    mark_gaps,
+    mark_open_steps,
+    measured_along,
+    open_look,
+    point_down,
+)
 from disc_model.figures.drawing import (
     BLACK,
-    GREY,
     is_in_data,
     letters,
     mark,
     plain_decades,
     row_of_panels,
-    wide,
 )
-from disc_model.figures.gap_rows import add_row
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
-from disc_model.figures.rate_scale import OPEN, are_of_cycles, are_rates, opens, scale_heights
+from disc_model.figures.rate_scale import are_of_cycles, are_rates, opens, scale_heights
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
-    beyond_lowest_speed,
-    doubts,
-    gaps,
     near_another,
     opened,
     parts_along,
     picked,
     remaining,
     titles_of,
-    unsettled,
 )
 from disc_model.figures.types import Array, Axes, Figure, Mask
-from disc_model.figures.words import (
-    CHARACTER,
-    NO_VALUE,
-    WORDS,
-    Measured,
-    as_numbers,
-    label_in,
-    measured,
-    missing_text,
-    named,
-)
+from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, named
 
-CONTACT_LOST = "contact lost at the lowest speed"
-"""Said of points at which separation begins or ends below all speeds of a sweep."""
 PLAIN = Look(BLACK)
 """Look of a single line."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
-MARK = 3.0  # points, size of the marks of lines,
 WIDER = 2.5  # by so much larger for each line that others cover,
 WIDEST = 8.0  # but not beyond this
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of such a line that have a mark, about
-ARROW = 7.0  # points, size of an arrow below a point, and its distance
-ROOM = 0.12  # share of the panel beside its values that has room for them
 
 
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -129,37 +115,30 @@ def draw_lines(
     array = array.copy(data=measured(array).values)
     array = array.where(~np.isneginf(array))  # such points are marked above the panel
     by = remaining(array, [x])
-    label, along = _along(array[x])
+    label, along = measured_along(array[x])
     joined = joined and along.dtype.kind != "U"
     rates = are_rates(array, log)
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    _choose_marks(marks, parts)
-    colours = dict(zip((part.name for part in parts), _colours(parts, marks, single), strict=True))
+    looks = _looks_of(parts, marks, single)
     gapless = joined and not (names or rates or array.isnull().any())
-    jumps = joined and are_of_cycles(array, rates)
-    line: Any = ""
-    if joined and not names:
-        line = single.line(THIN).get("linestyle", "-")
-    sizes = _sizes(parts)
+    steps = {}
+    if joined and are_of_cycles(array, rates):
+        steps = _open_steps(study, array, by)
+    line = _dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
-    steps = _open_steps(study, array, by) if jumps else {}
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
-        heights = part.data.values
-        colour = colours[part.name]
-        look = {"color": colour, "label": title or None, "linestyle": line, **_look()}
-        look |= {"marker": marks[part.name], "markersize": sizes[part.name]}
-        heights = _draw_at_bound(ax, along, heights, bounds[part.name], look)
+        look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
+        heights = _draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
         pieces = [along, heights]
-        if jumps:
+        if steps:
             pieces = opened(along, heights, steps[part.name])
         if heights.size > CROWDED:
-            alone = len(marks) == 1
-            look |= _few_marks(pieces[1], joined=bool(line), alone=alone)
+            look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
-                _draw_dots(ax, along, heights, colour)
+                _draw_dots(ax, along, heights, looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
@@ -174,12 +153,24 @@ def draw_lines(
     ax.margins(0.03)
 
     # what is no value, or none that was found
-    _point_down(ax, parts, along, bounds, colours)
-    _fill_doubtful(ax, study, array, x, marks, colours, sizes)
-    _mark_gaps(ax, study, array, x, marks, colours)
-    if jumps:
-        _mark_jumps(ax, steps, along, colours)
+    point_down(ax, parts, along, bounds, looks)
+    fill_doubtful(ax, study, array, x, looks)
+    mark_gaps(ax, study, array, x, looks)
+    mark_open_steps(ax, steps, along, looks)
     return drawn
+
+
+def _dashes_of(look: Look) -> Any:
+    """The dashes of a look; a line without gaps if it has none."""
+    return look.line(THIN).get("linestyle", "-")
+
+
+def _looks_of(parts: Sequence[Part[xr.DataArray]], marks: dict[str, str], single: Look) -> Looks:
+    """Looks of lines, whose marks are added to those of all panels."""
+    _choose_marks(marks, parts)
+    names = [part.name for part in parts]
+    colours = dict(zip(names, _colours(parts, marks, single), strict=True))
+    return Looks(marks, colours, _sizes(parts))
 
 
 def _sizes(parts: Sequence[Part[xr.DataArray]]) -> dict[str, float]:
@@ -227,15 +218,6 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
     ax.set_xscale(scale(values))
     if ax.get_xscale() == "log":
         plain_decades(ax.xaxis)
-
-
-def _along(coordinate: xr.DataArray) -> Measured:
-    """The label and the values of the horizontal axis; words by their names."""
-    across = measured(coordinate)
-    if coordinate.dtype.kind not in "UO":
-        return across
-    names = [WORDS.get(str(word), str(word)) for word in coordinate.values]
-    return across._replace(values=np.array(names))
 
 
 def _turn_words(ax: Axes, words: np.ndarray) -> None:
@@ -334,119 +316,3 @@ def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look)
         return [single.colour]
     order = [*marks]
     return [cm.batlow(order.index(part.name) / len(order)) for part in parts]
-
-
-def _look() -> dict[str, Any]:
-    """Look of lines and of marks of missing values."""
-    return {
-        "markersize": mark(MARK),
-        "markerfacecolor": "none",
-        "markeredgewidth": wide(0.6),
-        "linewidth": wide(0.7),
-    }
-
-
-def _point_down(
-    ax: Axes,
-    parts: Sequence[Part[xr.DataArray]],
-    along: Array,
-    bounds: Mapping[str, Mask],
-    colours: Mapping[str, Any],
-) -> None:
-    """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
-    if not any(at_bound.any() for at_bound in bounds.values()):
-        return
-    ax.margins(y=ROOM)
-    for part in parts:
-        here = bounds[part.name]
-        if here.any():
-            heights = part.data.values[here]
-            draw_arrows(ax, along[here], heights, colours[part.name], "down", ARROW)
-
-
-def _fill_doubtful(
-    ax: Axes,
-    study: xr.Dataset,
-    array: xr.DataArray,
-    x: str,
-    marks: Mapping[str, str],
-    colours: Mapping[str, Any],
-    sizes: Mapping[str, float],
-) -> None:
-    """Fill the marks of points whose value may be another than that of a settled motion; those of a
-    panel have one entry in the legend."""
-    by = remaining(array, [x])
-    along = _along(array[x]).values
-    for reason, doubtful in doubts(study, str(array.name)).items():
-        if not (doubtful & array.notnull()).any():
-            continue
-        look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
-        if reason.label not in ax.get_legend_handles_labels()[1]:
-            ax.plot([], [], color=GREY, marker="o", label=reason.label, **look)
-        for part, chosen in zip(parts_along(array, by), parts_along(doubtful, by), strict=True):
-            here = chosen.data.values & np.isfinite(part.data.values)
-            if here.any():
-                look |= {"marker": marks[part.name], "color": colours[part.name]}
-                look["markersize"] = sizes[part.name] + mark(1)
-                ax.plot(along[here], part.data.values[here], label="_nolegend_", **look)
-
-
-def _mark_gaps(
-    ax: Axes,
-    study: xr.Dataset,
-    array: xr.DataArray,
-    x: str,
-    marks: Mapping[str, str],
-    colours: Mapping[str, Any],
-) -> None:
-    """Mark points without a value above the panel, a row for each line and each reason, in the looks
-    of the lines."""
-    by = remaining(array, [x])
-    across = _along(array[x]).values
-    for reason, gone in _reasons_of_gaps(study, array).items():
-        for part in parts_along(gone, by):
-            mask = part.data.values
-            if mask.any():
-                look = {"marker": marks[part.name], "color": colours[part.name], **_look()}
-                add_row(ax, reason, across[mask], **look)
-
-
-def _reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
-    """Points without a value, by the words that say why: also where longer stays may give one."""
-    found = {}
-    doubtful = unsettled(study, str(array.name))
-    for name, gone in gaps(study, array).items():
-        if name != name_of(NO_VALUE):
-            found[name] = gone
-            continue
-        for reason, points in _without_value(study, str(array.name), gone).items():
-            if doubtful is None:
-                found[reason] = points
-                continue
-            found[reason] = points & ~doubtful
-            found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
-    return found
-
-
-def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str, xr.DataArray]:
-    """Points that were computed and have no value, by the words for them; a speed at which separation
-    begins or ends may also lie below the lowest speed of a sweep."""
-    reason = missing_text(study, name)
-    below = beyond_lowest_speed(study, name)
-    if below is None:
-        return {reason: gone}
-    return {reason: gone & ~below, CONTACT_LOST: gone & below}
-
-
-def _mark_jumps(
-    ax: Axes, steps: Mapping[str, Mask], along: Array, colours: Mapping[str, Any]
-) -> None:
-    """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
-    between their points, in the colours of the lines: no points lie there."""
-    middle = 0.5 * (along[:-1] + along[1:])
-    if ax.get_xscale() == "log":
-        middle = np.sqrt(along[:-1] * along[1:])
-    for name, is_gap in steps.items():
-        if is_gap.any():
-            look = {"marker": "|", "markersize": mark(5), "color": colours[name]}
-            add_row(ax, OPEN, middle[is_gap], **look)

@@ -1,0 +1,152 @@
+"""Marks of curves: of points whose value is in doubt or at a bound, of points without a value, and of
+steps at which a line is open."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.figures.arrows import draw_arrows
+from disc_model.figures.classes import UNSETTLED, name_of
+from disc_model.figures.drawing import GREY, mark, wide
+from disc_model.figures.gap_rows import add_row
+from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.selection import (
+    Part,
+    beyond_lowest_speed,
+    doubts,
+    gaps,
+    parts_along,
+    remaining,
+    unsettled,
+)
+from disc_model.figures.types import Array, Axes, Mask
+from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured, missing_text
+
+CONTACT_LOST = "contact lost at the lowest speed"
+"""Said of points at which separation begins or ends below all speeds of a sweep."""
+MARK = 3.0  # points, size of the marks of lines,
+ARROW = 7.0  # points, size of an arrow below a point, and its distance
+ROOM = 0.12  # share of the panel beside its values that has room for them
+
+
+class Looks(NamedTuple):
+    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes."""
+
+    marks: Mapping[str, str]
+    colours: Mapping[str, Any]
+    sizes: Mapping[str, float]
+
+    def of(self, name: str) -> dict[str, Any]:
+        """The look of the marks of a line."""
+        shape = {"marker": self.marks[name], "markersize": self.sizes[name]}
+        return {**shape, "color": self.colours[name]}
+
+
+def measured_along(coordinate: xr.DataArray) -> Measured:
+    """The label and the values of the horizontal axis; words by their names."""
+    across = measured(coordinate)
+    if coordinate.dtype.kind not in "UO":
+        return across
+    names = [WORDS.get(str(word), str(word)) for word in coordinate.values]
+    return across._replace(values=np.array(names))
+
+
+def open_look() -> dict[str, Any]:
+    """Look of lines and of marks of missing values."""
+    return {
+        "markersize": mark(MARK),
+        "markerfacecolor": "none",
+        "markeredgewidth": wide(0.6),
+        "linewidth": wide(0.7),
+    }
+
+
+def point_down(
+    ax: Axes,
+    parts: Sequence[Part[xr.DataArray]],
+    along: Array,
+    bounds: Mapping[str, Mask],
+    looks: Looks,
+) -> None:
+    """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
+    if not any(at_bound.any() for at_bound in bounds.values()):
+        return
+    ax.margins(y=ROOM)
+    for part in parts:
+        here = bounds[part.name]
+        if here.any():
+            heights = part.data.values[here]
+            draw_arrows(ax, along[here], heights, looks.colours[part.name], "down", ARROW)
+
+
+def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:
+    """Fill the marks of points whose value may be another than that of a settled motion; those of a
+    panel have one entry in the legend."""
+    by = remaining(array, [x])
+    along = measured_along(array[x]).values
+    for reason, doubtful in doubts(study, str(array.name)).items():
+        if not (doubtful & array.notnull()).any():
+            continue
+        look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
+        if reason.label not in ax.get_legend_handles_labels()[1]:
+            ax.plot([], [], color=GREY, marker="o", label=reason.label, **look)
+        for part, chosen in zip(parts_along(array, by), parts_along(doubtful, by), strict=True):
+            here = chosen.data.values & np.isfinite(part.data.values)
+            if here.any():
+                look |= {**looks.of(part.name), "label": "_nolegend_"}
+                look["markersize"] += mark(1)
+                ax.plot(along[here], part.data.values[here], **look)
+
+
+def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:
+    """Mark points without a value above the panel, a row for each line and each reason, in the looks
+    of the lines."""
+    by = remaining(array, [x])
+    across = measured_along(array[x]).values
+    for reason, gone in _reasons_of_gaps(study, array).items():
+        for part in parts_along(gone, by):
+            mask = part.data.values
+            if mask.any():
+                look = {**looks.of(part.name), **open_look()}
+                add_row(ax, reason, across[mask], **look)
+
+
+def _reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points without a value, by the words that say why: also where longer stays may give one."""
+    found = {}
+    doubtful = unsettled(study, str(array.name))
+    for name, gone in gaps(study, array).items():
+        if name != name_of(NO_VALUE):
+            found[name] = gone
+            continue
+        for reason, points in _without_value(study, str(array.name), gone).items():
+            if doubtful is None:
+                found[reason] = points
+                continue
+            found[reason] = points & ~doubtful
+            found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
+    return found
+
+
+def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str, xr.DataArray]:
+    """Points that were computed and have no value, by the words for them; a speed at which separation
+    begins or ends may also lie below the lowest speed of a sweep."""
+    reason = missing_text(study, name)
+    below = beyond_lowest_speed(study, name)
+    if below is None:
+        return {reason: gone}
+    return {reason: gone & ~below, CONTACT_LOST: gone & below}
+
+
+def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks) -> None:
+    """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
+    between their points, in the colours of the lines: no points lie there."""
+    middle = 0.5 * (along[:-1] + along[1:])
+    if ax.get_xscale() == "log":
+        middle = np.sqrt(along[:-1] * along[1:])
+    for name, is_gap in steps.items():
+        if is_gap.any():
+            look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
+            add_row(ax, OPEN, middle[is_gap], **look)
