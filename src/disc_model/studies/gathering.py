@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.swept_branches import variables_of_branch
@@ -165,7 +164,7 @@ def _type_of(kinds: set[str], *, complete: bool) -> tuple[Any, Any]:
     return float, math.nan
 
 
-def _padded(rows: Sequence[NDArray[Any] | None]) -> NDArray[Any]:
+def _padded(rows: Sequence[np.ndarray | None]) -> np.ndarray:
     """Arrays of one number of dimensions as the rows of one array, shape (len(rows), ...); what is
     missing is nan, or "" among words."""
     present = [row for row in rows if row is not None]

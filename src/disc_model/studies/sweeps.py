@@ -104,9 +104,7 @@ def sweep(
     calls = checked_workers(workers, processes, executor, progress)
     chosen = {**call.defaults, **call.options}
     searched = _searched(function, call.title, chosen)
-    swept = [name for dimension in call.dimensions for name in dimension.columns]
-    rule = f"must not be swept, because {call.title} searches along it"
-    raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
+    _refuse_searched(call, searched)
     ours = call.title if _is_ours(function) else ""
     _refuse_what_is_left_out(ours, call.options)
     records = are_recorded(errors)
@@ -141,6 +139,13 @@ def _base(case: Parameters, searched: set[str]) -> str:
     stated = {**case.stated, "disc": case.canonical.get("disc")}
     without = {*searched, *(PLATE if case.disc is not None else ())}
     return canonical_json({name: x for name, x in stated.items() if name not in without})
+
+
+def _refuse_searched(call: Call, searched: set[str]) -> None:
+    """Raise `ParameterError` where what the function varies by itself is swept."""
+    swept = [name for dimension in call.dimensions for name in dimension.columns]
+    rule = f"must not be swept, because {call.title} searches along it"
+    raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
 
 
 def _refuse_what_is_left_out(ours: str, options: Mapping[str, Any]) -> None:
