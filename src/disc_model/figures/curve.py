@@ -5,14 +5,13 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
 from matplotlib.ticker import AutoLocator, NullLocator
 
 from disc_model.figures.branch_lines import THIN, Look
 from disc_model.figures.curve_marks import (
-    MARK,
-    Looks,
+    choose_marks,
     fill_doubtful,
+    looks_of,
     mark_gaps,
     mark_open_steps,
     measured_along,
@@ -46,11 +45,7 @@ from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, 
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
-MARKS = "os^Dv<>"
-"""Marks of the lines; they are open, so that lines on top of each other show."""
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
-WIDER = 2.5  # by so much larger for each line that others cover,
-WIDEST = 8.0  # but not beyond this
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of such a line that have a mark, about
 
@@ -62,7 +57,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     figure, axes = row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}
     for part in panels:
-        _choose_marks(marks, _lines_of(part.data, plot.variable, plot.x))
+        choose_marks(marks, _lines_of(part.data, plot.variable, plot.x))
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
@@ -121,7 +116,7 @@ def draw_lines(
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    looks = _looks_of(parts, marks, single)
+    looks = looks_of(parts, marks, single)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = {}
     if joined and are_of_cycles(array, rates):
@@ -163,32 +158,6 @@ def draw_lines(
 def _dashes_of(look: Look) -> Any:
     """The dashes of a look; a line without gaps if it has none."""
     return look.line(THIN).get("linestyle", "-")
-
-
-def _looks_of(parts: Sequence[Part[xr.DataArray]], marks: dict[str, str], single: Look) -> Looks:
-    """Looks of lines, whose marks are added to those of all panels."""
-    _choose_marks(marks, parts)
-    names = [part.name for part in parts]
-    colours = dict(zip(names, _colours(parts, marks, single), strict=True))
-    return Looks(marks, colours, _sizes(parts))
-
-
-def _sizes(parts: Sequence[Part[xr.DataArray]]) -> dict[str, float]:
-    """Sizes of the marks of lines: larger ones where others that are drawn later have the same values,
-    and would hide them."""
-    sizes = {}
-    covering = 0
-    for i, part in reversed([*enumerate(parts)]):
-        later = [other.data.values for other in parts[i + 1 :]]
-        if any(_coincide(part.data.values, values) for values in later):
-            covering += 1
-        sizes[part.name] = mark(min(MARK + WIDER * covering, WIDEST))
-    return sizes
-
-
-def _coincide(heights: Array, others: Array) -> bool:
-    """Whether two lines have equal values at a point."""
-    return bool(np.isclose(heights.astype(float), others.astype(float), rtol=1e-6).any())
 
 
 def _at_bound_by_part(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
@@ -302,17 +271,3 @@ def _lines_of(study: xr.Dataset, variable: str, x: str) -> list[Part[xr.DataArra
     """The lines of a variable in a panel."""
     array = as_classes(study, variable)
     return parts_along(array, remaining(array, [x]))
-
-
-def _choose_marks(marks: dict[str, str], parts: Sequence[Part[Any]]) -> None:
-    """Give lines that have none a mark."""
-    for part in parts:
-        marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
-
-
-def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look) -> list[Any]:
-    """Colours of lines by the order of all that have marks; a single one has its own."""
-    if len(parts) == 1:
-        return [single.colour]
-    order = [*marks]
-    return [cm.batlow(order.index(part.name) / len(order)) for part in parts]

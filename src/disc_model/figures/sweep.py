@@ -11,7 +11,8 @@ from disc_model.errors import require
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, is_colormap
-from disc_model.figures.curve import MARKS, draw_lines
+from disc_model.figures.curve import draw_lines
+from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.heat_map import draw_maps
