@@ -189,6 +189,8 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
 def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks) -> None:
     """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
     between their points, in the colours of the lines: no points lie there."""
+    if not steps:  # as along words
+        return
     middle = 0.5 * (along[:-1] + along[1:])
     if ax.get_xscale() == "log":
         middle = np.sqrt(along[:-1] * along[1:])
