@@ -309,3 +309,45 @@ def test_a_name_of_a_curve_is_nearer_to_it_than_to_others() -> None:
     assert text.get_visible()
     assert text.get_window_extent().y0 > ax.transData.transform((0.5, 0.5))[1]
     pyplot.close(figure)
+
+
+LONG_NAMES = [
+    "stiffer spring at the drive, fourth batch of measured discs",
+    "softer spring, heavier pad, with five nodal diameters",
+    "load of the third measurement, and a contact at a point",
+    "as published in the paper, without in-plane modes",
+    "with friction on the surface, and with residual flexibility",
+]
+SHORTER_NAMES = [name.partition(",")[0] for name in LONG_NAMES]
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize(
+    ("names", "least"),
+    [
+        (SHORTER_NAMES[:3], 10.0),
+        (SHORTER_NAMES, 9.0),
+        (LONG_NAMES[:3], 10.0),
+        (LONG_NAMES, 3.5),  # beside letters of 6 points there is no more room
+    ],
+)
+def test_a_legend_of_long_names_lies_on_a_page_of_84_by_51_mm(
+    names: list[str], least: float, layout: Any
+) -> None:
+    """In letters of 10 points, three long names stood off the page, or left a panel of 5 mm; words above
+    a panel left the page in a constrained layout."""
+    with pyplot.rc_context({"font.size": 10}):
+        figure, ax = pyplot.subplots(figsize=(COLUMN, 2.0), layout=layout)
+        rates = np.array([-0.1, 0.2, 0.1, 0.3, 0.2, 0.4])
+        for place, name in enumerate(names):
+            study = growth(rates + 0.02 * place)
+            dm.plot_sweep(study, "growth_rate", ax=ax, labels={"growth_rate": name})
+        assert_on_page(figure)
+    box = ax.get_legend().get_window_extent()
+    width, height = figure.bbox.size
+    assert min(box.x0, box.y0) > -1
+    assert box.x1 < width + 1
+    assert box.y1 < height + 1
+    assert side(ax) >= least
+    assert ax.get_legend().get_texts()[0].get_size() >= 6
+    pyplot.close(figure)

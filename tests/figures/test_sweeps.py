@@ -2,6 +2,7 @@
 its values."""
 
 import functools
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -225,6 +226,61 @@ def test_a_sweep_without_any_value_has_no_scale(variable: str, label: str, log: 
     assert curve.get_ylabel().replace("\n", " ") == label
     assert "no value" in [text.get_text() for text in curve.texts]
     pyplot.close("all")
+
+
+def plane() -> xr.Dataset:
+    """Growth rates over speed and preload."""
+    axes = {"Omega": SPEEDS, "N": LOADS}
+    attrs = {"units": "s-1", "long_name": "growth rate"}
+    return xr.Dataset({"growth_rate": ([*axes], 0.01 * np.arange(6.0).reshape(3, 2), attrs)}, axes)
+
+
+@pytest.mark.parametrize(
+    ("x", "lines", "label", "names"),
+    [
+        ("", "N", "Speed Ω (rad/s)", ["Preload N = 300 N", "385 N"]),
+        ("Omega", "N", "Speed Ω (rad/s)", ["Preload N = 300 N", "385 N"]),
+        ("", "Omega", "Preload N (N)", ["Speed Ω = 10 rad/s", "12 rad/s", "14 rad/s"]),
+    ],
+)
+def test_two_dimensions_of_numbers_are_lines_if_asked_for(
+    x: str, lines: str, label: str, names: list[str]
+) -> None:
+    ax = dm.plot_sweep(plane(), "growth_rate", x, lines=lines)
+    [legend] = ax.figure.legends
+    assert ax.get_xlabel() == label
+    assert [text.get_text() for text in legend.get_texts()] == names
+    drawn = [line for line in ax.lines if line.get_label() in names]
+    for i, line in enumerate(drawn):
+        values = plane()["growth_rate"].isel({lines: i}).values
+        np.testing.assert_array_equal(line.get_ydata(), values)
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("selected", "x", "lines", "said"),
+    [
+        ({}, "", "mu_k", "lines='mu_k': must be another dimension than x (known: Omega, N)"),
+        ({}, "Omega", "Omega", "lines='Omega': must be another dimension than x (known: N)"),
+        ({}, "", 3, "lines=3: must be a name"),
+        (
+            {"N": 300},
+            "",
+            "N",
+            "lines='N': must be a second dimension, but growth_rate varies along Omega only",
+        ),
+    ],
+)
+def test_what_is_no_second_dimension_has_no_lines(
+    selected: dict[str, float], x: str, lines: Any, said: str
+) -> None:
+    with refusal(re.escape(said)):
+        dm.plot_sweep(plane().sel(selected), "growth_rate", x, lines=lines)
+
+
+def test_shares_are_bars_and_no_lines() -> None:
+    with refusal("lines='N': must be left out, because basin_fraction is drawn as bars"):
+        dm.plot_sweep(swept(dm.basins).sel(Omega=10), "basin_fraction", lines="N")
 
 
 def marked_points(line: Any) -> int:

@@ -58,12 +58,26 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     for each in found:
         each.text.set_text("x")
     figure.draw_without_rendering()  # sets the sizes
+    beside = 0
     for each, said in zip(found, words, strict=True):
-        each.text.set_text(said)
-        _break(each.text, each.direction, _room(figure, each))
-        _BROKEN[each.text] = Broken(said, each.text.get_text())
+        if each.direction == "height":
+            beside += _set_in_lines(figure, each, said)
+    if beside:
+        figure.draw_without_rendering()  # axes are narrower beside labels of several lines
+    for each, said in zip(found, words, strict=True):
+        if each.direction == "width":
+            _set_in_lines(figure, each, said)
     for ax in {each.ax: None for each in found}:
         stack_rows(ax)
+
+
+def _set_in_lines(figure: Figure, label: Breakable, said: str) -> int:
+    """Set a label to words, in as many lines as they need; returns how many there are beyond one."""
+    label.text.set_text(said)
+    _break(label.text, label.direction, _room(figure, label))
+    shown = label.text.get_text()
+    _BROKEN[label.text] = Broken(said, shown)
+    return shown.count("\n")
 
 
 def words_of(text: Text) -> str:

@@ -1,6 +1,7 @@
 """Legends that stay inside the page, whatever they say and however narrow it is."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from textwrap import fill
 from typing import Any, NamedTuple
@@ -10,7 +11,7 @@ from matplotlib import rcParams
 from matplotlib.collections import Collection, PolyCollection
 from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.transforms import Bbox, ScaledTranslation
+from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 
 from disc_model.figures.types import Artist, Axes, FigureBase
 from disc_model.figures.words import CHARACTER
@@ -38,8 +39,11 @@ SMALLER = 0.8  # size of the text of a legend that finds too little room, over t
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
+LEAST_HEIGHT = 0.6  # inch, that a panel keeps above its legend if a smaller one leaves it so much
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
 MOVES = 2  # of a legend below a panel after it has changed the size of the panel
+ANCHOR = "_disc_model_anchor"
+"""Attribute of a legend below axes: where it hangs."""
 ROUNDING = 1.0  # pixel, to which places are rounded
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
@@ -307,6 +311,8 @@ def legend_below(
     place = _first_that_fits(places, 2)
     if len(handles) <= IN_A_ROW:
         place = _first_that_fits(places[:4], len(handles))
+    smaller = [place, *places[places.index(place) + 1 :]]
+    place = _first_low_enough(smaller, len(handles), _room_below(ax, depth))
     legend = _widest_that_fits(place.draw, len(handles), place.width)
 
     # a layout that made room on its sides would squeeze narrow axes, which do not hold it anyway
@@ -315,14 +321,32 @@ def legend_below(
     # lower axes may have narrower numbers, and begin further to the left; the layout may move them
     # once more when the legend has its place
     anchor: Any = place.draw
-    across = 0.0
+    vars(legend)[ANCHOR] = Anchor(anchor.keywords["bbox_transform"])
     for _ in range(MOVES):
         page.draw_without_rendering()
-        box = legend.get_window_extent()
-        across += max(LEFT * page.dpi - box.x0, 0.0)
-        across -= max(min(box.x1 - free.right, box.x0 - free.left), 0.0)
-        legend.set_bbox_to_anchor((across / ax.bbox.width, 0), anchor.keywords["bbox_transform"])
+        move_to_page(ax, bars)
     return legend
+
+
+@dataclass
+class Anchor:
+    """Where a legend below axes hangs: a transform, and how far it was moved to the right in pixels."""
+
+    transform: Transform
+    across: float = 0.0
+
+
+def move_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
+    """Move the legend below axes to the right or left until it is on the page, and clear of what stands
+    beside the axes if it can."""
+    page: Any = ax.get_figure(root=True)
+    legend: Legend = ax.get_legend()
+    anchor: Anchor = vars(legend)[ANCHOR]
+    free = _free_below(ax, bars)
+    box = legend.get_window_extent()
+    anchor.across += max(LEFT * page.dpi - box.x0, 0.0)
+    anchor.across -= max(min(box.x1 - free.right, box.x0 - free.left), 0.0)
+    legend.set_bbox_to_anchor((anchor.across / ax.bbox.width, 0), anchor.transform)
 
 
 class Place(NamedTuple):
@@ -343,6 +367,32 @@ def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
             if width <= place.width:
                 return place
     return places[-1]
+
+
+def _first_low_enough(places: Sequence[Place], columns: int, height: float) -> Place:
+    """The first place at which a legend in at most so many columns has no more than a height in pixels;
+    the one at which it is lowest if there is none."""
+    heights = []
+    for place in places:
+        trial = _widest_that_fits(place.draw, columns, place.width)
+        heights.append(trial.get_window_extent().height)
+        trial.remove()
+        if heights[-1] <= height:
+            return place
+    return places[heights.index(min(heights))]
+
+
+def _room_below(ax: Axes, depth: float) -> float:
+    """The height in pixels that a legend can have on the page below the labels of axes, which reach so
+    many pixels below these, if the axes keep their least height."""
+    page: Any = ax.get_figure(root=True)
+    box = ax.get_tightbbox()
+    above = 0.0 if box is None else max(box.y1 - page.bbox.height, 0.0)
+    room = ax.bbox.y1 - above - depth - LEAST_HEIGHT * page.dpi
+    place = ax.get_subplotspec()
+    if place is None or place.get_topmost_subplotspec().is_last_row():
+        return float(room)
+    return float("inf")
 
 
 class Sides(NamedTuple):

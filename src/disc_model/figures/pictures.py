@@ -22,6 +22,7 @@ def plot_sweep(  # noqa: PLR0913
     variable: str | Sequence[str] = "",
     x: str = "",
     *,
+    lines: str = "",
     log: bool = False,
     cmap: str | Colormap | None = None,
     ax: Axes | None = None,
@@ -60,6 +61,7 @@ def plot_sweep(  # noqa: PLR0913
         the number of separations of `simulate`, the lowest coupled frequency, or the first number there is
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
         given
+    lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. Growth rates of both
         signs have such a scale in any case
@@ -88,9 +90,16 @@ def plot_sweep(  # noqa: PLR0913
     >>> growth = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14])
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
+
+    A line for each preload, in place of a map:
+
+    >>> grid = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14], N=[300, 400])
+    >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N")
+    >>> [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    ['Preload N = 300 N', '400 N']
     """
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-    return draw("plot_sweep", study, variable, x, log=log, cmap=cmap, **wishes)
+    return draw("plot_sweep", study, variable, x, lines=lines, log=log, cmap=cmap, **wishes)
 
 
 def plot_modes(

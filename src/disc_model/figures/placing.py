@@ -169,9 +169,9 @@ def _widen_margins(page: Any, place: Any, beyond: Beyond) -> None:
     else:
         up = max(up, beyond.above / height)
 
-    if right - left <= LEAST_SHARE or upper - lower <= LEAST_SHARE:
-        return
     grid = place.get_gridspec()
+    left = max(min(left, right - LEAST_SHARE), 0.0)
+    lower = max(min(lower, upper - LEAST_SHARE), 0.0)
     columns = Row(margins.right - margins.left, grid.ncols, margins.wspace)
     rows = Row(margins.top - margins.bottom, grid.nrows, margins.hspace)
     page.subplots_adjust(

@@ -14,7 +14,12 @@ from disc_model.figures.labels import (
     spare_heights,
     spare_numbers,
 )
-from disc_model.figures.legends import finds_room_below, finds_room_beside, finds_room_inside
+from disc_model.figures.legends import (
+    finds_room_below,
+    finds_room_beside,
+    finds_room_inside,
+    move_to_page,
+)
 from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
 from disc_model.figures.placing import fit_to_page, restore_margins
@@ -60,6 +65,21 @@ def make_room(page: Page, wishes: Wishes) -> None:
         spare_heights(ax)
         for bar in bars:
             spare_numbers(bar)
+    _move_legends(figure)
+
+
+def _move_legends(figure: Any) -> None:
+    """Move legends below axes, which have other margins since they were placed, onto the page."""
+    placed = []
+    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
+        page, _ = vars(legend).get(PLACED, (None, None))
+        if page is not None and page.beside == "below":
+            placed.append(page)
+    if not placed:
+        return
+    figure.draw_without_rendering()  # sets the places
+    for page in placed:
+        move_to_page(page.axes[-1], page.beside_last)
 
 
 def set_own_upright(figure: Any) -> None:

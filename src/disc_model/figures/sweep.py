@@ -44,6 +44,7 @@ def plot_sweep(  # noqa: PLR0913
     variable: str | Sequence[str] = "",
     x: str = "",
     *,
+    lines: str = "",
     log: bool = False,
     cmap: Any = None,
     ax: Any = None,
@@ -60,10 +61,11 @@ def plot_sweep(  # noqa: PLR0913
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         (names, "variable", variable, "must be a name, or a list of names"),
         (isinstance(x, str | None), "x", x, "must be a name"),
+        (isinstance(lines, str | None), "lines", lines, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
     )
-    varying, drawn = choose_drawn(study, variables, x)  # type: ignore[arg-type]  # checked
+    varying, drawn = choose_drawn(study, variables, x, lines)  # type: ignore[arg-type]  # checked
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
     with page_for(wishes, COLUMN, 2.9, title=case_of(varying)) as page:

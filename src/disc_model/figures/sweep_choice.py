@@ -70,10 +70,14 @@ class Drawn:
 
 
 def choose_drawn(
-    study: xr.Dataset, variables: Sequence[str], x: str
+    study: xr.Dataset, variables: Sequence[str], x: str, lines: str = ""
 ) -> tuple[xr.Dataset, list[Drawn]]:
     """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
-    are lines over the same dimension. Raises `ParameterError`."""
+    are lines over the same dimension. Raises `ParameterError`.
+
+    x, lines : dimensions along the horizontal axis, and with a line for each value; "" for the usual
+        ones
+    """
     _refuse_branches(study)
     if not variables[0]:
         study = _with_first_values(study)
@@ -82,7 +86,7 @@ def choose_drawn(
     if not column:
         varying = _ascending(varying)
 
-    drawn = [_drawn(varying, each, column, x) for each in variables]
+    drawn = [_drawn(varying, each, column, x, lines) for each in variables]
     for each in drawn[1:]:
         alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
         rule = "must be lines over the same dimension to be drawn together"
@@ -99,10 +103,29 @@ def _refuse_branches(study: xr.Dataset) -> None:
     raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 
-def _drawn(study: xr.Dataset, variable: str, column: str, x: str) -> Drawn:
+def _drawn(study: xr.Dataset, variable: str, column: str, x: str, lines: str) -> Drawn:
     """What is drawn of a variable, over a column of paired values, if there is one."""
-    drawn = _chosen_axes(study, _chosen_variable(study, variable), column or x)
+    name = _chosen_variable(study, variable)
+    if lines:
+        drawn = _with_lines(study, name, column or x, lines)
+    else:
+        drawn = _chosen_axes(study, name, column or x)
     return replace(drawn, mapped=False, joined=False) if column else drawn
+
+
+def _with_lines(study: xr.Dataset, variable: str, x: str, lines: str) -> Drawn:
+    """What is drawn of a variable with a line for each value of a dimension; raises
+    `ParameterError`."""
+    dims = [str(dim) for dim in study[variable].dims]
+    known = [dim for dim in dims if dim != x]
+    bars = f"must be left out, because {variable} is drawn as bars"
+    alone = f"must be a second dimension, but {variable} varies along {dims[0]} only"
+    other = f"must be another dimension than x{suggestion(lines, known)}"
+    require((variable not in SHARES, "lines", lines, bars))
+    require((len(dims) > 1, "lines", lines, alone))
+    require((lines in known, "lines", lines, other))
+    across = x or next(dim for dim in dims if dim != lines)
+    return replace(_chosen_axes(study, variable, across), mapped=False)
 
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
