@@ -52,6 +52,20 @@ def test_a_horizon_that_is_selected_is_named() -> None:
     pyplot.close("all")
 
 
+def test_a_horizon_that_varies_is_an_axis_and_is_named_once_it_is_selected() -> None:
+    study = dm.sweep(dm.outcome, CASE, over={"horizon": [1, 2]}, N=LOADS)
+    assert label_in(study, "outcome") == "Outcome"
+    assert missing_text(study, "first_separation") == "none within the horizon"
+    ax = dm.plot_sweep(study, "time_reached", x="horizon", lines="N")
+    assert ax.get_xlabel() == "Horizon (s)"
+    ax = dm.plot_sweep(study, "time_reached", x="N", lines="horizon")
+    (legend,) = ax.figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == ["Horizon = 1 s", "2 s"]
+    ax = dm.plot_sweep(study.sel(horizon=2), "outcome")
+    assert " ".join(ax.get_ylabel().split()) == "Outcome within 2 s"
+    pyplot.close("all")
+
+
 def test_a_critical_value_of_multipliers_has_no_horizon() -> None:
     study = study_of("critical", "value", '{"bounds": [8, 22]}', units="rad s-1")
     assert missing_text(study, "value") == "none up to 22 rad/s"

@@ -215,6 +215,11 @@ def test_what_a_function_is_not_told_is_as_in_a_study(function: Any) -> None:
     assert compared >= 3
 
 
+def test_a_longest_stay_below_the_first_one_is_refused() -> None:
+    with refusal(r"^max_dwell=10 must be >= dwell=20$"):
+        dm.hysteresis(P, (11, 13), 20, max_dwell=10)
+
+
 @pytest.mark.compiled
 def test_basins_count_the_starts_that_are_done(capsys: pytest.CaptureFixture[str]) -> None:
     starts = {"energies": [1e-4, 1e-3], "n_starts": 2, "horizon": 5}

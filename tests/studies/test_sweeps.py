@@ -854,3 +854,134 @@ def test_names_of_own_results_have_no_meaning() -> None:
     own = {"units": "mm", "long_name": "pad amplitude"}
     named = sweep(lambda case: xr.Dataset({"u": ((), 2.0, own)}), P, Omega=[1.0, 2.0])
     assert label_of(named["u"]) == ("Pad amplitude (mm)", 1.0)
+
+
+# ---- Arguments of the function that vary, and sweeps of which no point makes a case
+
+
+def test_a_sweep_of_which_no_point_makes_a_case_is_refused() -> None:
+    """A dataset of only status and message came back, after as many calls as points."""
+    with refusal(
+        r"^no point of the sweep makes a case: at the first, mu_k_over_mu_s=0.5, mu_k=0.1: "
+        r"mu_k_over_mu_s=0.5: must not be given beside mu_k$"
+    ):
+        sweep(dm.floquet, P, mu_k_over_mu_s=[0.5, 0.6], mu_k=[0.1, 0.2])
+
+
+def test_an_argument_of_the_function_varies_along_a_dimension_of_its_own() -> None:
+    swept = sweep(
+        lambda case, gain, word: {"load": case.N * gain, "word": f"{word} {case.k:g}"},
+        P,
+        over={"gain": [1, 2, 3]},
+        zip={"k": [1.0, 2.0], "name": ["a", "b"]},
+        N=[3.0, 4.0],
+        word="k",
+    )
+    assert swept["load"].dims == ("N", "gain", "k")
+    assert swept["load"].sel(N=4, gain=3, k=2).item() == 12
+    assert swept["word"].sel(N=4, gain=3, k=2).item() == "k 2"
+    assert swept["gain"].values.tolist() == [1, 2, 3]
+    assert json.loads(swept.attrs["options"]) == {"word": "k"}
+
+
+@pytest.mark.parametrize("workers", [{"workers": 2}, {"workers": 2, "processes": True}])
+def test_an_argument_that_varies_has_its_unit_and_meaning(workers: Any) -> None:
+    swept = sweep(dm.outcome, P, over={"horizon": [1, "0.05 min"]}, N=[300], **workers)
+    assert swept["horizon"].values.tolist() == [1.0, 3.0]
+    assert swept["horizon"].attrs == {"units": "s", "long_name": "longest simulated time"}
+    assert "horizon" not in json.loads(swept.attrs["options"])
+    alone = sweep(dm.outcome, P, horizon=3, N=[300])
+    for name in ("outcome", "time_reached", "u_max"):
+        assert swept[name].sel(horizon=3).values == alone[name].values
+
+
+@pytest.mark.parametrize(
+    ("over", "message"),
+    [
+        ({"horizn": [5]}, r"^over.horizn: is no argument of outcome, did you mean horizon\?"),
+        ({"case": [5]}, r"^over.case: is no argument of outcome"),
+        ({"N": [5]}, r"^over.N: is a number of the case: give it beside over, as in N=\[...\]$"),
+        ({"tol": [1e-10]}, r"^over.tol: must not be given twice$"),
+        ({"horizon": []}, r"^over.horizon=\[\]: must have one value or more$"),
+        ({"horizon": [5, 5.0]}, r"^over.horizon\[1\]=5: must not be given twice along an axis$"),
+        ({"start": [{"u": 1}]}, r"^over.start=.*: must be numbers or words in one dimension$"),
+        ({"horizon": [1, "x"]}, r"^over.horizon=.*: must be numbers or words in one dimension$"),
+        ({"horizon": [-1, 5]}, r"^horizon=-1: must be > 0$"),
+        ({"horizon": ["x"]}, r"^horizon='x': must be a number$"),
+        ({}, r"^over=\{\}: must be values by the names of arguments"),
+        ([5], r"^over=\[5\]: must be values by the names of arguments"),
+    ],
+)
+def test_what_is_wrong_with_arguments_that_vary_is_said(over: Any, message: str) -> None:
+    required = {}
+    if "horizon" not in over:
+        required = {"horizon": 1}
+    with refusal(message):
+        sweep(dm.outcome, P, over=over, Omega=[10], tol=1e-9, **required)
+
+
+def test_an_argument_must_not_have_the_name_of_a_column() -> None:
+    with refusal(r"^over.k: must not be given twice$"):
+        sweep(lambda case, k: k, P, over={"k": [1]}, zip={"k": [1.0], "N": [2.0]})
+
+
+def test_an_argument_that_is_refused_at_a_later_point_fails_there() -> None:
+    swept = sweep(dm.outcome, P, over={"horizon": [1, -1]}, N=[-1, 300])
+    assert swept["status"].values.tolist() == [["failed", "failed"], ["ok", "failed"]]
+    assert "horizon=-1: must be > 0" in swept["message"].values[1, 1]
+
+
+def test_a_list_for_an_argument_of_one_value_is_told_of_over() -> None:
+    hint = r"to vary {0}, give over={{\"{0}\": \[...\]}}"
+    with refusal("^horizon=.*must be a number; " + hint.format("horizon")):
+        sweep(dm.outcome, P, horizon=[50, 100], Omega=[10, 12])
+    with pytest.raises(TypeError) as raised:
+        sweep(lambda case, gain: case.N * gain, P, gain=[1, 2], N=[3.0])
+    assert re.search(hint.format("gain"), raised.value.__notes__[-1])
+    with refusal(r"^bounds=\(9, 8\): lowest=9 must be < highest=8$"):
+        sweep(dm.critical_speed, P, bounds=[9, 8], N=[300])
+
+
+def test_a_horizon_along_which_a_function_has_one_value_varies() -> None:
+    swept = sweep(dm.critical_speed, P, over={"horizon": [0.5, 1]}, bounds=(8, 9), N=[300, 385])
+    assert swept["critical_speed"].dims == ("N", "horizon")
+    with refusal(r"returned values along gain, which is a dimension of the sweep"):
+        sweep(
+            lambda case, gain: xr.Dataset({"x": ("gain", [1.0, 2.0])}), P, over={"gain": [1.0, 2.0]}
+        )
+
+
+def test_coordinates_of_a_function_that_differ_between_points_are_a_variable() -> None:
+    """Values stood beside the coordinates of the first point."""
+
+    def function(case: dm.Parameters, step: float) -> xr.Dataset:
+        times = np.arange(0.0, 1.0, step)
+        return xr.Dataset({"height": ("time", case.N * times)}, {"time": times})
+
+    swept = sweep(function, P, over={"step": [0.5, 0.25]})
+    assert swept["height"].dims == ("step", "time_index")
+    nan = np.nan
+    np.testing.assert_array_equal(swept["time"], [[0, 0.5, nan, nan], [0, 0.25, 0.5, 0.75]])
+    np.testing.assert_array_equal(swept["height"], P.N * swept["time"])
+
+
+def test_what_critical_varies_may_vary_and_its_values_have_then_no_common_unit() -> None:
+    found = sweep(
+        lambda case, unit: xr.Dataset({"x": ((), 1.0, {"units": unit, "long_name": "x"})}),
+        P,
+        over={"unit": ["m", "s"]},
+    )
+    assert found["x"].attrs == {"long_name": "x"}
+    with refusal(r"^N: must not be swept, because critical searches along it$"):
+        sweep(dm.critical, P, over={"name": ["Omega", "N"]}, bounds=(8, 20), N=[300])
+
+
+@pytest.mark.parametrize("suffix", ["nc", "mat"])
+def test_arguments_that_vary_are_saved(suffix: str, tmp_path: Path) -> None:
+    swept = sweep(
+        lambda case, early, method: case.N * early,
+        P,
+        over={"early": [True, False], "method": ["a", "bc"]},
+    )
+    dm.save(swept, tmp_path / f"x.{suffix}")
+    xr.testing.assert_equal(dm.load(tmp_path / f"x.{suffix}"), swept)

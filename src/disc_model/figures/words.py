@@ -310,10 +310,13 @@ def missing_text(study: xr.Dataset, name: str) -> str:
     if name == "first_separation" and study.attrs.get("function") == "simulate":
         return _without_separation(study)
     horizon = horizon_text(study)
+    if not horizon and "horizon" in study.dims:
+        horizon = "the horizon"
     if name in TIMES_OF_SEPARATION and horizon:
         # some that occur have no time where departures are extrapolated
-        timed = not json.loads(study.attrs["options"]).get("extrapolate")
-        return f"none within {horizon}" if timed else f"none within {horizon}, or not timed"
+        options = json.loads(study.attrs.get("options", "{}"))
+        untimed = options.get("extrapolate") or "extrapolate" in study.dims
+        return f"none within {horizon}, or not timed" if untimed else f"none within {horizon}"
     reason = _reason_in(study, name) or name_of(NO_VALUE)
     duration = duration_of(study, name)
     if duration and reason != name_of(NO_VALUE):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import inspect
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from itertools import product
@@ -24,6 +24,7 @@ from disc_model.errors import (
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.studies.quantity import STATUS
 from disc_model.studies.swept_values import checked_values, faults_of_repeated, is_missing
+from disc_model.studies.varied_arguments import Arguments, values_over
 
 OF_SWEEPS = {"status": STATUS.long_name, "message": "what became of it, in words"}
 """Variables that every sweep has, and their names."""
@@ -86,6 +87,8 @@ class Call:
     options : arguments of the function that do not vary
     arguments : names of all arguments of the function beside the case
     defaults : numbers and words that arguments have that are not named
+    over : attributes of arguments of the function that vary, by name
+    listed : options that are several values, though the function may take one
     """
 
     title: str
@@ -93,6 +96,8 @@ class Call:
     options: Mapping[str, Any]
     arguments: frozenset[str]
     defaults: Mapping[str, Any]
+    over: Mapping[str, Mapping[str, str]]
+    listed: Mapping[str, Any]
 
     def points(self) -> Iterator[dict[str, Any]]:
         """Yield the values of all that varies, by name, at each point; the last dimension varies
@@ -102,6 +107,21 @@ class Call:
             for part in parts:
                 point.update(part)
             yield point
+
+    def changes(self, point: Mapping[str, Any]) -> dict[str, Any]:
+        """The values of numbers of the case at a point."""
+        return {name: value for name, value in point.items() if name not in self.over}
+
+    def varied(self, point: Mapping[str, Any]) -> dict[str, Any]:
+        """The values of arguments of the function that vary, at a point."""
+        return {name: value for name, value in point.items() if name in self.over}
+
+    def values_of(self, name: str) -> list[Any]:
+        """All values that an argument of the function has in the sweep."""
+        for dimension in self.dimensions:
+            if name in self.over and name in dimension.columns:
+                return dimension.columns[name]
+        return [{**self.defaults, **self.options}[name]]
 
     def checked(self, result: Any, variables: Mapping[str, Any]) -> dict[str, Any]:
         """Return the variables of a result without arguments of the function whose names a
@@ -117,7 +137,18 @@ class Call:
                 rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
                 raise ParameterError(Fault((self.title,), "", rule))
             del kept[name]
-        return kept
+        dims = taken | {dimension.name for dimension in self.dimensions}
+        return {name: self._beside(variable, dims) for name, variable in kept.items()}
+
+    def _beside(self, variable: Any, dims: Collection[str]) -> Any:
+        """A variable of a result without those of the sweep's dimensions along which it has one
+        value, such as a horizon; raises `ParameterError` if it has several."""
+        shared = [dim for dim in variable.dims if dim in dims]
+        for dim in shared:
+            if variable.sizes[dim] > 1:
+                rule = f"returned values along {dim}, which is a dimension of the sweep"
+                raise ParameterError(Fault((self.title,), "", rule))
+        return variable.squeeze(shared)
 
 
 def are_recorded(errors: Any) -> bool:
@@ -127,8 +158,18 @@ def are_recorded(errors: Any) -> bool:
     return bool(errors == "record")
 
 
+def is_ours(function: Any) -> bool:
+    """Whether this is a function of this package; its module is None in some shells."""
+    return str(getattr(function, "__module__", "")).startswith("disc_model.")
+
+
 def checked_call(
-    function: Any, case: Any, unnamed: Sequence[Any], zipped: Any, named: Mapping[str, Any]
+    function: Any,
+    case: Any,
+    unnamed: Sequence[Any],
+    over: Any,
+    zipped: Any,
+    named: Mapping[str, Any],
 ) -> Call:
     """Return the call of a sweep; raises `ParameterError` with all that is wrong with it, such as
     arguments of the function without a name."""
@@ -145,35 +186,60 @@ def checked_call(
     raise_faults(faults)
     names = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     numbers = sorted(case.numbers.keys() | RATIOS.keys(), key=str.lower)
-    dimensions = []
-    options = {}
-    for name, value in named.items():
-        if name in names and name not in parameters:
-            column = checked_values(name, value, faults)
-            faults += faults_of_repeated(name, column)
-            dimensions.append(Dimension({name: column}))
-        else:
-            options[name] = value
+    of_case = [name for name in named if name in names and name not in parameters]
+    options = {name: value for name, value in named.items() if name not in of_case}
+    dimensions = [_dimension(name, named[name], faults) for name in of_case]
+    together = []
+    taken = {*named, *OF_SWEEPS}
     if zipped is not None:
-        alone = [dimension.name for dimension in dimensions]
-        dimensions.append(_zipped_dimension(zipped, sorted(names), numbers, alone, faults))
-
-    if not any(each.kind is each.VAR_KEYWORD for each in parameters.values()):
-        faults += _unknown(options, parameters, numbers)
+        zipped_dimension = _zipped_dimension(zipped, sorted(names), numbers, of_case, faults)
+        together.append(zipped_dimension)
+        taken.update(zipped_dimension.coordinates)
 
     title = getattr(function, "__name__", type(function).__name__)
-    arguments = []
-    defaults = {}
-    for each in [*parameters.values()][1:]:
-        if each.kind in (each.VAR_POSITIONAL, each.VAR_KEYWORD):
-            continue
-        arguments.append(each.name)
-        if isinstance(each.default, bool | int | float | str) and each.name not in named:
-            defaults[each.name] = each.default
-        if each.default is each.empty and each.name not in named:
-            faults.append(Fault((each.name,), "", f"is required by {title}"))
+    arguments = Arguments(title, title if is_ours(function) else "", parameters)
+    if not arguments.takes_any:
+        faults += _unknown(options, parameters, numbers)
+    varied: dict[str, list[Any]] = {}
+    if over is not None:
+        varied = values_over(over, arguments, names, taken, faults)
+        dimensions += [Dimension({name: values}) for name, values in varied.items()]
+
+    defaults = _defaults(arguments, named, over, faults)
     raise_faults(faults)
-    return Call(title, dimensions, options, frozenset(arguments), defaults)
+    return Call(
+        title,
+        dimensions + together,
+        options,
+        frozenset(arguments.names),
+        defaults,
+        {name: arguments.attributes(name) for name in varied},
+        arguments.listed(options),
+    )
+
+
+def _dimension(name: str, values: Any, faults: list[str]) -> Dimension:
+    """The dimension of a number of the case; what is wrong with its values is added to the faults."""
+    column = checked_values(name, values, faults)
+    faults += faults_of_repeated(name, column)
+    return Dimension({name: column})
+
+
+def _defaults(
+    arguments: Arguments, named: Mapping[str, Any], over: Any, faults: list[str]
+) -> dict[str, Any]:
+    """Numbers and words that arguments have that are not given; those that must be are faults."""
+    defaults = {}
+    varied = over if isinstance(over, Mapping) else {}
+    for name in arguments.names:
+        if name in named or name in varied:
+            continue
+        each = arguments.parameters[name]
+        if isinstance(each.default, bool | int | float | str):
+            defaults[name] = each.default
+        if each.default is each.empty:
+            faults.append(Fault((name,), "", f"is required by {arguments.title}"))
+    return defaults
 
 
 def _unknown(

@@ -130,7 +130,8 @@ def stacked(
     rows: Sequence[dict[str, xr.Variable]], sizes: Mapping[str, int]
 ) -> tuple[dict[str, xr.Variable], dict[str, xr.Variable]]:
     """Variables along the dimensions of a sweep, and the function's own coordinates; nan or ""
-    where one is missing."""
+    where one is missing. A coordinate that differs between points is a variable, too."""
+    rows = _with_common_coordinates(rows)
     first: dict[str, xr.Variable] = {}
     for row in reversed(rows):
         first.update(row)
@@ -143,11 +144,50 @@ def stacked(
         values = [row[name].values if name in row else None for row in rows]
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        attrs = variable.attrs
+        attrs = _common_attributes([row[name].attrs for row in rows if name in row])
         if variable.dtype.kind == "b" and array.dtype.kind == "f":
             attrs = {**attrs, **TRUTH}
         stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)
     return stacked, fixed
+
+
+def _with_common_coordinates(
+    rows: Sequence[dict[str, xr.Variable]],
+) -> list[dict[str, xr.Variable]]:
+    """The rows, in which variables along a coordinate that is not the same in all have a dimension
+    without one: places along it have other values at other points."""
+    first: dict[str, xr.Variable] = {}
+    differing = set()
+    for row in rows:
+        for name, variable in row.items():
+            is_coordinate = variable.dims == (name,)
+            if is_coordinate and not variable.equals(first.setdefault(name, variable)):
+                differing.add(name)
+    if not differing:
+        return [*rows]
+    renamed = {name: f"{name}_index" for name in differing}
+    kept = []
+    for row in rows:
+        kept.append({name: _along(variable, renamed) for name, variable in row.items()})
+    return kept
+
+
+def _along(variable: xr.Variable, renamed: Mapping[str, str]) -> xr.Variable:
+    """A variable along dimensions of other names."""
+    dims = [renamed.get(str(dim), str(dim)) for dim in variable.dims]
+    return xr.Variable(dims, variable.values, variable.attrs)
+
+
+def _common_attributes(several: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The attributes on which variables of one name agree; a critical value may be one of a speed at
+    one point and of a load at another."""
+    common = dict(several[0])
+    for attributes in several[1:]:
+        for name, value in several[0].items():
+            other: Any = attributes.get(name)
+            if other is not value and not np.array_equal(other, value):
+                common.pop(name, None)
+    return common
 
 
 def _type_of(kinds: set[str], *, complete: bool) -> tuple[Any, Any]:

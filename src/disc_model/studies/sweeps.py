@@ -14,11 +14,12 @@ from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
-from disc_model.studies.calls import OF_SWEEPS, Call, are_recorded, checked_call
+from disc_model.studies.calls import OF_SWEEPS, Call, are_recorded, checked_call, is_ours
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
+from disc_model.studies.varied_arguments import hint_of_lists
 from disc_model.studies.workers import checked_workers
 
 FAILED = "failed"  # status of a point whose call raised an error
@@ -32,10 +33,11 @@ WITHOUT_RESULT = {
 """Functions of this package whose results a sweep would leave out, and what to do instead."""
 
 
-def sweep(
+def sweep(  # noqa: PLR0913
     function: Callable[..., Any],
     case: Parameters,
     *unnamed: Any,
+    over: Mapping[str, Any] | None = None,
     zip: Mapping[str, Any] | None = None,
     workers: int = 1,
     processes: bool = False,
@@ -53,6 +55,8 @@ def sweep(
     function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
     case : values of all parameters that do not vary
     *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
+    over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers
+        or words. Each is a dimension, after those of the case
     zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.
         They are one dimension, whose name joins theirs. Columns of words under other names are coordinates along it
     workers : number of calls at a time, in threads. They pay for `simulate` over a minute or more; `floquet`,
@@ -81,11 +85,12 @@ def sweep(
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, a value is no number, an
         axis has a value twice, columns differ in length, or no value of an axis or column can be; the message names the
-        row, counted from 0, as in ``zip.N[1]=-1``. If the function would compute what a sweep leaves out, as
-        `neutral_curves`, `fit`, and `simulate` with `windows` do. And if an argument of the function is missing, or
-        refused at the first point that is a case, or the function returns nothing there. Where numbers of the case
-        break a rule, such as a load below zero or nan for an empty cell of a table, the point has failed. Any other
-        error of the function ends the sweep, with a note of what varies at the point, unless `errors` is "record".
+        row, counted from 0, as in ``zip.N[1]=-1``. If no point makes a case. If the function would compute what a sweep
+        leaves out, as `neutral_curves`, `fit`, and `simulate` with `windows` do. And if an argument of the function is
+        missing, or refused at the first point that is a case, or the function returns nothing there. Where numbers of
+        the case break a rule, such as a load below zero or nan for an empty cell of a table, the point has failed. Any
+        other error of the function ends the sweep, with a note of what varies at the point, unless `errors` is
+        "record".
 
     Examples
     --------
@@ -100,26 +105,20 @@ def sweep(
     >>> pairs["growth_rate"].sizes, pairs["N"].values
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
-    call = checked_call(function, case, unnamed, zip, named)
+    call = checked_call(function, case, unnamed, over, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
     chosen = {**call.defaults, **call.options}
-    searched = _searched(function, call.title, chosen)
+    searched = _searched(function, call)
     _refuse_searched(call, searched)
-    ours = call.title if _is_ours(function) else ""
+    ours = call.title if is_ours(function) else ""
     _refuse_what_is_left_out(ours, call.options)
     records = are_recorded(errors)
     points = [*call.points()]
-    first = _first_possible(case, points)
+    first = _first_possible(case, call, points)
     row = partial(_row, partial(function, **call.options), case, call, ours, records)
     numbered = [(number == first, point) for number, point in enumerate(points)]
     rows = calls.results(row, numbered, call.title)
 
-    coordinates: dict[str, Any] = {}
-    for dimension in call.dimensions:
-        for name, values in dimension.columns.items():
-            coordinates[name] = (dimension.name, _plain(values), _described(name))
-        for name, words in dimension.labels.items():
-            coordinates[name] = (dimension.name, words)
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
     for name, meaning in OF_SWEEPS.items():
@@ -131,7 +130,7 @@ def sweep(
         "base": _base(case, searched),
         "versions": versions_text(),
     }
-    return xr.Dataset(variables, {**fixed, **coordinates}, attrs)
+    return xr.Dataset(variables, {**fixed, **_coordinates(call)}, attrs)
 
 
 def _base(case: Parameters, searched: set[str]) -> str:
@@ -157,21 +156,30 @@ def _refuse_what_is_left_out(ours: str, options: Mapping[str, Any]) -> None:
         raise ParameterError(Fault.of(("windows",), options["windows"], WITHOUT_SAMPLES))
 
 
-def _is_ours(function: Any) -> bool:
-    """Whether this is a function of this package; its module is None in some shells."""
-    return str(getattr(function, "__module__", "")).startswith("disc_model.")
-
-
-def _searched(function: Any, title: str, options: Mapping[str, Any]) -> set[str]:
+def _searched(function: Any, call: Call) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
     mean nothing: of `critical` and `continue_cycle` the one along which they go, of a quantity those
     of its scan."""
-    ours = _is_ours(function)
-    if ours and title in ("critical", "continue_cycle"):
-        return {options["name"]}
-    if ours and title in quantity_names():
-        return {*quantity_of(title).scans}
+    ours = is_ours(function)
+    if ours and call.title in ("critical", "continue_cycle"):
+        return {name for name in call.values_of("name") if isinstance(name, str)}
+    if ours and call.title in quantity_names():
+        return {*quantity_of(call.title).scans}
     return set()
+
+
+def _coordinates(call: Call) -> dict[str, Any]:
+    """Values and attributes of all that varies, and labels of points, along their dimensions."""
+    coordinates: dict[str, Any] = {}
+    for dimension in call.dimensions:
+        for name, values in dimension.columns.items():
+            if name in call.over:
+                coordinates[name] = (dimension.name, values, call.over[name])
+            else:
+                coordinates[name] = (dimension.name, _plain(values), _described(name))
+        for name, words in dimension.labels.items():
+            coordinates[name] = (dimension.name, words)
+    return coordinates
 
 
 def _plain(values: list[Any]) -> list[Any]:
@@ -186,27 +194,50 @@ def _described(name: str) -> dict[str, Any]:
     return {}
 
 
-def _first_possible(case: Parameters, points: Sequence[Mapping[str, Any]]) -> int:
-    """The number of the first point whose values make a case; 0 if none does."""
+def _first_possible(case: Parameters, call: Call, points: Sequence[Mapping[str, Any]]) -> int:
+    """The number of the first point whose values make a case; raises `ParameterError`, with what is
+    wrong at the first point, if none does."""
+    faults = []
     for number, point in enumerate(points):
         try:
-            case.replace(**point)
-        except NUMERICAL:
+            case.replace(**call.changes(point))
+        except NUMERICAL as error:
+            faults.append(error)
             continue
         return number
-    return 0
+    place = _place(call.changes(points[0]))
+    raise ParameterError(f"no point of the sweep makes a case: at the first, {place}: {faults[0]}")
 
 
-def _called(function: Any, case: Parameters, point: Mapping[str, Any]) -> Any:
+def _place(point: Mapping[str, Any]) -> str:
+    """What varies at a point, in words."""
+    return ", ".join(f"{name}={value!r}" for name, value in point.items())
+
+
+def _called(function: Any, case: Parameters, call: Call, point: Mapping[str, Any]) -> Any:
     """The result of a function for one point; an error that ends the sweep has a note of the point."""
     try:
-        return function(case.replace(**point))
+        return function(case.replace(**call.changes(point)), **call.varied(point))
     except NUMERICAL:
         raise
     except Exception as error:
-        place = ", ".join(f"{name}={value!r}" for name, value in point.items())
-        error.add_note(f"at the point {place} of the sweep; {RECORD}")
+        error.add_note(f"at the point {_place(point)} of the sweep; {RECORD}")
+        if call.listed:
+            error.add_note(hint_of_lists(call.listed))
         raise
+
+
+def _with_hint(error: Exception, call: Call) -> Exception:
+    """The error of wrong arguments, of which lists may be meant to vary."""
+    if not call.listed:
+        return error
+    faults = []
+    for fault in getattr(error, "faults", ()):
+        rule = fault.rule
+        if len(fault.path) == 1 and fault.path[0] in call.listed:
+            rule = f"{rule}; {hint_of_lists({fault.path[0]: None})}"
+        faults.append(Fault(fault.path, fault.value, rule))
+    return ParameterError(*faults)
 
 
 def _row(
@@ -222,11 +253,11 @@ def _row(
     point, is a fault of all."""
     is_first, point = numbered
     try:
-        result = _called(function, case, point)
+        result = _called(function, case, call, point)
     except NUMERICAL as error:
         refused = {re.split(r"\W", fault)[0] for fault in getattr(error, "faults", ())}
         if is_first and call.arguments & refused:
-            raise
+            raise _with_hint(error, call) from None
         return _failure(error)
     except Exception as error:
         if records:

@@ -26,8 +26,8 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     A number that breaks a rule, nan among them, stays: it makes its points fail, unless no value of
     the axis can be.
     """
-    several = np.iterable(values) and not isinstance(values, str | Mapping | Disc)
-    raw = [_plain_value(value) for value in values] if several else [_plain_value(values)]
+    several = _are_several(values)
+    raw = as_list(values)
     if not raw:
         faults.append(Fault.of((*within, name), values, "must have one value or more"))
     if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
@@ -50,6 +50,17 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     if impossible and len(impossible) == len(raw):
         faults += [fault for told in impossible for fault in told]
     return checked
+
+
+def as_list(values: Any) -> list[Any]:
+    """The values of an axis, without numpy's types; a single one is a list of its own."""
+    listed = values if _are_several(values) else [values]
+    return [_plain_value(value) for value in listed]
+
+
+def _are_several(values: Any) -> bool:
+    """Whether these are values, and not a single one."""
+    return np.iterable(values) and not isinstance(values, str | Mapping | Disc)
 
 
 def _at_row(fault: Fault, path: tuple[str, ...], row: int, *, several: bool) -> Fault:

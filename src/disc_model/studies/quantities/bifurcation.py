@@ -47,6 +47,13 @@ class Bifurcation(Start, Quantity):
     """number of samples"""
     theta: Annotated[Finite, Unit("rad")] = 1.0
     """angle of the disc's point whose displacement is sampled once a turn"""
+
+    _rules = (
+        (
+            lambda o: o.section == "stroboscopic" or o.max_transient >= o.transient,
+            "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
+        ),
+    )
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {

@@ -62,6 +62,10 @@ class Branches(Quantity):
     _rules = (
         (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
         (
+            lambda o: o.max_dwell >= o.dwell,
+            "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}",
+        ),
+        (
             lambda o: o.sweep_from is None or o.sweep_from <= o.scan.stop,
             "sweep_from must be <= the scan's last value",
         ),

@@ -39,7 +39,13 @@ class Hysteresis(Quantity):
     evaluation_time: Seconds = 5.0
     """length of the last stretch at a speed, which is described"""
 
-    _rules = ((lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),)
+    _rules = (
+        (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
+        (
+            lambda o: o.max_dwell >= o.dwell,
+            "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}",
+        ),
+    )
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -86,7 +92,7 @@ class Hysteresis(Quantity):
 
     def cost(self, unit: UnitCosts) -> float:
         """Stays are doubled about half as often as they may be."""
-        stay = math.sqrt(self.dwell * max(self.dwell, self.max_dwell))
+        stay = math.sqrt(self.dwell * self.max_dwell)
         return 2 * unit.second * (self.scan.intervals + 1) * stay
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
