@@ -511,6 +511,20 @@ def test_a_bound_that_holds_a_parameter_is_said() -> None:
     beside = dm.fit(below, ["k_p"], measured, bounds={"k_p": (18000, near)})
     assert beside.at_bounds == {"k_p": near}
     assert not beside.consistent
+    for fit in (held, beside):
+        assert np.isnan(fit.parameters["k_p"][1:]).all()
+
+
+def test_a_fit_at_a_bound_shows_what_it_says() -> None:
+    """Its interval was given as numbers, which the fit itself said to mean nothing."""
+    found = dm.fit(BLOCK.replace(c_p=2), ["c_p"], [dm.Measurement(damping, 0.5, 1.0)])
+    assert found.parameters["c_p"].value == pytest.approx(0.5)
+    assert np.isnan(found.parameters["c_p"][1:]).all()
+    assert found.covariance.item() == pytest.approx(1.0)
+    assert "c_p is below 2.14 N s/m" in found._repr_html_()
+    assert "nan" not in found._repr_html_() + repr(found)
+    assert len(found.plot()) == 2
+    pyplot.close("all")
 
 
 @pytest.mark.compiled

@@ -155,8 +155,8 @@ def _short(value: object) -> str:
 
 class Fitted(NamedTuple):
     """A fitted parameter: its value, standard deviation and confidence interval, in its unit. All but
-    the value are nan if the measurements do not determine it, and an end of the interval also if they
-    have no prediction there."""
+    the value are nan if the measurements do not determine it or a bound holds it, and an end of the
+    interval also if they have no prediction there."""
 
     value: float
     deviation: float
@@ -184,7 +184,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         predictions would have it
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there
-    at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go
+    at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go; `Fitted` has
+        no interval then
     limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
         above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
         another parameter is in doubt
@@ -830,6 +831,8 @@ def _result(
             unpredicted[name] = tuple(float(end[i]) for end in gone)
         for end in gone:
             end[i] = math.nan
+        if name in at_bounds:
+            deviation[i] = low[i] = high[i] = math.nan
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
