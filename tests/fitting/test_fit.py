@@ -6,6 +6,7 @@ import re
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,8 +16,8 @@ from scipy.stats import binom
 
 import disc_model as dm
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_measured
-from disc_model.fitting.fit import _Problem
 from disc_model.fitting.prediction import Prediction
+from disc_model.fitting.problem import Problem
 from tests.refusals import refusal
 
 DISC = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -129,7 +130,7 @@ def test_exact_measurements_give_back_the_parameters() -> None:
 def test_derivatives_are_those_of_the_closed_form() -> None:
     """Frequencies are proportional to sqrt(E / rho), and a block's stick lasts 2 d N / (k V)."""
     measurements = [dm.Measurement("frequency_2_0", 1.0, 1.0)]
-    problem = _Problem(DISC, ["E", "rho"], measurements, {})
+    problem = Problem(DISC, ["E", "rho"], measurements, {})
     start = np.array([DISC.E, DISC.rho])
     value = problem.predictions(start)[0]
     expected = [value / (2 * DISC.E), -value / (2 * DISC.rho)]
@@ -137,7 +138,7 @@ def test_derivatives_are_those_of_the_closed_form() -> None:
     slopes = problem.jacobian(start)
     assert slopes[0] == pytest.approx(expected, rel=1e-8)
 
-    problem = _Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
+    problem = Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
     slope = 2 * BLOCK.N / (BLOCK.k_p * BLOCK.r_0 * BLOCK.Omega)
     # times of events err by 1e-10 s, over a step of 5e-5
     start = np.array([BLOCK.mu_s])
@@ -306,6 +307,71 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
     drawn = np.round(shown, 9)
     assert set(deviations) <= set(drawn)
     pyplot.close("all")
+
+
+# ---- Files
+
+
+def in_settings() -> dm.Fit:
+    """A fit to measurements in several settings, of which some are texts or words."""
+    table = [
+        dm.Measurement("frequency_2_0", 290.0, 1.0, at={"h": "2 mm"}),
+        dm.Measurement("frequency_0_0", 237.0, 1.0, at={"contact": "bilateral"}),
+        dm.Measurement(damping, 0.5, 1.0),
+    ]
+    return dm.fit(DISC.replace(c_p=2), ["E", "c_p"], table)
+
+
+@pytest.mark.parametrize("suffix", ["nc", "mat"])
+def test_a_fit_is_saved_and_comes_back(tmp_path: Path, suffix: str) -> None:
+    fit = in_settings()
+    file = tmp_path / f"fit.{suffix}"
+    dm.save(fit, file)
+    assert dm.load(file).identical(fit.to_dataset())
+
+
+def test_a_fit_is_a_dataset_of_its_parameters_and_measurements() -> None:
+    fit = in_settings()
+    data = fit.to_dataset()
+    stiffness = data.sel(parameter="E", other_parameter="E")
+    assert stiffness["value"].item() == fit.case.E
+    assert stiffness["unit"].item() == "Pa"
+    assert stiffness["high"].item() == fit.parameters["E"].high
+    assert stiffness["covariance"].item() == fit.covariance[0, 0]
+    assert np.isnan(stiffness["at_bound"].item())
+
+    held = data.sel(parameter="c_p")
+    assert held["at_bound"].item() == 0.0
+    assert held["limit"].item() == fit.limits["c_p"]
+    assert np.isnan(held["low"].item())
+    assert held["low"].attrs["long_name"].endswith(", or no such motion was found there")
+
+    assert data["quantity"].values.tolist() == ["frequency_2_0", "frequency_0_0", "damping"]
+    assert data["measured_unit"].values.tolist() == ["Hz", "Hz", ""]
+    assert data["measured"].values.tolist() == [290.0, 237.0, 0.5]
+    assert data["predicted"].values.tolist() == fit.computed.tolist()
+    assert data["h"].values.tolist() == [0.002, DISC.h, DISC.h]
+    assert data["h"].attrs["units"] == "m"
+    assert data["contact"].values.tolist() == ["unilateral", "bilateral", "unilateral"]
+    assert data.attrs["doubt"] == fit.doubt
+    assert dm.Parameters.model_validate_json(data.attrs["case"]) == fit.case
+
+
+def test_a_branch_is_saved_without_a_detour(tmp_path: Path) -> None:
+    branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
+    dm.save(branch, tmp_path / "branch.nc")
+    assert dm.load(tmp_path / "branch.nc").identical(branch.to_dataset())
+
+
+def test_a_sweep_of_fits_has_their_parameters() -> None:
+    def fitted(case: dm.Parameters) -> dm.Fit:
+        return dm.fit(case, ["E"], {"frequency_2_0": (290.0, 1.0), "frequency_0_0": (245.0, 1.0)})
+
+    swept = dm.sweep(fitted, DISC, nu=[0.2, 0.3])
+    single = fitted(DISC.replace(nu=0.3))
+    row = swept.sel(nu=0.3, parameter="E")
+    assert row["value"].item() == single.case.E
+    assert row["chi_squared"].item() == single.chi_squared
 
 
 # ---- Wrong input
