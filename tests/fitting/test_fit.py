@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib import pyplot
 from scipy.stats import binom
@@ -284,6 +285,75 @@ def test_texts_with_units_are_read() -> None:
     assert measurement.value == 290.0
     assert measurement.uncertainty == 3.0
     assert measurement.name == "frequency_2_0 (h=2 mm)"
+
+
+# ---- Tables
+
+
+def table_of(**columns: list[Any]) -> pd.DataFrame:
+    """A table of two measured frequencies, with further columns, or others in their place."""
+    usual = {
+        "quantity": ["frequency_2_0", "frequency_0_0"],
+        "value": ["0.29 kHz", 237.0],
+        "uncertainty": [1.0, "1 Hz"],
+    }
+    return pd.DataFrame({**usual, **columns})
+
+
+def test_a_table_is_a_list_of_measurements() -> None:
+    """It was refused."""
+    table = table_of(h=["2.1 mm", None], Omega=[np.nan, 12])
+    measured = [
+        dm.Measurement("frequency_2_0", 290.0, 1.0, at={"h": "2.1 mm"}),
+        dm.Measurement("frequency_0_0", 237.0, 1.0, at={"Omega": 12.0}),
+    ]
+    assert dm.fit(DISC, ["E"], table) == dm.fit(DISC, ["E"], measured)
+
+
+def test_a_table_may_be_indexed_by_a_column() -> None:
+    table = table_of()
+    indexed = dm.fit(DISC, ["E"], table.set_index("quantity"))
+    assert indexed == dm.fit(DISC, ["E"], table)
+
+
+def test_a_table_of_a_file_is_a_table_of_measurements(tmp_path: Path) -> None:
+    table = table_of(h=[None, 0.0021])
+    file = tmp_path / "measured.csv"
+    table.to_csv(file, index=False)
+    assert dm.fit(DISC, ["E"], pd.read_csv(file)) == dm.fit(DISC, ["E"], table)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (
+            table_of(Omga=[12, 13]),
+            "measured.Omga: is neither a column of measurements nor a number of the case, did you mean"
+            " Omega? (known: quantity, value, uncertainty, N, Omega,",
+        ),
+        (table_of().drop(columns="value"), "measured: must have a column value"),
+        (
+            table_of().rename(columns={"value": "valu"}),
+            "measured.valu: is neither a column of measurements nor a number of the case, did you mean"
+            " value?",
+        ),
+        (table_of(E=[1e11, 2e11]), "measured.E: must be no column, because it is varied"),
+        (pd.concat([table_of(), table_of()], axis=1), "measured.value: must not be given twice"),
+        (table_of(value=[290.0, "3 kg"]), "measured.value[1]='3 kg': must be a number in Hz"),
+        (table_of(uncertainty=[1, 0]), "measured.uncertainty[1]=0: must be a standard deviation"),
+        (table_of(value=[np.nan, 1]), "measured.value[0]=nan: must be a finite number"),
+        (
+            table_of(quantity=["frequency_2_0", "perod"]),
+            "measured.quantity[1]='perod': is no quantity of a case, did you mean period?",
+        ),
+        (table_of(h=[0.002, -1]), "measured.h[1]=-1: must be > 0"),
+        (table_of(h=[0.002, "thick"]), "measured.h[1]='thick': must be a number"),
+        (table_of().iloc[:0], "must be at least as many as the varied parameters"),
+    ],
+)
+def test_wrong_tables_are_named(table: pd.DataFrame, message: str) -> None:
+    with refusal(re.escape(message)):
+        dm.fit(DISC, ["E"], table)
 
 
 # ---- What a reader sees

@@ -8,6 +8,7 @@ from typing import Any
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
 from disc_model.fitting.prediction import unit_of_parameter
+from disc_model.fitting.table import in_row, is_table, measurements_in
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number
 
@@ -23,10 +24,14 @@ def checked_measurements(
     faults = _vary_faults(p, vary)
     good = is_number(confidence) and 0 < confidence < 1  # type: ignore[operator]
     faults += violations((good, "confidence", confidence, "must lie between 0 and 1"))
-    measurements = measurements_of(measured, faults)
+    in_rows = is_table(measured)
+    if in_rows:
+        measurements = measurements_in(measured, p.numbers, vary, faults)
+    else:
+        measurements = measurements_of(measured, faults)
     if not faults:
         assert isinstance(vary, Sequence)
-        faults += _settings_faults(p, vary, measurements)
+        faults += _settings_faults(p, vary, measurements, in_rows)
         faults += _bounds_faults(p, vary, bounds)
         enough = len(measurements) >= len(vary)
         rule = f"must be at least as many as the varied parameters, {len(vary)}"
@@ -51,10 +56,10 @@ def _vary_faults(p: Parameters, vary: object) -> list[str]:
 
 
 def _settings_faults(
-    p: Parameters, vary: Sequence[str], measurements: Sequence[Measurement]
+    p: Parameters, vary: Sequence[str], measurements: Sequence[Measurement], in_rows: bool
 ) -> list[str]:
-    """Return faults of what was set at measurements: values of varied parameters, and wrong
-    ones."""
+    """Return faults of what was set at measurements, which may be the rows of a table: values of varied
+    parameters, and wrong ones."""
     faults: list[str] = []
     for i, each in enumerate(measurements):
         path = ("measured", str(i), "at")
@@ -66,7 +71,8 @@ def _settings_faults(
         try:
             p.replace(**each.at)
         except ParameterError as error:
-            faults += [fault.inside(path) for fault in error.faults if isinstance(fault, Fault)]
+            told = [fault for fault in error.faults if isinstance(fault, Fault)]
+            faults += [in_row(x, i) if in_rows else x.inside(path) for x in told]
     return faults
 
 

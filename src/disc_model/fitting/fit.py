@@ -11,11 +11,11 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
@@ -36,7 +36,7 @@ MARGIN = 0.01
 def fit(
     case: Parameters,
     vary: Sequence[str],
-    measured: Mapping[str, tuple[Any, Any]] | Sequence[Measurement],
+    measured: Mapping[str, tuple[Any, Any]] | Sequence[Measurement] | pd.DataFrame,
     *,
     bounds: Mapping[str, tuple[Any, Any]] | None = None,
     confidence: float = 0.95,
@@ -49,7 +49,9 @@ def fit(
     vary : names of the parameters that are fitted, each one of `Parameters.numbers`, such as ``mu_s``, the ratio
         ``mu_k_over_mu_s``, or ``omega_2_0`` of a disc given by its modes
     measured : values with their standard deviations by the names of their quantities, all for it; or
-        `Measurement` objects, which may differ in what was set, such as the speed
+        `Measurement` objects, which may differ in what was set, such as the speed; or a table with the columns
+        ``quantity``, ``value``, ``uncertainty`` and numbers of the case that were set, such as ``Omega``, in which an
+        empty cell stands for the value of the case
     bounds : least and greatest value of varied parameters, by name; needed where the start is 0
     confidence : probability of the confidence intervals
 
@@ -102,7 +104,7 @@ def fit(
         return jacobian
 
     def searched(begin: Array, limits: Mapping[str, Interval]) -> Any:
-        ends = np.array([limits.get(name, (-math.inf, math.inf)) for name in vary]).T
+        ends = np.array([limits.get(name, (-np.inf, np.inf)) for name in vary]).T
         return optimize.least_squares(
             deviations,
             begin / problem.scale,
@@ -126,7 +128,7 @@ def fit(
             search = searched(_inside(problem, search.x * problem.scale, limits), limits)
             indistinct = indistinct_names(problem, search, jacobians[0], deviations)
         if len(indistinct) == 1 and passes_zero(problem, search, indistinct[0], confidence):
-            limits = {indistinct[0]: (0.0, math.inf), **limits}
+            limits = {indistinct[0]: (0.0, np.inf), **limits}
         found = _result(problem, search, confidence, indistinct, limits)
         found = with_limits(found, problem, search, deviations)
     warn_of_doubts(found.case)
@@ -176,7 +178,7 @@ def _result(
         indistinct = ()
     for i, name in enumerate(names):
         if name in indistinct:
-            deviation[i] = low[i] = high[i] = math.nan
+            deviation[i] = low[i] = high[i] = np.nan
             continue
         # the others change with it as the covariance says
         move = reach[i] * covariance[:, i] / covariance[i, i]
@@ -186,9 +188,9 @@ def _result(
         if gone:
             unpredicted[name] = tuple(float(end[i]) for end in gone)
         for end in gone:
-            end[i] = math.nan
+            end[i] = np.nan
         if name in at_bounds:
-            deviation[i] = low[i] = high[i] = math.nan
+            deviation[i] = low[i] = high[i] = np.nan
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})

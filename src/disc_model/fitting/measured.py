@@ -118,6 +118,6 @@ def measurements_of(measured: object, faults: list[str]) -> tuple[Measurement, .
     good = isinstance(measured, Sequence) and not isinstance(measured, str)
     if good and all(isinstance(each, Measurement) for each in measured):  # type: ignore[attr-defined]
         return tuple(measured)  # type: ignore[arg-type]
-    rule = "must be values with standard deviations by quantity, or a list of Measurement"
+    rule = "must be values with standard deviations by quantity, a list of Measurement, or a pandas.DataFrame"
     faults.append(Fault.of(("measured",), measured, rule))
     return ()
