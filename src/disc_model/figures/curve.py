@@ -1,6 +1,5 @@
 """Curves: any variable against one dimension."""
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -201,7 +200,7 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
     ax.tick_params(axis="x", labelrotation=90)
     label: Any = ax.xaxis.get_major_ticks()[0].label1
     line = LINE * label.get_fontsize() / 72
-    every = math.ceil(line * len(words) / room)
+    every = int(np.ceil(line * len(words) / room))
     ax.set_xticks(range(0, len(words), every), labels=words[::every])
 
 
