@@ -236,7 +236,7 @@ def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) 
 
 
 @pytest.mark.parametrize(
-    ("lowest", "highest", "text"), [(-0.5, 0.3, "-0.2"), (-50.0, 0.3, ""), (-0.5, 30.0, "")]
+    ("lowest", "highest", "text"), [(-0.5, 0.3, "−0.2"), (-50.0, 0.3, ""), (-0.5, 30.0, "")]
 )
 def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, text: str) -> None:
     ax = Figure().subplots()

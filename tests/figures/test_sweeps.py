@@ -312,7 +312,7 @@ def test_lines_beside_each_other_have_marks_at_each_point(
 
 
 @pytest.mark.parametrize(
-    ("count", "discs", "rings"), [(50, ["a"], [50]), (1000, ["a"], []), (1000, ["a", "b"], [13])]
+    ("count", "discs", "rings"), [(30, ["a"], [30]), (1000, ["a"], []), (1000, ["a", "b"], [13])]
 )
 def test_many_points_are_no_band_of_rings(count: int, discs: list[str], rings: list[int]) -> None:
     """Some 1000 points in one dimension had a ring each, which hid the line; of a single line, a

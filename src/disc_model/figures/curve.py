@@ -46,7 +46,7 @@ from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, 
 PLAIN = Look(BLACK)
 """Look of a single line."""
 LINE = 1.1  # height of a line of text over its size
-CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
+CROWDED = 30  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of such a line that have a mark, about
 
