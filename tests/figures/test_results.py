@@ -235,7 +235,7 @@ def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case(
     ("name", "options", "label"),
     [
         ("lyapunov_exponents", {"duration": 0.2, "count": 2}, "Largest Lyapunov exponent (1/s)"),
-        ("simulate", {"t_end": 0.1}, "Number of separations"),
+        ("simulate", {"t_end": 0.1}, "Number of separations within 0.1 s"),
         (
             "coupled_natural_frequencies",
             {},

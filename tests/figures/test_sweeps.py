@@ -4,6 +4,7 @@ its values."""
 import functools
 import re
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -1069,3 +1070,49 @@ def test_a_line_of_small_rates_is_open_between_two_cycles() -> None:
     peak = np.array([0.01, 0.03, 0.06, 0.03, 0.01])
     assert not rate_scale.opens(peak).any()
     assert rate_scale.opens(rates[:1]).size == 0
+
+
+def test_what_varies_with_the_column_of_samples_is_named() -> None:
+    """Samples over one column looked like a curve of one parameter."""
+    pairs = {"N": [300, np.nan, 385], "Omega": [10, 11, 12], "mu_k": [0.2, 0.21, 0.24]}
+    found = dm.sweep(dm.floquet, CASE, zip=pairs)
+    ax = dm.plot_sweep(found, "growth_rate")
+    head = "Ω and $\\mathrm{μ_k}$ vary as well, 1 sample without N"
+    assert " ".join(ax.figure.get_suptitle().split()).endswith(head)
+    assert said_above(ax) == [], "a row without a mark, as the sample has no place"
+    over = dm.plot_sweep(found, "growth_rate", x="Omega")
+    assert over.figure.get_suptitle().endswith("N and $\\mathrm{μ_k}$ vary as well")
+    assert said_above(over) == ["failed"]
+
+
+def test_complex_numbers_are_not_drawn_by_their_real_part() -> None:
+    found = dm.sweep(lambda case: {"z": 1j * case.Omega, "size": case.Omega}, CASE, Omega=[10, 14])
+    with refusal("variable='z': is complex: draw a part of it, as by study.assign"):
+        dm.plot_sweep(found, "z")
+    assert dm.plot_sweep(found).get_ylabel() == "Size"
+
+
+def test_limits_end_the_axis_of_lines_and_the_colours_of_maps() -> None:
+    grid = dm.sweep(dm.steady_sliding, CASE, Omega=[10, 20, 40], N=[300, 400])
+    bar = dm.plot_sweep(grid, limits=(0, 2)).collections[0].norm
+    assert (bar.vmin, bar.vmax) == (0, 2)
+    line = dm.plot_sweep(grid.sel(N=300), limits=(-0.5, 2))
+    assert line.get_ylim() == (-0.5, 2)
+    for wrong in ((3, 1), 2, ("a", "b"), (0, np.inf)):
+        with refusal("limits=.*must be two ascending numbers"):
+            dm.plot_sweep(grid, limits=wrong)
+
+
+def test_names_of_many_samples_do_not_lie_on_each_other() -> None:
+    """They were a black band."""
+    loads = np.linspace(300, 385, 40)
+    names = [f"sample {i}" for i in range(40)]
+    found = dm.sweep(lambda case: case.N, CASE, zip={"N": loads, "sample": names})
+    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 60 / 25.4))
+    dm.plot_sweep(found, x="sample", ax=ax)
+    figure.draw_without_rendering()
+    places = [label.get_window_extent() for label in ax.get_xticklabels()]
+    assert 10 < len(places) < 40
+    assert all(left.x1 <= right.x0 for left, right in pairwise(places))
+    for label in ax.get_xticklabels():
+        assert label.get_text() == names[round(label.get_position()[0])]

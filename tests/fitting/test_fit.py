@@ -6,17 +6,19 @@ import re
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 from matplotlib import pyplot
 from scipy.stats import binom
 
 import disc_model as dm
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_measured
-from disc_model.fitting.fit import _Problem
 from disc_model.fitting.prediction import Prediction
+from disc_model.fitting.problem import Problem
 from tests.refusals import refusal
 
 DISC = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -129,7 +131,7 @@ def test_exact_measurements_give_back_the_parameters() -> None:
 def test_derivatives_are_those_of_the_closed_form() -> None:
     """Frequencies are proportional to sqrt(E / rho), and a block's stick lasts 2 d N / (k V)."""
     measurements = [dm.Measurement("frequency_2_0", 1.0, 1.0)]
-    problem = _Problem(DISC, ["E", "rho"], measurements, {})
+    problem = Problem(DISC, ["E", "rho"], measurements, {})
     start = np.array([DISC.E, DISC.rho])
     value = problem.predictions(start)[0]
     expected = [value / (2 * DISC.E), -value / (2 * DISC.rho)]
@@ -137,7 +139,7 @@ def test_derivatives_are_those_of_the_closed_form() -> None:
     slopes = problem.jacobian(start)
     assert slopes[0] == pytest.approx(expected, rel=1e-8)
 
-    problem = _Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
+    problem = Problem(BLOCK, ["mu_s"], [dm.Measurement("stick_time", 1.0, 1.0)], {})
     slope = 2 * BLOCK.N / (BLOCK.k_p * BLOCK.r_0 * BLOCK.Omega)
     # times of events err by 1e-10 s, over a step of 5e-5
     start = np.array([BLOCK.mu_s])
@@ -285,6 +287,75 @@ def test_texts_with_units_are_read() -> None:
     assert measurement.name == "frequency_2_0 (h=2 mm)"
 
 
+# ---- Tables
+
+
+def table_of(**columns: list[Any]) -> pd.DataFrame:
+    """A table of two measured frequencies, with further columns, or others in their place."""
+    usual = {
+        "quantity": ["frequency_2_0", "frequency_0_0"],
+        "value": ["0.29 kHz", 237.0],
+        "uncertainty": [1.0, "1 Hz"],
+    }
+    return pd.DataFrame({**usual, **columns})
+
+
+def test_a_table_is_a_list_of_measurements() -> None:
+    """It was refused."""
+    table = table_of(h=["2.1 mm", None], Omega=[np.nan, 12])
+    measured = [
+        dm.Measurement("frequency_2_0", 290.0, 1.0, at={"h": "2.1 mm"}),
+        dm.Measurement("frequency_0_0", 237.0, 1.0, at={"Omega": 12.0}),
+    ]
+    assert dm.fit(DISC, ["E"], table) == dm.fit(DISC, ["E"], measured)
+
+
+def test_a_table_may_be_indexed_by_a_column() -> None:
+    table = table_of()
+    indexed = dm.fit(DISC, ["E"], table.set_index("quantity"))
+    assert indexed == dm.fit(DISC, ["E"], table)
+
+
+def test_a_table_of_a_file_is_a_table_of_measurements(tmp_path: Path) -> None:
+    table = table_of(h=[None, 0.0021])
+    file = tmp_path / "measured.csv"
+    table.to_csv(file, index=False)
+    assert dm.fit(DISC, ["E"], pd.read_csv(file)) == dm.fit(DISC, ["E"], table)
+
+
+@pytest.mark.parametrize(
+    ("table", "message"),
+    [
+        (
+            table_of(Omga=[12, 13]),
+            "measured.Omga: is neither a column of measurements nor a number of the case, did you mean"
+            " Omega? (known: quantity, value, uncertainty, N, Omega,",
+        ),
+        (table_of().drop(columns="value"), "measured: must have a column value"),
+        (
+            table_of().rename(columns={"value": "valu"}),
+            "measured.valu: is neither a column of measurements nor a number of the case, did you mean"
+            " value?",
+        ),
+        (table_of(E=[1e11, 2e11]), "measured.E: must be no column, because it is varied"),
+        (pd.concat([table_of(), table_of()], axis=1), "measured.value: must not be given twice"),
+        (table_of(value=[290.0, "3 kg"]), "measured.value[1]='3 kg': must be a number in Hz"),
+        (table_of(uncertainty=[1, 0]), "measured.uncertainty[1]=0: must be a standard deviation"),
+        (table_of(value=[np.nan, 1]), "measured.value[0]=nan: must be a finite number"),
+        (
+            table_of(quantity=["frequency_2_0", "perod"]),
+            "measured.quantity[1]='perod': is no quantity of a case, did you mean period?",
+        ),
+        (table_of(h=[0.002, -1]), "measured.h[1]=-1: must be > 0"),
+        (table_of(h=[0.002, "thick"]), "measured.h[1]='thick': must be a number"),
+        (table_of().iloc[:0], "must be at least as many as the varied parameters"),
+    ],
+)
+def test_wrong_tables_are_named(table: pd.DataFrame, message: str) -> None:
+    with refusal(re.escape(message)):
+        dm.fit(DISC, ["E"], table)
+
+
 # ---- What a reader sees
 
 
@@ -306,6 +377,71 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
     drawn = np.round(shown, 9)
     assert set(deviations) <= set(drawn)
     pyplot.close("all")
+
+
+# ---- Files
+
+
+def in_settings() -> dm.Fit:
+    """A fit to measurements in several settings, of which some are texts or words."""
+    table = [
+        dm.Measurement("frequency_2_0", 290.0, 1.0, at={"h": "2 mm"}),
+        dm.Measurement("frequency_0_0", 237.0, 1.0, at={"contact": "bilateral"}),
+        dm.Measurement(damping, 0.5, 1.0),
+    ]
+    return dm.fit(DISC.replace(c_p=2), ["E", "c_p"], table)
+
+
+@pytest.mark.parametrize("suffix", ["nc", "mat"])
+def test_a_fit_is_saved_and_comes_back(tmp_path: Path, suffix: str) -> None:
+    fit = in_settings()
+    file = tmp_path / f"fit.{suffix}"
+    dm.save(fit, file)
+    assert dm.load(file).identical(fit.to_dataset())
+
+
+def test_a_fit_is_a_dataset_of_its_parameters_and_measurements() -> None:
+    fit = in_settings()
+    data = fit.to_dataset()
+    stiffness = data.sel(parameter="E", other_parameter="E")
+    assert stiffness["value"].item() == fit.case.E
+    assert stiffness["unit"].item() == "Pa"
+    assert stiffness["high"].item() == fit.parameters["E"].high
+    assert stiffness["covariance"].item() == fit.covariance[0, 0]
+    assert np.isnan(stiffness["at_bound"].item())
+
+    held = data.sel(parameter="c_p")
+    assert held["at_bound"].item() == 0.0
+    assert held["limit"].item() == fit.limits["c_p"]
+    assert np.isnan(held["low"].item())
+    assert held["low"].attrs["long_name"].endswith(", or no such motion was found there")
+
+    assert data["quantity"].values.tolist() == ["frequency_2_0", "frequency_0_0", "damping"]
+    assert data["measured_unit"].values.tolist() == ["Hz", "Hz", ""]
+    assert data["measured"].values.tolist() == [290.0, 237.0, 0.5]
+    assert data["predicted"].values.tolist() == fit.computed.tolist()
+    assert data["h"].values.tolist() == [0.002, DISC.h, DISC.h]
+    assert data["h"].attrs["units"] == "m"
+    assert data["contact"].values.tolist() == ["unilateral", "bilateral", "unilateral"]
+    assert data.attrs["doubt"] == fit.doubt
+    assert dm.Parameters.model_validate_json(data.attrs["case"]) == fit.case
+
+
+def test_a_branch_is_saved_without_a_detour(tmp_path: Path) -> None:
+    branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
+    dm.save(branch, tmp_path / "branch.nc")
+    assert dm.load(tmp_path / "branch.nc").identical(branch.to_dataset())
+
+
+def test_a_sweep_of_fits_has_their_parameters() -> None:
+    def fitted(case: dm.Parameters) -> dm.Fit:
+        return dm.fit(case, ["E"], {"frequency_2_0": (290.0, 1.0), "frequency_0_0": (245.0, 1.0)})
+
+    swept = dm.sweep(fitted, DISC, nu=[0.2, 0.3])
+    single = fitted(DISC.replace(nu=0.3))
+    row = swept.sel(nu=0.3, parameter="E")
+    assert row["value"].item() == single.case.E
+    assert row["chi_squared"].item() == single.chi_squared
 
 
 # ---- Wrong input
@@ -511,6 +647,20 @@ def test_a_bound_that_holds_a_parameter_is_said() -> None:
     beside = dm.fit(below, ["k_p"], measured, bounds={"k_p": (18000, near)})
     assert beside.at_bounds == {"k_p": near}
     assert not beside.consistent
+    for fit in (held, beside):
+        assert np.isnan(fit.parameters["k_p"][1:]).all()
+
+
+def test_a_fit_at_a_bound_shows_what_it_says() -> None:
+    """Its interval was given as numbers, which the fit itself said to mean nothing."""
+    found = dm.fit(BLOCK.replace(c_p=2), ["c_p"], [dm.Measurement(damping, 0.5, 1.0)])
+    assert found.parameters["c_p"].value == pytest.approx(0.5)
+    assert np.isnan(found.parameters["c_p"][1:]).all()
+    assert found.covariance.item() == pytest.approx(1.0)
+    assert "c_p is below 2.14 N s/m" in found._repr_html_()
+    assert "nan" not in found._repr_html_() + repr(found)
+    assert len(found.plot()) == 2
+    pyplot.close("all")
 
 
 @pytest.mark.compiled

@@ -4,8 +4,9 @@ the format of MATLAB."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import is_dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 import xarray as xr
@@ -28,14 +29,19 @@ TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
 """Suffixes of files that are certainly no datasets."""
 
 
-def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
-    """Write a dataset, such as `sweep` and `run_study` return, to a file, which `disc_model.load` reads back.
+class HasDataset(Protocol):
+    """A result that becomes a dataset, such as a `Fit` or a `Branch`."""
 
-    A branch of `continue_cycle` becomes a dataset by its method `to_dataset`.
+    def to_dataset(self) -> xr.Dataset: ...
+
+
+def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
+    """Write a dataset, such as `sweep` and `run_study` return, to a file, which `disc_model.load` reads back.
 
     Parameters
     ----------
-    data : of numbers and words; discs along a dimension are written as text, in JSON
+    data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit` or a `Branch` is written
+        as the dataset of its method `to_dataset`
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
@@ -60,14 +66,15 @@ def save(data: xr.Dataset | xr.DataTree, path: str | Path) -> None:
     >>> dm.load("cycles.mat").identical(cycles)
     True
     """
+    given = _as_dataset(data)
     rule = "must be an xarray.Dataset or xarray.DataTree"
     if hasattr(data, "to_dataset"):
         rule = f"{rule}, such as its method to_dataset() returns"
     elif hasattr(data, "save"):
         rule = f"{rule}; it has a method save of its own"
-    require((isinstance(data, xr.Dataset | xr.DataTree), "data", data, rule))
+    require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
     file = check_suffix(regular_file(path))
-    tree = xr.DataTree(data) if isinstance(data, xr.Dataset) else data
+    tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
     groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
     if file.suffix == ".nc":
@@ -118,6 +125,13 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
 
 
 # ---- What can be written
+
+
+def _as_dataset(data: object) -> Any:
+    """A result of this package that has a dataset as this dataset; all else as it is."""
+    if is_dataclass(data) and not isinstance(data, type) and hasattr(data, "to_dataset"):
+        return data.to_dataset()
+    return data
 
 
 def _faults(groups: Mapping[str, xr.Dataset]) -> Iterator[str]:

@@ -28,7 +28,11 @@ NEEDED = {*OF_SWEEPS, *WORDS, *COUNTS, *VERDICTS, "period", "special_kind", "mul
 
 def variables_of_branch(branch: xr.Dataset) -> xr.Dataset:
     """The dataset of a branch with its attributes as variables, and without the numbers of its
-    points, of which other branches have more."""
+    points, of which other branches have more; that of another result with all of its attributes."""
+    if "point" not in branch.variables:
+        own = {str(name): ((), value) for name, value in branch.attrs.items()}
+        own.pop("versions", None)  # the sweep tells them itself
+        return branch.assign(own)
     said = {}
     for name, meaning in WORDS.items():
         text = branch.attrs.get(ATTRIBUTES.get(name, name), "")

@@ -71,6 +71,16 @@ class ColourWishes:
 USUAL = ColourWishes()
 
 
+def are_limits(limits: Any) -> bool:
+    """Whether these are the ends of a scale, or None."""
+    if limits is None:
+        return True
+    if not isinstance(limits, tuple | list) or len(limits) != 2:
+        return False
+    numbers = all(isinstance(end, float | int) and np.isfinite(end) for end in limits)
+    return numbers and limits[0] < limits[1]
+
+
 @dataclass(frozen=True)
 class Scale:
     """Colours of numbers: a map and a scale of matplotlib, and the ticks of its bar: words if each

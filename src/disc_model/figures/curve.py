@@ -1,5 +1,6 @@
 """Curves: any variable against one dimension."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -45,6 +46,7 @@ from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, 
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
+LINE = 1.1  # height of a line of text over its size
 CROWDED = 60  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of such a line that have a mark, about
@@ -190,11 +192,17 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
 
 
 def _turn_words(ax: Axes, words: np.ndarray) -> None:
-    """Turn words along the horizontal axis if they have no room beside each other."""
+    """Turn words along the horizontal axis if they have no room beside each other, and write only some
+    of them if they have none then, either."""
     page: Any = ax.get_figure(root=True)
     room = page.get_figwidth() * ax.get_position().width
-    if CHARACTER * sum(map(len, words)) > room:
-        ax.tick_params(axis="x", labelrotation=90)
+    if CHARACTER * sum(map(len, words)) <= room:
+        return
+    ax.tick_params(axis="x", labelrotation=90)
+    label: Any = ax.xaxis.get_major_ticks()[0].label1
+    line = LINE * label.get_fontsize() / 72
+    every = math.ceil(line * len(words) / room)
+    ax.set_xticks(range(0, len(words), every), labels=words[::every])
 
 
 def _open_steps(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:

@@ -151,8 +151,9 @@ def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: L
     of the lines."""
     by = remaining(array, [x])
     across = measured_along(array[x]).values
+    placed = array[x].notnull()
     for reason, gone in _reasons_of_gaps(study, array).items():
-        for part in parts_along(gone, by):
+        for part in parts_along(gone & placed, by):
             mask = part.data.values
             if mask.any():
                 look = {**looks.of(part.name), **open_look()}

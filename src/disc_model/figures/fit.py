@@ -25,7 +25,7 @@ from disc_model.figures.types import Axes
 from disc_model.figures.words import stated_value
 
 if TYPE_CHECKING:
-    from disc_model.fitting.fit import Fit
+    from disc_model.fitting.result import Fit
 
 DIFFERENCE = "Difference from the measured value (%)"
 DEVIATION = "Deviation (standard deviations)"

@@ -321,7 +321,7 @@ def legend_below(
     # lower axes may have narrower numbers, and begin further to the left; the layout may move them
     # once more when the legend has its place
     anchor: Any = place.draw
-    vars(legend)[ANCHOR] = Anchor(anchor.keywords["bbox_transform"])
+    setattr(legend, ANCHOR, Anchor(anchor.keywords["bbox_transform"]))
     for _ in range(MOVES):
         page.draw_without_rendering()
         move_to_page(ax, bars)
@@ -341,7 +341,7 @@ def move_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
     beside the axes if it can."""
     page: Any = ax.get_figure(root=True)
     legend: Legend = ax.get_legend()
-    anchor: Anchor = vars(legend)[ANCHOR]
+    anchor: Anchor = getattr(legend, ANCHOR)
     free = _free_below(ax, bars)
     box = legend.get_window_extent()
     anchor.across += max(LEFT * page.dpi - box.x0, 0.0)

@@ -25,6 +25,7 @@ def plot_sweep(  # noqa: PLR0913
     lines: str = "",
     log: bool = False,
     cmap: str | Colormap | None = None,
+    limits: tuple[float, float] | None = None,
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -68,6 +69,8 @@ def plot_sweep(  # noqa: PLR0913
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures
+    limits : ends of the axis of a variable that is drawn as lines, or of the bar of colours, in its unit; without them
+        colours of growth rates end at 0.3/s, or, if most rates are larger, beyond 98 % of them
     ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar",
         and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a sweep, those
         of another case, or of another variable of the same unit, get a colour and dashes of their own, and the legend
@@ -99,7 +102,9 @@ def plot_sweep(  # noqa: PLR0913
     ['Preload N = 300 N', '400 N']
     """
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-    return draw("plot_sweep", study, variable, x, lines=lines, log=log, cmap=cmap, **wishes)
+    return draw(
+        "plot_sweep", study, variable, x, lines=lines, log=log, cmap=cmap, limits=limits, **wishes
+    )
 
 
 def plot_modes(

@@ -88,7 +88,7 @@ def scale_rates(ax: Axes) -> None:
         scale as linear."""
         leading = f"{rate:e}".lstrip("-")[0]
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
-        return f"{rate:g}" if leading in "25" and near else ""
+        return f"{rate:g}".replace("-", "−") if leading in "25" and near else ""
 
     if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
         ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)

@@ -1,6 +1,7 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 from weakref import ref
 
@@ -10,7 +11,7 @@ import xarray as xr
 from disc_model.errors import require
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.colours import ColourWishes, is_colormap
+from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.drawing import COLUMN
@@ -20,10 +21,10 @@ from disc_model.figures.named_axes import Quantities
 from disc_model.figures.sweep_choice import (
     SHARES,
     Drawn,
-    case_of,
     choose_drawn,
     options_of,
     said_of,
+    title_of,
     values_of,
 )
 from disc_model.figures.sweep_lines import (
@@ -47,6 +48,7 @@ def plot_sweep(  # noqa: PLR0913
     lines: str = "",
     log: bool = False,
     cmap: Any = None,
+    limits: Any = None,
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -64,13 +66,15 @@ def plot_sweep(  # noqa: PLR0913
         (isinstance(lines, str | None), "lines", lines, "must be a name"),
         (isinstance(log, bool), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
+        (are_limits(limits), "limits", limits, "must be two ascending numbers"),
     )
     varying, drawn = choose_drawn(study, variables, x, lines)  # type: ignore[arg-type]  # checked
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
-    with page_for(wishes, COLUMN, 2.9, title=case_of(varying)) as page:
+    colours = ColourWishes(log, cmap, limits)
+    with page_for(wishes, COLUMN, 2.9, title=title_of(varying, drawn[0])) as page:
         for each in drawn:
-            _draw(page, varying, each, ColourWishes(log, cmap), called.get(each.variable, ""))
+            _draw(page, varying, each, colours, called.get(each.variable, ""))
             page.remember()  # the next variable joins this one
     return page.ax
 
@@ -84,8 +88,10 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
         page.show(Quantities(across, label_of(study[drawn.variable])[0]))
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
-        wishes.refuse()
+        replace(wishes, limits=None).refuse()
         _draw_lines(page, study, drawn, wishes.log, name)
+        if wishes.limits is not None:
+            page.ax.set_ylim(wishes.limits)
     else:
         page.show(Quantities(across, label_of(study[drawn.second])[0], label))
         plane = study.transpose(drawn.second, drawn.across, ...)

@@ -1,7 +1,7 @@
 """What a picture of a sweep shows: which variable, over which of its dimensions, and of what case."""
 
 import json
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,9 +9,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
-from disc_model.figures.words import known_name, value_text, what_case
+from disc_model.figures.words import known_name, symbol_of, value_text, what_case
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -191,7 +192,11 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
         columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
         if columns and (dim not in study.coords or x in columns):
             column = x or columns[0]
-            require((column in columns, "x", x, f"must be one of {', '.join(columns)}"))
+            curves = (
+                'xarray draws a curve of each sample, as by study["growth_rate"].plot.line(x=...)'
+            )
+            rule = f"must be one of {', '.join(columns)}; {curves}"
+            require((column in columns, "x", x, rule))
             return study.swap_dims({dim: column}), column
     return study, ""
 
@@ -218,10 +223,17 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     """The variable that is drawn; raises `ParameterError`."""
     numbers = {*_drawn_dims(study)}
     over = {str(name): {*values.dims} for name, values in study.items()}
-    choices = [name for name, dims in over.items() if dims & numbers and dims <= {*study.coords}]
+    choices = [
+        name
+        for name, dims in over.items()
+        if dims & numbers and dims <= {*study.coords} and study[name].dtype.kind != "c"
+    ]
     named = variable or _usual_variable(study, choices)
     points = "must have two points or more along a number or a word"
     require((bool(numbers), "study", "a single point", points))
+    real = named not in study or study[named].dtype.kind != "c"
+    parts = f"is complex: draw a part of it, as by study.assign(size=abs(study.{named}))"
+    require((real, "variable", named, parts))
     rule = f"must be one over the grid{suggestion(named, choices)}"
     further = [dim for dim in over.get(named, ()) if dim not in study.coords]
     if further:
@@ -279,6 +291,24 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
     return said
 
 
-def case_of(study: xr.Dataset) -> str:
-    """The text of these values."""
-    return what_case(values_of(study))
+def title_of(study: xr.Dataset, drawn: Drawn) -> str:
+    """What does not vary in a study, and of paired samples, what varies beside the column over which
+    they are drawn, and how many have no number there."""
+    said = [what_case(values_of(study)), *_said_of_samples(study, drawn.across)]
+    return ", ".join(filter(None, said))
+
+
+def _said_of_samples(study: xr.Dataset, column: str) -> Iterator[str]:
+    """Yield what varies with a column of paired samples, and how many have no number in it."""
+    numbers = [
+        str(name)
+        for name, values in study.coords.items()
+        if values.dims == (column,) and values.dtype.kind in "fi"
+    ]
+    beside = [name for name in numbers if name != column]
+    if beside:
+        verb = "vary" if len(beside) > 1 else "varies"
+        yield f"{' and '.join(map(symbol_of, beside))} {verb} as well"
+    missing = int(study[column].isnull().sum())
+    if missing:
+        yield f"{counted(missing, 'sample')} without {symbol_of(column)}"

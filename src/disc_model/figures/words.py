@@ -448,6 +448,11 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
     return f"{typeset(named(data[by]).name)} = {text}"
 
 
+def symbol_of(name: str) -> str:
+    """The symbol of a parameter; any other number has its name."""
+    return SHOWN[name].symbol if name in SHOWN else name
+
+
 def stated_value(name: str, value: Any) -> str:
     """The value of a parameter by its symbol, whether it is that of Table 1 or not."""
     text = value_text(xr.Dataset(coords={name: value}), name)
@@ -455,8 +460,7 @@ def stated_value(name: str, value: Any) -> str:
         return f"{text} contact"
     if isinstance(value, str) or name in AT_ZERO:
         return text
-    symbol = SHOWN[name].symbol if name in SHOWN else name
-    return f"{symbol} = {text}"
+    return f"{symbol_of(name)} = {text}"
 
 
 def rank_of(value: Any) -> Any:

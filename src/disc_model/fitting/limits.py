@@ -8,16 +8,63 @@ true value is near the bound."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from disc_model.arrays import Array
+from disc_model.fitting.arguments import Interval
+from disc_model.fitting.determination import sensitivity_of
+from disc_model.fitting.problem import STEP, Problem
+from disc_model.fitting.result import Fit
 
 RISE = (0.8, 3.0)
 """Rise of chi squared up to a limit over that of linear predictions; beyond these no limit is given."""
 
 
-def limit_beyond(
+def limits_at_zero(
+    problem: Problem, search: Any, limits: Mapping[str, Interval]
+) -> dict[str, Interval]:
+    """Return limits for parameters without any that a search has led to 0, and that cannot be
+    negative: against the rules of cases it does not converge."""
+    found = {}
+    for i, name in enumerate(problem.names):
+        if name not in limits and abs(search.x[i]) <= STEP and problem.is_last(i, 0.0, 1):
+            found[name] = (0.0, math.inf)
+    return found
+
+
+def passes_zero(problem: Problem, search: Any, name: str, confidence: float) -> bool:
+    """Whether the confidence interval of a parameter that cannot be negative passes 0."""
+    from scipy import stats
+
+    i = problem.names.index(name)
+    deviation = float(np.linalg.norm(sensitivity_of(search.jac).inverse[i]))
+    reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
+    return bool(search.x[i] <= reach) and problem.is_last(i, 0.0, 1)
+
+
+def with_limits(
+    found: Fit, problem: Problem, search: Any, deviations: Callable[[Array], Array]
+) -> Fit:
+    """Return the fit with the limits of parameters at bounds that no case can pass."""
+    limits = {}
+    for name, bound in found.at_bounds.items():
+        i = problem.names.index(name)
+        side = 1 if found.parameters[name].value >= bound else -1
+        if not problem.is_last(i, bound, side):
+            continue
+        limits[name] = math.nan
+        if found.converged and not found.misses and len(found.at_bounds) == 1:
+            covariance = found.covariance / np.outer(problem.scale, problem.scale)
+            beyond = _limit_beyond(search, covariance, i, side, found.confidence, deviations)
+            limits[name] = beyond * float(problem.scale[i])
+    return replace(found, limits=limits)
+
+
+def _limit_beyond(
     search: Any,
     covariance: Array,
     i: int,

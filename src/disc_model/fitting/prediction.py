@@ -219,6 +219,13 @@ def unit_of(name: str) -> str:
     return ""
 
 
+def unit_of_parameter(name: str) -> str:
+    """Return the unit of a parameter or of a number of a disc's table; "" without one."""
+    table = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": ""}
+    unit = Parameters.unit(name) or table.get(name.rsplit("_", 2)[0], "")
+    return "" if unit == "1" else unit
+
+
 def unknown_quantity(name: object) -> str:
     """Return the rule that an unknown name of a quantity breaks."""
     return "is no quantity of a case" + suggestion(name, NAMES)

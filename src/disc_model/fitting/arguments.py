@@ -1,0 +1,111 @@
+"""Checks of the arguments of `fit`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
+from disc_model.fitting.measured import Measurement, is_finite, measurements_of
+from disc_model.fitting.prediction import unit_of_parameter
+from disc_model.fitting.table import in_row, is_table, measurements_in
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.units import in_si, is_number
+
+Interval = tuple[float, float]
+
+
+def checked_measurements(
+    p: object, vary: object, measured: object, bounds: object, confidence: object
+) -> tuple[Measurement, ...]:
+    """Return the measurements, after all checks that need no computation."""
+    raise_faults(foreign_case(p))
+    assert isinstance(p, Parameters)
+    faults = _vary_faults(p, vary)
+    good = is_number(confidence) and 0 < confidence < 1  # type: ignore[operator]
+    faults += violations((good, "confidence", confidence, "must lie between 0 and 1"))
+    in_rows = is_table(measured)
+    if in_rows:
+        measurements = measurements_in(measured, p.numbers, vary, faults)
+    else:
+        measurements = measurements_of(measured, faults)
+    if not faults:
+        assert isinstance(vary, Sequence)
+        faults += _settings_faults(p, vary, measurements, in_rows)
+        faults += _bounds_faults(p, vary, bounds)
+        enough = len(measurements) >= len(vary)
+        rule = f"must be at least as many as the varied parameters, {len(vary)}"
+        faults += violations((enough, "measured", f"{len(measurements)} values", rule))
+    raise_faults(faults)
+    return measurements
+
+
+def _vary_faults(p: Parameters, vary: object) -> list[str]:
+    """Return faults of the names of varied parameters."""
+    if isinstance(vary, str) or not isinstance(vary, Sequence) or not vary:
+        rule = "must be a list of names of parameters"
+        return [Fault.of(("vary",), vary, rule)]
+    faults: list[str] = []
+    for i, name in enumerate(vary):
+        if not isinstance(name, str) or name not in p.numbers:
+            rule = "is no number of this case" + suggestion(name, list(p.numbers))
+            faults.append(Fault.of(("vary", str(i)), name, rule))
+        elif name in vary[:i]:
+            faults.append(Fault.of(("vary", str(i)), name, "must not be given twice"))
+    return faults
+
+
+def _settings_faults(
+    p: Parameters, vary: Sequence[str], measurements: Sequence[Measurement], in_rows: bool
+) -> list[str]:
+    """Return faults of what was set at measurements, which may be the rows of a table: values of varied
+    parameters, and wrong ones."""
+    faults: list[str] = []
+    for i, each in enumerate(measurements):
+        path = ("measured", str(i), "at")
+        both = [name for name in each.at if name in vary]
+        if both:
+            value = {name: each.at[name] for name in both}
+            faults.append(Fault.of(path, value, "must not set what is varied"))
+            continue
+        try:
+            p.replace(**each.at)
+        except ParameterError as error:
+            told = [fault for fault in error.faults if isinstance(fault, Fault)]
+            faults += [in_row(x, i) if in_rows else x.inside(path) for x in told]
+    return faults
+
+
+def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[str]:
+    """Return faults of bounds: of unknown names, in a wrong order, or without the start."""
+    if bounds is None:
+        bounds = {}
+    if not isinstance(bounds, Mapping):
+        return [Fault.of(("bounds",), bounds, "must give two values by parameter")]
+    faults: list[str] = []
+    for name, pair in bounds.items():
+        path = ("bounds", str(name))
+        if name not in vary:
+            faults.append(Fault.of(path, pair, "must be of a parameter that is varied"))
+            continue
+        value = p.numbers[name]
+        ends = in_si(pair, unit_of_parameter(name), [], path)
+        good = isinstance(ends, tuple | list) and len(ends) == 2 and all(map(is_finite, ends))
+        if not (good and ends[0] < ends[1] and ends[0] <= value <= ends[1]):
+            rule = f"must be two ascending values around the start, {value:.6g}"
+            faults.append(Fault.of(path, pair, rule))
+    for name in vary:
+        if p.numbers[name] == 0 and name not in bounds:
+            rule = "must have bounds, because its start is 0, which gives it no scale"
+            faults.append(Fault.of(("vary", name), 0.0, rule))
+    return faults
+
+
+def limits_in_si(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> dict[str, Interval]:
+    """Return the bounds in SI units."""
+    found = {}
+    for name in vary:
+        if name in bounds:
+            low, high = in_si(bounds[name], unit_of_parameter(name), [], ("bounds", name))
+            found[name] = (float(low), float(high))
+    return found

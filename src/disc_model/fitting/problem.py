@@ -1,0 +1,165 @@
+"""Predictions of measured quantities over the values of varied parameters, and their derivatives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+
+import numpy as np
+
+from disc_model.arrays import Array
+from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.fitting.measured import Measurement
+from disc_model.fitting.prediction import Prediction, Unpredicted, is_of_modes
+from disc_model.parameters import Parameters
+
+STEP = 1e-4
+"""Step of central differences, relative to a parameter's scale."""
+SHORTER = (1.0, 0.1, 0.01)
+"""Steps over that one, the first with predictions on a side: cycles exist in narrow intervals where
+several resonances meet. Those of the last still leave errors of 1e-6 of a derivative."""
+
+
+class Problem:
+    """Predictions and their derivatives over the values of the varied parameters.
+
+    Parameters
+    ----------
+    case : the case, whose other values are kept
+    names : names of the varied parameters
+    measurements : whose quantities are predicted
+    scales : by name, sizes of parameters whose value is 0
+    """
+
+    def __init__(
+        self,
+        case: Parameters,
+        names: Sequence[str],
+        measurements: Sequence[Measurement],
+        scales: Mapping[str, float],
+    ) -> None:
+        self.case = case
+        self.names = tuple(names)
+        self.measurements = tuple(measurements)
+        start = [case.numbers[name] for name in names]
+        self.scale = np.array(
+            [scales.get(name, abs(value)) or 1.0 for name, value in zip(names, start, strict=True)]
+        )
+
+    def predictions(self, values: Array) -> Array:
+        """Return the predicted quantities, (m,).
+
+        Raises
+        ------
+        ParameterError
+            If a case breaks a rule, or has no such quantity; the message names it.
+        """
+        fitted = dict(zip(self.names, map(float, values), strict=True))
+        known: dict[str, Prediction] = {}
+        found = np.empty(len(self.measurements))
+        for i, each in enumerate(self.measurements):
+            case = self.case.replace(**fitted, **each.at)
+            prediction = known.setdefault(case.canonical_json, Prediction(case))
+            try:
+                if callable(each.quantity):
+                    found[i] = float(each.quantity(case))
+                else:
+                    found[i] = prediction.of(each.quantity)
+            except (Unpredicted, DiscModelError, ArithmeticError) as reason:
+                text = f"cannot be computed: {reason}"
+                raise ParameterError(Fault(("measured", each.name), "", text)) from None
+        if not np.isfinite(found).all():
+            wrong = self.measurements[int(np.argmin(np.isfinite(found)))]
+            raise ParameterError(Fault(("measured", wrong.name), "", "is not finite"))
+        return found
+
+    def first_predictions(self, values: Array) -> Array:
+        """Return the predicted quantities at the start of the search, (m,). Raises `ParameterError`
+        without one; of a motion that the case does not have, it says that another start may."""
+        try:
+            return self.predictions(values)
+        except ParameterError as error:
+            wrong = [each for each in self.measurements if each.name == error.faults[0].path[-1]]
+            if not wrong or is_of_modes(wrong[0].quantity):
+                raise
+            starts = []
+            for name, value in zip(self.names, values, strict=True):
+                starts.append(f"{name}={value:.6g}")
+            remedy = f"; start the search from a case with other values than {', '.join(starts)}"
+            fault = error.faults[0]
+            raise ParameterError(Fault(fault.path, "", fault.rule + remedy)) from None
+
+    def trial(self, values: Array) -> Array:
+        """Return the predictions, nan where there are none: the search then makes a shorter
+        step."""
+        try:
+            return self.predictions(values)
+        except ParameterError:
+            return np.full(len(self.measurements), math.nan)
+
+    def is_missing(self, values: Array) -> bool:
+        """Whether a valid case has no such quantity, as where its cycle has ended at a fold."""
+        try:
+            self.predictions(values)
+        except ParameterError as error:
+            return error.faults[0].path[0] == "measured"
+        return False
+
+    def is_last(self, i: int, bound: float, side: int) -> bool:
+        """Whether no case has a value of a parameter beyond a bound, on the other side than this."""
+        try:
+            self.case.replace(**{self.names[i]: bound - side * STEP * float(self.scale[i])})
+        except ParameterError:
+            return True
+        return False
+
+    def jacobian(self, values: Array) -> Array:
+        """Return derivatives of the predictions, (m, n)."""
+        here: list[Array] = []  # computed where it is needed
+
+        def at_values() -> Array:
+            if not here:
+                here.append(self.predictions(values))
+            return here[0]
+
+        return np.stack([self._column(values, i, at_values) for i in range(len(values))], axis=1)
+
+    def _column(self, values: Array, i: int, at_values: Callable[[], Array]) -> Array:
+        """Return derivatives by one parameter, (m,): central differences, or one-sided ones where the
+        case on one side breaks a rule or has no such quantity, over shorter steps where neither has.
+
+        Raises
+        ------
+        ParameterError
+            If no step has predictions; the message names the measurement that is missing.
+        """
+        for factor in SHORTER:
+            step = np.zeros(len(values))
+            step[i] = factor * STEP * self.scale[i]
+            above = self.trial(values + step)
+            below = self.trial(values - step)
+            is_above = not np.isnan(above).any()
+            is_below = not np.isnan(below).any()
+            if is_above and is_below:
+                return (above - below) / (2 * step[i])
+            if is_below:
+                return (at_values() - below) / step[i]
+            if is_above:
+                return (above - at_values()) / step[i]
+        raise ParameterError(self._fault_beside(values, step))
+
+    def _fault_beside(self, values: Array, step: Array) -> Fault:
+        """What is missing on both sides of a value, and what helps."""
+        reason = "the case breaks a rule there"
+        try:
+            self.predictions(values + step)
+        except ParameterError as error:
+            fault = error.faults[0]
+            if fault.path[0] == "measured":
+                reason = f"{fault.path[-1]} {fault.rule}"
+        [i] = np.flatnonzero(step)
+        rule = (
+            f"cannot be varied here, as on both sides {reason}; leave out this measurement, or start"
+            " the search from a case with other values"
+        )
+        return Fault.of(("vary", self.names[i]), float(values[i]), rule)

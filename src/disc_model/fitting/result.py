@@ -1,0 +1,279 @@
+"""`Fit`: what `fit` has found, and the reasons to doubt it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.arrays import Array, EqualByValue
+from disc_model.display import Drawn, Summarised, html_table, number_text
+from disc_model.fitting.data import dataset_of
+from disc_model.fitting.measured import Measurement
+from disc_model.fitting.prediction import unit_of_parameter
+from disc_model.fitting.problem import Problem
+from disc_model.parameters import Parameters
+
+UNLIKELY = 0.05
+"""Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
+ALL_BUT_IMPOSSIBLE = 1e-3
+"""and below which something is wrong."""
+WRONG = "model or uncertainties"
+
+
+class Fitted(NamedTuple):
+    """A fitted parameter: its value, standard deviation and confidence interval, in its unit. All but
+    the value are nan if the measurements do not determine it or a bound holds it, and an end of the
+    interval also if they have no prediction there."""
+
+    value: float
+    deviation: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Fit(Summarised, Drawn, EqualByValue):
+    """Parameters fitted to measurements; `plot` draws the deviations of computed values.
+
+    Attributes
+    ----------
+    case : the given case with the fitted values
+    parameters : `Fitted` by name: value, deviation (standard), low and high end of the confidence interval
+    covariance : of the fitted values, in the order of `parameters`, (n, n)
+    confidence : probability of the intervals
+    measurements : the measurements
+    computed : what the fitted case predicts of each, (m,)
+    deviations : computed minus measured values, in standard deviations, (m,)
+    chi_squared : sum of the squared deviations
+    converged, message : whether and why the search ended at a minimum
+    indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
+        alike and are known to 10 % at best, or a standard deviation away chi squared does not rise as linear
+        predictions would have it
+    unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
+        beyond a fold of the cycle; `Fitted` has nan there
+    at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go; `Fitted` has
+        no interval then
+    limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
+        above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
+        another parameter is in doubt
+    doubt : all reasons why values and intervals mean nothing: a search that has not converged, a bound in the way,
+        parameters that are not determined, an interval in which the motion ends, too large a chi squared, with the
+        measurement that deviates most; "" where there is none
+    consistent : whether there is no `doubt`
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+    >>> found = dm.fit(p, ["E"], {"frequency_2_0": (295, 1)})
+    >>> found.parameters["E"].value / 1e9, found.predict("frequency_0_0")
+    (154.9..., (241.3..., 0.81...))
+    >>> found.plot()[1].get_xlabel()
+    'Deviation (standard deviations)'
+    """
+
+    _picture = "plot_fit"
+    case: Parameters
+    parameters: Mapping[str, Fitted]
+    covariance: Array
+    confidence: float
+    measurements: tuple[Measurement, ...]
+    computed: Array
+    deviations: Array
+    chi_squared: float
+    converged: bool
+    message: str
+    indistinct: tuple[str, ...] = ()
+    unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    at_bounds: Mapping[str, float] = field(default_factory=dict)
+    limits: Mapping[str, float] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        doubt = self.doubt
+        values = []
+        for name, fitted in self.parameters.items():
+            spread = "" if doubt else f" ± {fitted.deviation:.2g}"
+            values.append(f"{name}={fitted.value:.6g}{spread}")
+        meaning = "" if doubt else "± one standard deviation"
+        cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
+        parts = [f"Fit({', '.join(values)}", meaning, cost, doubt]
+        return "; ".join(filter(None, parts)) + ")"
+
+    @property
+    def freedom(self) -> int:
+        """Degrees of freedom: measurements without as many as there are parameters."""
+        return len(self.measurements) - len(self.parameters)
+
+    @property
+    def consistent(self) -> bool:
+        """Whether values and intervals can be relied on, as far as the measurements tell: the search
+        has converged, the measurements determine every parameter, what was measured exists at both
+        ends of every interval, and chi squared is as small as it
+        is in 95 % of fits if the model and the uncertainties are right (without degrees of freedom,
+        where it is 0 unless a bound is in the way, as with one). Otherwise `doubt` says why not."""
+        return not self.doubt
+
+    @property
+    def doubt(self) -> str:
+        """All reasons why values and intervals mean nothing; "" where the fit is consistent."""
+        reasons = []
+        if not self.converged:
+            reasons.append("the search has not converged")
+        for name, bound in self.at_bounds.items():
+            reasons.append(_is_held(name, bound, name in self.limits))
+            reasons += self._limit_texts(name)
+        if self.converged and self.misses:
+            reasons.append(self._misfit)
+        if self.indistinct:
+            reasons.append(_undetermined(self.indistinct))
+        for name, ends in self.unpredicted.items():
+            reasons += [_ends_within(name, end) for end in ends]
+        return "; ".join(reasons)
+
+    def _limit_texts(self, name: str) -> Iterator[str]:
+        """Yield in words the limit of a parameter, if it has one."""
+        limit = self.limits.get(name, math.nan)
+        if math.isnan(limit):
+            return
+        side = "below" if limit > self.parameters[name].value else "above"
+        value = number_text(limit, unit_of_parameter(name), 3)
+        yield f"{name} is {side} {value} at {100 * self.confidence:.3g} % confidence"
+
+    @property
+    def misses(self) -> bool:
+        """Whether chi squared is larger than in 95 % of fits of the right model."""
+        return self._chance < UNLIKELY
+
+    @property
+    def _chance(self) -> float:
+        """Share of fits of the right model whose chi squared is at least as large."""
+        from scipy import stats
+
+        return float(stats.chi2.sf(self.chi_squared, max(self.freedom, 1)))
+
+    @property
+    def _misfit(self) -> str:
+        """How large chi squared is, in words."""
+        wrong = f"a bound, {WRONG}" if self.at_bounds else WRONG
+        if self.freedom == 0:
+            return f"{wrong} are wrong, chi squared is {self.chi_squared:.3g} and should be 0"
+        reduced = self.chi_squared / self.freedom
+        size = f"chi squared is {reduced:.3g} times its degrees of freedom"
+        worst = int(np.argmax(np.abs(self.deviations)))
+        most = f"{self.measurements[worst].name} deviates most"
+        if self._chance < ALL_BUT_IMPOSSIBLE:
+            return f"{wrong} are wrong, {size}, and {most}"
+        share = f"{100 * self._chance:.2g} % of right ones have as much"
+        return f"{wrong} may be wrong, {size}: {share}, and {most}"
+
+    @property
+    def correlation(self) -> Array:
+        """Correlations of the fitted values, (n, n)."""
+        deviation = np.sqrt(np.diag(self.covariance))
+        return np.asarray(self.covariance / np.outer(deviation, deviation))
+
+    def predict(
+        self, quantity: str | Callable[[Parameters], float], at: Mapping[str, Any] | None = None
+    ) -> tuple[float, float]:
+        """Return a quantity of the fitted case, and its standard deviation from that of the
+        parameters.
+
+        Parameters
+        ----------
+        quantity : name, or function of a case, as in `Measurement`
+        at : values of parameters that differ from those of the fitted case
+
+        Raises
+        ------
+        ParameterError
+            If an argument breaks a rule, or the fitted case has no such quantity.
+        """
+        wanted = Measurement(quantity, 0.0, 1.0, at or {})
+        names = tuple(self.parameters)
+        problem = Problem(self.case, names, (wanted,), {})
+        start = np.array([self.parameters[name].value for name in names])
+        value = problem.predictions(start)[0]
+        gradient = problem.jacobian(start)[0]
+        return float(value), math.sqrt(float(gradient @ self.covariance @ gradient))
+
+    def to_dataset(self) -> xr.Dataset:
+        """The fit as a dataset, to save, or to handle by xarray and pandas; `disc_model.save` makes one by itself.
+
+        Along `parameter`, each in its `unit`: `value`, `deviation`, `low`, `high`, `at_bound`, `limit` and
+        `indistinct`, and with `other_parameter` also `covariance` and `correlation`. Along `measurement`: `quantity`,
+        and in its `measured_unit` what was `measured`, its `uncertainty` and what is `predicted`; and what was set at
+        each, such as `Omega`. Attributes: `chi_squared`, `freedom`, `confidence`, `converged` (0 or 1), `message`,
+        `doubt`, and the fitted `case` in JSON.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> p = dm.Parameters(N=385, Omega=15, normalization="orthonormal")
+        >>> found = dm.fit(p, ["E"], {"frequency_2_0": (295, 1)})
+        >>> data = found.to_dataset()
+        >>> float(data["value"].sel(parameter="E")) == found.case.E
+        True
+        >>> dm.save(found, "fit.mat")
+        >>> dm.load("fit.mat").identical(data)
+        True
+        """
+        return dataset_of(self)
+
+    def _summary(self) -> Iterator[tuple[str, object]]:
+        doubt = self.doubt
+        for name, fitted in self.parameters.items():
+            text = number_text(fitted.value, unit_of_parameter(name))
+            if not doubt:
+                text += f" ({fitted.low:.6g} to {fitted.high:.6g})"
+            yield name, text
+        intervals = f"{self.confidence:.0%}, if the model and the uncertainties are right"
+        yield "intervals", f"none: {doubt}" if doubt else intervals
+        yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
+        yield "consistent", f"no: {doubt}" if doubt else "yes"
+        yield "search", self.message
+
+    def _repr_html_(self) -> str:
+        """The parameters, and the measurements beside what is computed, in a notebook."""
+        head = ("measurement", "measured", "uncertainty", "computed", "deviation", "unit")
+        rows = (
+            (
+                each.name,
+                f"{each.value:.6g}",
+                f"{each.uncertainty:.2g}",
+                f"{computed:.6g}",
+                f"{deviation:+.2f}",
+                "" if each.unit == "1" else each.unit,
+            )
+            for each, computed, deviation in zip(
+                self.measurements, self.computed, self.deviations, strict=True
+            )
+        )
+        return html_table(("fit", ""), self.summary()) + html_table(head, rows)
+
+
+def _undetermined(names: Sequence[str]) -> str:
+    """Return that the measurements do not determine some parameters, and what helps."""
+    if len(names) == 1:
+        return f"the measurements do not determine {names[0]}: measure more"
+    together = ", ".join(names[:-1]) + f" and {names[-1]}"
+    return f"the measurements do not determine {together} apart: fix one of them, or measure more"
+
+
+def _is_held(name: str, bound: float, is_last: bool) -> str:
+    """Return that a parameter is at a bound, which may be the last value of any case, or so near that
+    its interval would pass it."""
+    if is_last:
+        passed = f"the interval of {name} passes {bound:.6g}, beyond which there is no case"
+        return f"{passed}: fix it, or measure more"
+    return f"{name} is held by its bound {bound:.6g}, which its interval passes: widen the bound, or fix it"
+
+
+def _ends_within(name: str, end: float) -> str:
+    """Return that what was measured does not exist at an end of a parameter's interval."""
+    place = f"{name}={end:.6g}"
+    return f"no such motion was found at {place}: a fold, or another end of the cycle, lies within the interval"
