@@ -74,7 +74,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.sweep,
         {"function": dm.floquet, "case": P, "N": [9]},
-        CALLS | {"zip": "None", "named": WRONG},
+        CALLS | {"over": "None", "zip": "None", "named": WRONG},
     ),
     (
         dm.run_study,
