@@ -102,7 +102,15 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.plot_sweep,
         {"study": GRID},
-        PICTURE | {"log": "True", "variable": "None", "x": "None", "lines": "None", "cmap": "None"},
+        PICTURE
+        | {
+            "log": "True",
+            "variable": "None",
+            "x": "None",
+            "lines": "None",
+            "cmap": "None",
+            "limits": "None",
+        },
     ),
     (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),

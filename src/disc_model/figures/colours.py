@@ -3,6 +3,7 @@ logarithmic scale."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -77,7 +78,7 @@ def are_limits(limits: Any) -> bool:
         return True
     if not isinstance(limits, tuple | list) or len(limits) != 2:
         return False
-    numbers = all(isinstance(end, float | int) and np.isfinite(end) for end in limits)
+    numbers = all(isinstance(end, Real) and np.isfinite(end) for end in limits)
     return numbers and limits[0] < limits[1]
 
 
