@@ -1,6 +1,7 @@
 """Colours of numbers on a map: of counts, of values of one sign or two, of growth rates, and on a
 logarithmic scale."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from numbers import Real
@@ -78,7 +79,7 @@ def are_limits(limits: Any) -> bool:
         return True
     if not isinstance(limits, tuple | list) or len(limits) != 2:
         return False
-    numbers = all(isinstance(end, Real) and np.isfinite(end) for end in limits)
+    numbers = all(isinstance(end, Real) and math.isfinite(end) for end in limits)
     return numbers and limits[0] < limits[1]
 
 
