@@ -689,19 +689,16 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     """They stood on the line as any other."""
     speeds = [7.3, 7.35, 7.4]
     found = dm.sweep(dm.floquet, CASE.replace(N=375), Omega=speeds, N=[370, 375])
-    assert found["other_growth_rate"].notnull().values.T.tolist() == [
-        3 * [False],
-        [False, True, False],
-    ]
-    words = "the motion is near another cycle"
-    for variable, open_at in (("growth_rate", [7.325, 7.375]), ("period", [])):
+    assert (found["near_motion"] == 0).values.T.tolist() == [3 * [False], [False, True, False]]
+    words = "the motion is not near this cycle"
+    for variable in ("growth_rate", "period"):
         ax = dm.plot_sweep(found.sel(N=375), variable)
         filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
         places = [[*line.get_xdata()] for line in filled if line.get_marker() in MARKS]
         assert places == [[], [7.35]], "the first is the legend's"
         assert labels(ax.figure) == [words]
         steps = [place for rows in rows_above(ax) for row in rows.rows for place in row.get_xdata()]
-        assert steps == pytest.approx(open_at)  # to rounding
+        assert steps == pytest.approx([7.325, 7.375])  # to rounding
         assert words not in labels(dm.plot_sweep(found.sel(N=370), variable).figure)
         plane = dm.plot_sweep(found, variable)
         assert words in labels(plane.figure)
@@ -1116,3 +1113,15 @@ def test_names_of_many_samples_do_not_lie_on_each_other() -> None:
     assert all(left.x1 <= right.x0 for left, right in pairwise(places))
     for label in ax.get_xticklabels():
         assert label.get_text() == names[round(label.get_position()[0])]
+
+
+def test_lines_of_all_variables_of_a_cycle_are_open_at_the_same_steps() -> None:
+    """The period was joined between two cycles, 16 and 16.5 rad/s, with two folds between them."""
+    found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=14), Omega=[15, 16, 16.5, 17, 18])
+    places = {}
+    for variable in ("growth_rate", "period", "stick_fraction"):
+        [rows] = rows_above(dm.plot_sweep(found, variable))
+        places[variable] = [place for row in rows.rows for place in row.get_xdata()]
+    assert 16.25 in places["growth_rate"]
+    assert places["period"] == places["stick_fraction"] == places["growth_rate"]
+    assert said_above(dm.plot_sweep(found, "sliding_growth_rate")) == []

@@ -281,6 +281,20 @@ def test_an_unstable_cycle_says_that_the_motion_is_near_another(speed: float):
     assert math.isnan(motion.other_growth_rate)
 
 
+def test_a_motion_is_not_near_a_cycle_that_it_would_have_left_long_ago():
+    """Growth of 42/s stood for a motion that nearly repeats for 20 s, in contact."""
+    case = Parameters(N=450, Omega=18)
+    found = floquet(case)
+    assert found.growth_rate > 40
+    assert not found.near_motion
+    assert math.isnan(found.other_growth_rate)
+    assert found.message.endswith(
+        "after 300 releases the motion from the static start is not near it"
+    )
+    assert "the motion is not near it" in repr(found)
+    assert simulate(case, 20).statistics["separations"] == 0
+
+
 def test_the_motion_near_its_own_cycle_is_near_no_other():
     """Neither near a stable cycle nor while it leaves an unstable one."""
     signs = set()
@@ -288,5 +302,6 @@ def test_the_motion_near_its_own_cycle_is_near_no_other():
         found = floquet(Parameters(N=load, Omega=speed))
         signs.add(found.stable)
         assert math.isnan(found.other_growth_rate)
-        assert "another" not in found.message
+        assert found.near_motion
+        assert "motion" not in found.message
     assert signs == {True, False}

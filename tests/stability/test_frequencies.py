@@ -109,7 +109,7 @@ def test_of_two_real_multipliers_a_mode_grows_by_the_larger(monkeypatch: pytest.
     basis = np.hstack([planes.real.T, planes.imag.T])
     real = basis @ np.diag([*larger, *smaller]) @ np.linalg.inv(basis)
 
-    monkeypatch.setattr(frequencies_module, "floquet", lambda *_, **__: cycle)
+    monkeypatch.setattr(frequencies_module, "find_cycle", lambda *_, **__: cycle)
     monkeypatch.setattr(ReturnMap, "evaluate", lambda *_, **__: SimpleNamespace(jacobian=real))
     _, _, (frequency, found, _) = frequencies(SMALL)
     rate = 1 / cycle.period

@@ -46,8 +46,8 @@ AT_BOUND = Look("at or below the lower bound", "none", 4 * "-")
 """Of a critical value that is the lower bound of its search."""
 UNSETTLED = Look("not settled", "none", 4 * "\\")
 """Of a value that rests on a stay of a sweep at whose end the motion had not settled."""
-NEAR_ANOTHER = Look("the motion is near another cycle", "none", 3 * "x")
-"""Of a value of an unstable cycle near the static start, where the motion from there has come near another one."""
+NOT_NEAR = Look("the motion is not near this cycle", "none", 3 * "x")
+"""Of a value of an unstable cycle that was sought near the static start, where the motion from there is elsewhere."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
 

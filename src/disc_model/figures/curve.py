@@ -29,11 +29,11 @@ from disc_model.figures.drawing import (
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
-from disc_model.figures.rate_scale import are_of_cycles, are_rates, opens, scale_heights
+from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens, scale_heights
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
-    near_another,
+    not_near,
     opened,
     parts_along,
     picked,
@@ -119,9 +119,7 @@ def draw_lines(
     parts = parts_along(array, by)
     looks = looks_of(parts, marks, single)
     gapless = joined and not (names or rates or array.isnull().any())
-    steps = {}
-    if joined and are_of_cycles(array, rates):
-        steps = _open_steps(study, array, by)
+    steps = _open_steps(study, array, by, log) if joined else {}
     line = _dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
     drawn = []
@@ -204,14 +202,21 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
     ax.set_xticks(range(0, len(words), every), labels=words[::every])
 
 
-def _open_steps(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
-    """The steps at which each line of growth rates of cycles is open: those that may lead to another
-    cycle, and those to or from a cycle that the motion is not near."""
-    other = near_another(study, str(array.name))
+def _open_steps(
+    study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
+) -> dict[str, Mask]:
+    """The steps at which each line of a variable of cycles is open: those at which the growth rate says
+    that they may lead to another cycle, and those to or from a cycle that the motion is not near;
+    none of other variables."""
+    rates = array if array.name == RATE else study.get(RATE, array)
+    if not are_of_cycles(array, rates) or (array.name == RATE and not are_rates(array, log)):
+        return {}
+    other = not_near(study, str(array.name))
     if other is None:
         other = array.copy(data=np.zeros(array.shape, dtype=bool))
     found = {}
-    for part, apart in zip(parts_along(array, by), parts_along(other, by), strict=True):
+    of_lines = zip(parts_along(rates, by), parts_along(other, by), strict=True)
+    for part, apart in of_lines:
         found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
     return found
 

@@ -10,7 +10,7 @@ from matplotlib.colors import to_hex
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
-from disc_model.figures.classes import LOOKS, NEAR_ANOTHER, STABLE, UNRESOLVED, Look
+from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
 from disc_model.figures.selection import class_of_gap, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
@@ -24,7 +24,7 @@ MAP_LOOKS = {
     NEGATIVE: STABLE,
     NEUTRAL: Look("neutral", to_hex(cm.vik(0.5))),
     UNRESOLVED.label: UNRESOLVED,
-    NEAR_ANOTHER.label: NEAR_ANOTHER,
+    NOT_NEAR.label: NOT_NEAR,
 }
 """Looks of all that a map of growth rates shows beside its colours."""
 

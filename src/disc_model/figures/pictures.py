@@ -49,7 +49,7 @@ def plot_sweep(  # noqa: PLR0913
     strip above the panel are of points without a value; no
     line leads to a value that is the lower bound of its search. Filled marks, and hatched cells of a
     map, are of a sweep of the speed whose motion had not settled, or of an unstable cycle where the motion
-    from the static start is near another one, as the legend says. An axis is logarithmic if three or more
+    from the static start is not near, as the legend says. An axis is logarithmic if three or more
     positive values span a decade or more and have equal ratios within 1e-6, as those of
     `numpy.geomspace`.
 

@@ -7,6 +7,7 @@ import xarray as xr
 
 from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
 from disc_model.figures.drawing import GREY, is_in_data, plain_decades, wide
+from disc_model.figures.selection import OF_CYCLES
 from disc_model.figures.types import Array, Axes, Mask
 
 LINEAR = 0.1
@@ -14,6 +15,8 @@ LINEAR = 0.1
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
+ALIKE = 2.0
+"""Ratio of rates of one sign up to which zero is not drawn: most of the panel would be empty."""
 OPEN = "line open: another cycle, or too wide a step"
 """What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 RATE = "growth_rate"
@@ -25,10 +28,11 @@ def are_rates(array: xr.DataArray, log: bool) -> bool:
     return array.name == RATE and (not log or needs_zero(array.values))
 
 
-def are_of_cycles(array: xr.DataArray, rates: bool) -> bool:
-    """Whether growth rates are those of cycles, of which the next point may have another; steady
-    sliding is one equilibrium."""
-    return rates and "sliding" not in array.attrs.get("long_name", "")
+def are_of_cycles(array: xr.DataArray, rates: xr.DataArray) -> bool:
+    """Whether a variable is that of cycles, of which the next point may have another, and these are
+    their growth rates; steady sliding is one equilibrium."""
+    alike = rates.name == RATE and rates.dims == array.dims
+    return alike and array.name in OF_CYCLES and "sliding" not in rates.attrs.get("long_name", "")
 
 
 def scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
@@ -79,9 +83,20 @@ def opens(rates: Array) -> Mask:
     return found
 
 
+def set_limits(ax: Axes, limits: tuple[float, float]) -> None:
+    """End a vertical axis where a reader wants it to; that of growth rates is linear within a decade,
+    where its usual scale may have no number."""
+    low, high = sorted(map(abs, limits))
+    within = limits[0] * limits[1] > 0 and high < 10 * low
+    if ax.get_yscale() == "symlog" and (within or high <= 2 * LINEAR):
+        ax.set_yscale("linear")
+    ax.set_ylim(limits)
+
+
 def scale_rates(ax: Axes) -> None:
     """Scale an axis of growth rates, as peaks of tens occur beside hundredths, and mark zero. Where
-    all rates drawn are small, the scale is linear."""
+    all rates drawn are small, the scale is linear; also where they are of one sign and within a factor
+    of `ALIKE`, and zero is not drawn."""
 
     def between(rate: float, _: float) -> str:
         """Within about a decade, labels of some ticks between its ends, so that nobody reads the
@@ -92,6 +107,10 @@ def scale_rates(ax: Axes) -> None:
 
     if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
         ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)
+    low, high = ax.dataLim.intervaly
+    least, greatest = sorted((abs(low), abs(high)))
+    if low * high > 0 and least < greatest < ALIKE * least:
+        return
     if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
         ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")

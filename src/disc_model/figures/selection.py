@@ -9,7 +9,7 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.classes import NEAR_ANOTHER, UNSETTLED, Look, name_of
+from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
 from disc_model.figures.kinds.base import NORM
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.words import NO_VALUE, named_value, rank_of, value_text
@@ -282,18 +282,18 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
-def near_another(study: xr.Dataset, variable: str) -> xr.DataArray | None:
-    """Points whose value is that of an unstable cycle, where the motion from the static start has come
-    near another one; None of other variables and studies."""
-    if variable not in OF_CYCLES or "other_growth_rate" not in study:
+def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose value is that of an unstable cycle which the motion from the static start is not
+    near; None of other variables and studies."""
+    if variable not in OF_CYCLES or "near_motion" not in study:
         return None
-    return study["other_growth_rate"].notnull()
+    return study["near_motion"] == 0
 
 
 def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     """Points whose value is another than that of a settled motion from the static start may be, by the
     look that says why."""
-    masks = {UNSETTLED: unsettled(study, variable), NEAR_ANOTHER: near_another(study, variable)}
+    masks = {UNSETTLED: unsettled(study, variable), NOT_NEAR: not_near(study, variable)}
     return {look: mask for look, mask in masks.items() if mask is not None and mask.any()}
 
 

@@ -18,6 +18,7 @@ from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
+from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.sweep_choice import (
     SHARES,
     Drawn,
@@ -91,7 +92,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
         replace(wishes, limits=None).refuse()
         _draw_lines(page, study, drawn, wishes.log, name)
         if wishes.limits is not None:
-            page.ax.set_ylim(wishes.limits)
+            set_limits(page.ax, wishes.limits)
     else:
         page.show(Quantities(across, label_of(study[drawn.second])[0], label))
         plane = study.transpose(drawn.second, drawn.across, ...)

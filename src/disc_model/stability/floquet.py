@@ -1,9 +1,11 @@
 """`floquet`: a cycle of a case and its stability."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
 
+from disc_model.arrays import Array
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import raise_faults, with_known_names
 from disc_model.parameters import Parameters, foreign_case
@@ -17,13 +19,16 @@ from disc_model.stability.cycle import (
     find_cycle,
     guess_faults,
 )
-from disc_model.stability.return_map import ReturnMap, newton
+from disc_model.stability.return_map import Orbit, ReturnMap, newton
 from disc_model.stability.slipping_cycle import find_slipping_cycle
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
 SETTLED = 300
 """Releases after which the motion from the static start is compared with an unstable cycle that was found near
 it: after fewer it may still be on its way."""
+GROWTH = 37.0
+"""Growth rate times the time of these releases, beyond which even a difference by rounding, 1e-16, would have
+taken a motion away from the cycle."""
 
 
 @compiling()
@@ -55,8 +60,9 @@ def floquet(
     -------
     FloquetResult
         It is also returned if no cycle exists: `status` and `message` then say what was found instead. Where the cycle
-        is unstable, and the motion from the static start is near another one after 300 releases, `message` says so, and
-        `other_growth_rate` is that of the other: the last state of a simulation leads to it as `guess`.
+        is unstable, and the motion from the static start is elsewhere in contact after 300 releases, `message` says so,
+        and `near_motion` is False. If it is near another cycle, `other_growth_rate` is that of the other: the last
+        state of a simulation leads to it as `guess`.
 
     Raises
     ------
@@ -94,7 +100,7 @@ def floquet(
 
 def _beside_motion(cycle: FloquetResult) -> FloquetResult:
     """An unstable cycle that was sought near the static start; its message says so if the motion from
-    there has come near another one."""
+    there is near another one, or cannot be near this one any more."""
     assert cycle.state is not None
     map_ = ReturnMap(cycle.parameters, cycle.tol)
     start = map_.first_release
@@ -105,15 +111,24 @@ def _beside_motion(cycle: FloquetResult) -> FloquetResult:
         return cycle
 
     own = map_.point(cycle.state)
-    distance = np.linalg.norm(motion.end - own)
-    if distance <= SAME_POINT * np.linalg.norm(own):
+    if np.linalg.norm(motion.end - own) <= SAME_POINT * np.linalg.norm(own):
         return cycle
     other = newton(map_, motion.end)
-    if other is None or np.linalg.norm(other.start - motion.end) >= distance:
+    rate = math.nan
+    where = "not near it"
+    if other is not None and _is_other(other, motion, own):
+        rate = cycle_of(map_, other).growth_rate
+        where = f"near another cycle, with growth rate {rate:.6g} 1/s"
+    elif cycle.growth_rate * motion.period < GROWTH:
         return cycle
-    if np.linalg.norm(other.start - own) <= SAME_POINT * np.linalg.norm(own):
-        return cycle
-    rate = cycle_of(map_, other).growth_rate
-    where = f"after {SETTLED} releases the motion from the static start is near another cycle"
-    message = f"{cycle.message}; {where}, with growth rate {rate:.6g} 1/s"
-    return replace(cycle, message=message, other_growth_rate=rate)
+    message = (
+        f"{cycle.message}; after {SETTLED} releases the motion from the static start is {where}"
+    )
+    return replace(cycle, message=message, near_motion=False, other_growth_rate=rate)
+
+
+def _is_other(other: Orbit, motion: Orbit, own: Array) -> bool:
+    """Whether a cycle is another than that of the point `own`, and nearer to a motion's end."""
+    apart = np.linalg.norm(other.start - own) > SAME_POINT * np.linalg.norm(own)
+    nearer = np.linalg.norm(other.start - motion.end) < np.linalg.norm(motion.end - own)
+    return bool(apart and nearer)
