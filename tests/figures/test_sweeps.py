@@ -32,8 +32,8 @@ SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
 KNOWN["value"] = "Critical static friction μ_s"
-KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
-KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
+KNOWN |= {"onset_speed": "Speed at separation onset"}
+KNOWN |= {"offset_speed": "Speed at separation end"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
 WITHIN = {
     "critical_speed": " within 3 s",
@@ -144,7 +144,7 @@ UNASKED = {
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed within 3 s (rad/s)",
     dm.basins: "Share of the starts",
-    dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
+    dm.hysteresis: "Speed at separation onset (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations within 0.5 s",
     dm.critical: r"Critical static friction $\mathrm{μ_s}$",
