@@ -32,8 +32,8 @@ SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
 KNOWN["value"] = "Critical static friction μ_s"
-KNOWN |= {"onset_speed": "Speed at which separation begins on the way up"}
-KNOWN |= {"offset_speed": "Speed at which separation ends on the way down"}
+KNOWN |= {"onset_speed": "Speed at separation onset"}
+KNOWN |= {"offset_speed": "Speed at separation end"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
 WITHIN = {
     "critical_speed": " within 3 s",
@@ -144,7 +144,7 @@ UNASKED = {
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed within 3 s (rad/s)",
     dm.basins: "Share of the starts",
-    dm.hysteresis: "Speed at which separation begins on the way up (rad/s)",
+    dm.hysteresis: "Speed at separation onset (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations within 0.5 s",
     dm.critical: r"Critical static friction $\mathrm{μ_s}$",
@@ -740,8 +740,82 @@ def test_paired_samples_have_a_mark_for_each_value_of_an_axis_beside_them() -> N
     ax = dm.plot_sweep(pairs, x="mu_k")
     assert len({line.get_marker() for line in ax.lines[:2]}) == 2
     assert ax.get_xlabel().startswith("Kinetic friction")
-    with refusal("x='Omega': must be one of N, mu_k"):
-        dm.plot_sweep(pairs, x="Omega")
+    with refusal("x='m': must be one of N, mu_k, Omega"):
+        dm.plot_sweep(pairs, x="m")
+    pyplot.close("all")
+
+
+def samples(count: int, **columns: list[str]) -> xr.Dataset:
+    """Growth rates of paired samples over the speed, some of which have no cycle."""
+    loads = np.linspace(330, 400, count).tolist()
+    friction = np.linspace(0.23, 0.25, count).tolist()
+    pairs = {"N": loads, "mu_k": friction, **columns}
+    return dm.sweep(dm.floquet, CASE, Omega=[9, 11, 13, 14, 15, 16], zip=pairs)
+
+
+def test_a_few_paired_samples_have_a_named_curve_each_over_an_axis() -> None:
+    """They were refused."""
+    found = samples(3)
+    ax = dm.plot_sweep(found, "period", x="Omega")
+    lines: list[Any] = ax.get_legend_handles_labels()[0]
+    for line, periods in zip(lines, 1e3 * found["period"].values.T, strict=True):
+        np.testing.assert_array_equal(line.get_ydata(), periods)
+    first, *others = labels(ax.figure)
+    assert first.startswith("Preload N = 330 N, Kinetic friction")
+    assert others == ["365 N, 0.24", "400 N, 0.25"]
+    assert ax.figure.get_suptitle().endswith(", N and $\\mathrm{μ_k}$ vary")
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_many_paired_samples_are_thin_curves_with_one_name(width: int) -> None:
+    found = samples(12)
+    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(found, "growth_rate", x="Omega", ax=ax)
+    figure.draw_without_rendering()
+    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["12 samples"]
+    curves = [
+        line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 5
+    ]
+    assert len(curves) == 12
+    assert {line.get_marker() for line in curves} == {"None"}
+    values = [line.get_ydata() for line in curves]
+    drawn = [heights[np.isfinite(heights)] for heights in values]
+    rates = found["growth_rate"].values
+    np.testing.assert_array_equal(np.concatenate(drawn), rates.T[np.isfinite(rates.T)])
+    assert said_above(ax) == ["no cycle found"]
+    [row] = rows_above(ax)[0].rows
+    missing = np.isnan(rates).any(axis=1)
+    np.testing.assert_array_equal(row.get_xdata(), found["Omega"].values[missing])
+    pyplot.close("all")
+
+
+def test_a_point_of_a_sample_that_no_line_joins_is_a_dot() -> None:
+    study = samples(12)
+    heights = study["period"].values.copy()
+    heights[1::2] = np.nan
+    study["period"] = study["period"].copy(data=heights)
+    ax = dm.plot_sweep(study, "period", x="Omega")
+    dots = [line for line in ax.lines if line.get_marker() == "."]
+    count = sum(len(line.get_xdata()) for line in dots)
+    assert count == np.isfinite(heights).sum()
+    pyplot.close("all")
+
+
+def test_samples_with_names_of_their_own_are_curves_too() -> None:
+    names = [f"sample {number}" for number in range(8)]
+    found = samples(8, sample=names)
+    named = found.swap_dims({str(found["N"].dims[0]): "sample"})
+    for study in (found, named):
+        ax = dm.plot_sweep(study, "period", x="Omega")
+        assert labels(ax.figure) == ["8 samples"]
+    pyplot.close("all")
+
+
+def test_numbers_beside_an_axis_make_it_no_axis_of_samples() -> None:
+    study = plane().assign_coords(rpm=("Omega", 9.55 * plane()["Omega"].values))
+    ax = dm.plot_sweep(study, "growth_rate", x="N")
+    assert ax.collections, "a map"
     pyplot.close("all")
 
 

@@ -97,6 +97,36 @@ def test_a_legend_can_be_left_out_or_placed(name: str) -> None:
     assert placed.get_legend()._loc == mpl.legend.Legend.codes["upper left"]
 
 
+@pytest.mark.parametrize("name", WITH_LEGEND)
+def test_a_legend_of_another_look_stands_where_the_usual_one_does(name: str) -> None:
+    """It lay over the data, also where the usual one stands below the panel."""
+    smaller = one(DRAWN[name](legend={"fontsize": 6}))
+    [legend] = smaller.figure.legends
+    assert {text.get_fontsize() for text in legend.get_texts()} == {6}
+    places = []
+    for wish in (True, {"frameon": False}):
+        figure, ax = pyplot.subplots(figsize=(COLUMN, 2.6), layout="constrained")
+        DRAWN[name](ax=ax, legend=wish)
+        figure.draw_without_rendering()
+        framed: Any = ax.get_legend()
+        assert framed.get_frame_on() == (wish is True)
+        places.append(framed.get_window_extent().bounds)
+    assert places[0] == pytest.approx(places[1], abs=1)
+
+
+def test_a_legend_below_a_panel_has_the_columns_asked_for() -> None:
+    figure, ax = pyplot.subplots(figsize=(COLUMN, 2.6), layout="constrained")
+    lines = {"x": "Omega", "lines": "N", "ax": ax}
+    for columns in ("ncols", "ncol"):
+        dm.plot_sweep(growth(), "growth_rate", **lines, legend={"fontsize": 6, columns: 3})
+        figure.draw_without_rendering()
+        legend: Any = ax.get_legend()
+        assert legend.get_window_extent().y1 < ax.bbox.y0
+        heights = [text.get_window_extent().y0 for text in legend.get_texts()]
+        assert heights == pytest.approx(3 * heights[:1])
+        ax.clear()
+
+
 @pytest.mark.parametrize("name", DRAWN)
 def test_own_axes_are_used_and_their_figure_keeps_its_title(name: str) -> None:
     figure, ax = pyplot.subplots(layout="constrained")

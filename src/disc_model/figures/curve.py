@@ -107,11 +107,9 @@ def draw_lines(
     """
     if marks is None:
         marks = {}
-    names, array = as_numbers(as_classes(study, variable))
-    array = array.copy(data=measured(array).values)
-    array = array.where(~np.isneginf(array))  # such points are marked above the panel
+    names, array = heights_of(study, variable)
     by = remaining(array, [x])
-    label, along = measured_along(array[x])
+    along = measured_along(array[x]).values
     joined = joined and along.dtype.kind != "U"
     rates = are_rates(array, log)
 
@@ -119,8 +117,8 @@ def draw_lines(
     parts = parts_along(array, by)
     looks = looks_of(parts, marks, single)
     gapless = joined and not (names or rates or array.isnull().any())
-    steps = _open_steps(study, array, by, log) if joined else {}
-    line = _dashes_of(single) if joined and not names else ""
+    steps = open_steps(study, array, by, log) if joined else {}
+    line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
@@ -136,15 +134,7 @@ def draw_lines(
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
-    # scales and labels
-    _forget_empty(ax)
-    shows = _shows_numbers(ax)
-    scale_heights(ax, array, log)
-    _scale_across(ax, array[x], along)
-    ax.set_xlabel(label)
-    ax.set_ylabel(label_in(study, variable))
-    _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
-    ax.margins(0.03)
+    set_scales(ax, study, variable, x, log)
 
     # what is no value, or none that was found
     point_down(ax, parts, along, bounds, looks)
@@ -154,7 +144,29 @@ def draw_lines(
     return drawn
 
 
-def _dashes_of(look: Look) -> Any:
+def heights_of(study: xr.Dataset, variable: str) -> tuple[list[str], xr.DataArray]:
+    """Names of the classes of a variable, if it has any, and its heights above the axis: without those
+    of -inf, which are marked above the panel."""
+    names, array = as_numbers(as_classes(study, variable))
+    array = array.copy(data=measured(array).values)
+    return names, array.where(~np.isneginf(array))
+
+
+def set_scales(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool) -> None:
+    """Set the scales, ticks and labels of axes with lines of a variable."""
+    names, array = heights_of(study, variable)
+    label, along = measured_along(array[x])
+    _forget_empty(ax)
+    shows = _shows_numbers(ax)
+    scale_heights(ax, array, log)
+    _scale_across(ax, array[x], along)
+    ax.set_xlabel(label)
+    ax.set_ylabel(label_in(study, variable))
+    _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
+    ax.margins(0.03)
+
+
+def dashes_of(look: Look) -> Any:
     """The dashes of a look; a line without gaps if it has none."""
     return look.line(THIN).get("linestyle", "-")
 
@@ -202,7 +214,7 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
     ax.set_xticks(range(0, len(words), every), labels=words[::every])
 
 
-def _open_steps(
+def open_steps(
     study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
 ) -> dict[str, Mask]:
     """The steps at which each line of a variable of cycles is open: those at which the growth rate says

@@ -152,7 +152,7 @@ def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: L
     by = remaining(array, [x])
     across = measured_along(array[x]).values
     placed = array[x].notnull()
-    for reason, gone in _reasons_of_gaps(study, array).items():
+    for reason, gone in reasons_of_gaps(study, array).items():
         for part in parts_along(gone & placed, by):
             mask = part.data.values
             if mask.any():
@@ -160,7 +160,7 @@ def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: L
                 add_row(ax, reason, across[mask], **look)
 
 
-def _reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
+def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points without a value, by the words that say why: also where longer stays may give one."""
     found = {}
     doubtful = unsettled(study, str(array.name))

@@ -1,6 +1,6 @@
 """Legends that stay inside the page, whatever they say and however narrow it is."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from textwrap import fill
@@ -119,7 +119,7 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
     page: Any = ax.get_figure(root=True)
     legend: Legend = None
     for size in ({}, small()):
-        legend = ax.legend(handles=entries, loc="best", **size, **look)
+        legend = ax.legend(handles=entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
         page.draw_without_rendering()  # sets the places
@@ -251,9 +251,7 @@ def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
             loc="center left",
             bbox_to_anchor=(1, 0.5),
             bbox_transform=ax.transAxes + offset,
-            borderaxespad=0,
-            **size,
-            **look,
+            **{"borderaxespad": 0, **size, **look},
         )
         legend = _widest_that_fits(draw, 1, width)
         # a layout would squeeze the panel, which has this room on its right anyway
@@ -304,8 +302,7 @@ def legend_below(
             loc="upper left",
             bbox_to_anchor=(0, 0),
             bbox_transform=ax.transAxes + offset,
-            **size,
-            **look,
+            **{**size, **look},
         )
         places.append(Place(draw, width + shift))
     place = _first_that_fits(places, 2)
@@ -320,8 +317,7 @@ def legend_below(
 
     # lower axes may have narrower numbers, and begin further to the left; the layout may move them
     # once more when the legend has its place
-    anchor: Any = place.draw
-    setattr(legend, ANCHOR, Anchor(anchor.keywords["bbox_transform"]))
+    setattr(legend, ANCHOR, Anchor(place.draw.keywords["bbox_transform"]))
     for _ in range(MOVES):
         page.draw_without_rendering()
         move_to_page(ax, bars)
@@ -352,14 +348,14 @@ def move_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
 class Place(NamedTuple):
     """How a legend is drawn at a place, and the width in pixels that it has there."""
 
-    draw: Callable[..., Legend]
+    draw: partial[Legend]
     width: float
 
 
 def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
     """The first place that is wide enough for so many columns, or for as many fewer as need be; the
     last one if none is."""
-    for count in range(columns, 0, -1):
+    for count in _columns_tried(places[0].draw, columns):
         for place in places:
             trial = place.draw(ncols=count)
             width = trial.get_window_extent().width
@@ -478,15 +474,23 @@ def _room_above(ax: Axes) -> float:
     return float(ax.bbox.x1 - EDGE * figure.dpi)
 
 
-def _widest_that_fits(draw: Callable[..., Legend], most: int, width: float) -> Legend:
+def _columns_tried(draw: partial[Legend], most: int) -> Sequence[int]:
+    """The numbers of columns among which that of a legend is chosen: the one asked for, if there is
+    one, or all from the greatest one to 1."""
+    asked = draw.keywords.get("ncols")
+    return [asked] if asked else range(most, 0, -1)
+
+
+def _widest_that_fits(draw: partial[Legend], most: int, width: float) -> Legend:
     """The legend in the greatest number of columns whose width in pixels it does not exceed; in
     one column of broken lines where even that is too wide."""
-    for count in range(most, 0, -1):
+    *more, fewest = _columns_tried(draw, most)
+    for count in more:
         legend = draw(ncols=count)
         if legend.get_window_extent().width <= width:
             return legend
-        if count > 1:
-            legend.remove()
+        legend.remove()
+    legend = draw(ncols=fewest)
     said = [text.get_text() for text in (*legend.get_texts(), legend.get_title())]
     longest = max(map(len, said), default=0)
     while legend.get_window_extent().width > width and longest > NARROWEST:

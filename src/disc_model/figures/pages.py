@@ -28,6 +28,8 @@ LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles 
 PLACED = "_disc_model_placed"
 """Attribute of a legend that was placed for its reader: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
+PLACING = ("loc", "bbox_to_anchor")
+"""Options of a legend that say where it stands."""
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
 
@@ -36,7 +38,8 @@ class Wishes:
     """What a reader asks of a picture.
 
     ax : axes to draw on, one or several; None for a new figure
-    legend : whether there is a legend; or options of `Axes.legend`, such as its place
+    legend : whether there is a legend; or options of `Axes.legend`, such as the size of its text, or its
+        place in that of the usual one
     labels : other words for labels of axes, which are called "x" and "y", of a bar of colours,
         called "bar", and for entries of the legend, which are called as they are without
     title : another title; "" for none, None for the usual one
@@ -256,40 +259,50 @@ def _seen_as(handle: Artist) -> tuple[str, ...]:
 
 
 def write_legend(page: Page, wishes: Wishes) -> None:
-    """Write the legend, if there is one: in the place that the reader's options give, below a new
-    figure, or inside a reader's axes or below them."""
-    legend = wishes.legend
-    if not page.handles or legend is False:
+    """Write the legend, if there is one, in the look that the reader's options give: in their place,
+    or else below a new figure, or inside a reader's axes or below them."""
+    if not page.handles or wishes.legend is False:
         return
     if page.joins and not page.own:
         page.handles = _joined(page.axes, page.handles, page.replaced)
-    if isinstance(legend, Mapping):
-        try:
-            page.ax.legend(**{"handles": list(page.handles), "title": page.heading, **legend})
-        except (TypeError, ValueError) as error:
-            raise ParameterError(Fault.of(("legend",), legend, str(error))) from None
+    look: dict[str, Any] = {"title": page.heading}
+    if isinstance(wishes.legend, Mapping):
+        look |= _checked_look(page, wishes.legend)
+    if any(name in look for name in PLACING):
+        page.ax.legend(handles=list(page.handles), **look)
     elif page.figure.get_gid() == OWN:
-        figure_legend(page.figure, page.handles, title=page.heading)
+        figure_legend(page.figure, page.handles, **look)
     else:
         page.handles = _joined_with_twins(page)
-        _place_legend(page)
+        _place_legend(page, look)
 
 
-def _place_legend(page: Page) -> None:
+def _checked_look(page: Page, options: Mapping[str, Any]) -> dict[str, Any]:
+    """The options of a legend by their newer names; raises `ParameterError` if matplotlib refuses
+    one."""
+    look = dict(options)
+    if "ncol" in look:
+        look["ncols"] = look.pop("ncol")
+    try:
+        page.ax.legend(handles=list(page.handles), **look).remove()
+    except (TypeError, ValueError) as error:
+        raise ParameterError(Fault.of(("legend",), options, str(error))) from None
+    return look
+
+
+def _place_legend(page: Page, look: Mapping[str, Any]) -> None:
     """Write the legend inside a reader's axes, beside a square panel, or below the axes."""
     page.legend = None
     if page.beside == "inside":
-        page.legend = legend_inside(page.ax, page.handles, title=page.heading)
+        page.legend = legend_inside(page.ax, page.handles, **look)
     if page.beside != "below" and page.legend is None and is_square(page.ax):
         page.beside = "beside"
         anchor = page.ax.get_anchor()
         page.ax.set_anchor("W")  # so that all room is on one side
-        page.legend = legend_beside(page.ax, page.handles, title=page.heading)
+        page.legend = legend_beside(page.ax, page.handles, **look)
         if page.legend is None:
             page.ax.set_anchor(anchor)
     if page.legend is None:
         page.beside = "below"
         last = page.axes[-1]
-        page.legend = legend_below(
-            last, page.handles, page.beside_last, page.spare, title=page.heading
-        )
+        page.legend = legend_below(last, page.handles, page.beside_last, page.spare, **look)

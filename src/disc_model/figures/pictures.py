@@ -61,7 +61,7 @@ def plot_sweep(  # noqa: PLR0913
         `hysteresis`; if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent,
         the number of separations of `simulate`, the lowest coupled frequency, or the first number there is
     x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
-        given
+        given. Over a dimension beside paired samples, each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. Growth rates of both

@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -50,12 +50,22 @@ COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 
 
+class Paired(NamedTuple):
+    """A study of paired samples: the column of their values along the horizontal axis, "" for none, or
+    the dimension of samples that have a line each, "" for none."""
+
+    study: xr.Dataset
+    column: str = ""
+    samples: str = ""
+
+
 @dataclass(frozen=True)
 class Drawn:
     """A variable, and its dimensions: along the horizontal axis, and up or by line, if any.
 
     mapped : whether the second dimension goes up, in a map
     joined : whether lines join the points; not those of paired values, which have no order
+    sampled : whether the second dimension is that of paired samples, each of which has a line
     """
 
     variable: str
@@ -63,6 +73,7 @@ class Drawn:
     second: str | None
     mapped: bool
     joined: bool = True
+    sampled: bool = False
 
     @property
     def is_line(self) -> bool:
@@ -83,11 +94,12 @@ def choose_drawn(
     if not variables[0]:
         study = _with_first_values(study)
     whole = _varying(_with_names_of_discs(study))
-    varying, column = _along_pairs(_with_one_horizon(whole), x)
-    if not column:
-        varying = _ascending(varying)
+    paired = _paired(_with_one_horizon(whole), x)
+    varying = paired.study
+    if not paired.column:
+        varying = _ascending(varying, paired.samples)
 
-    drawn = [_drawn(varying, each, column, x, lines) for each in variables]
+    drawn = [_drawn(paired._replace(study=varying), each, x, lines) for each in variables]
     for each in drawn[1:]:
         alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
         rule = "must be lines over the same dimension to be drawn together"
@@ -104,14 +116,19 @@ def _refuse_branches(study: xr.Dataset) -> None:
     raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 
-def _drawn(study: xr.Dataset, variable: str, column: str, x: str, lines: str) -> Drawn:
+def _drawn(paired: Paired, variable: str, x: str, lines: str) -> Drawn:
     """What is drawn of a variable, over a column of paired values, if there is one."""
+    study, column, samples = paired
     name = _chosen_variable(study, variable)
     if lines:
         drawn = _with_lines(study, name, column or x, lines)
     else:
         drawn = _chosen_axes(study, name, column or x)
-    return replace(drawn, mapped=False, joined=False) if column else drawn
+    if column:
+        return replace(drawn, mapped=False, joined=False)
+    if samples and drawn.second == samples:
+        return replace(drawn, mapped=False, sampled=True)
+    return drawn
 
 
 def _with_lines(study: xr.Dataset, variable: str, x: str, lines: str) -> Drawn:
@@ -160,10 +177,11 @@ def _with_one_horizon(study: xr.Dataset) -> xr.Dataset:
     return study.assign_attrs(options=json.dumps(options))
 
 
-def _ascending(study: xr.Dataset) -> xr.Dataset:
-    """The study with the numbers along its dimensions in their order: lines would go back and
-    forth, and cells of a map lie on each other. Those that are not finite have no place."""
-    named = [name for name in study.dims if name in study.coords]
+def _ascending(study: xr.Dataset, samples: str) -> xr.Dataset:
+    """The study with the numbers along its dimensions, but that of samples, in their order: lines
+    would go back and forth, and cells of a map lie on each other. Those that are not finite have no
+    place."""
+    named = [name for name in study.dims if name in study.coords and name != samples]
     numbers = [name for name in named if study[name].dtype.kind in "fi"]
     placed = {name: np.isfinite(study[name].values) for name in numbers}
     return study.isel(placed).sortby(numbers)
@@ -181,24 +199,34 @@ def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
     return study.assign_coords(named)
 
 
-def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
+def _paired(study: xr.Dataset, x: str) -> Paired:
     """The study along one of the columns of numbers that vary together, the first of them unless
-    `x` is another, or their labels, and its name; "" if none vary together."""
-    for dim in study.get("status", study).dims:
-        beside = [
-            name for name, values in study.coords.items() if values.dims == (dim,) and name != dim
-        ]
-        columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
-        columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
-        if columns and (dim not in study.coords or x in columns):
+    `x` is another, or their labels; or with a line for each sample if `x` is an axis beside them."""
+    for dim in map(str, study.get("status", study).dims):
+        columns = _columns_along(study, dim)
+        if not columns:
+            continue
+        named = dim in study.coords
+        beside = [name for name in _drawn_dims(study) if name != dim]
+        if x in columns or not (named or x in beside):
             column = x or columns[0]
-            curves = (
-                'xarray draws a curve of each sample, as by study["growth_rate"].plot.line(x=...)'
-            )
-            rule = f"must be one of {', '.join(columns)}; {curves}"
+            rule = f"must be one of {', '.join([*columns, *beside])}"
             require((column in columns, "x", x, rule))
-            return study.swap_dims({dim: column}), column
-    return study, ""
+            return Paired(study.swap_dims({dim: column}), column=column)
+        if not named:
+            return Paired(study.swap_dims({dim: columns[0]}), samples=columns[0])
+        if study[dim].dtype.kind in "UO":
+            return Paired(study, samples=dim)
+    return Paired(study)
+
+
+def _columns_along(study: xr.Dataset, dim: str) -> list[str]:
+    """The columns of numbers, and then of words, along a dimension of samples."""
+    beside = [
+        str(name) for name, values in study.coords.items() if values.dims == (dim,) and name != dim
+    ]
+    numbers = [name for name in beside if study[name].dtype.kind in "fi"]
+    return [*numbers, *(name for name in beside if study[name].dtype.kind in "UO")]
 
 
 def _drawn_dims(study: xr.Dataset) -> list[str]:
@@ -294,21 +322,33 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
 def title_of(study: xr.Dataset, drawn: Drawn) -> str:
     """What does not vary in a study, and of paired samples, what varies beside the column over which
     they are drawn, and how many have no number there."""
-    said = [what_case(values_of(study)), *_said_of_samples(study, drawn.across)]
+    said = [what_case(values_of(study))]
+    if drawn.sampled:
+        said.append(_varies(_numbers_along(study, str(drawn.second))))
+    else:
+        said += _said_of_samples(study, drawn.across)
     return ", ".join(filter(None, said))
 
 
 def _said_of_samples(study: xr.Dataset, column: str) -> Iterator[str]:
     """Yield what varies with a column of paired samples, and how many have no number in it."""
-    numbers = [
-        str(name)
-        for name, values in study.coords.items()
-        if values.dims == (column,) and values.dtype.kind in "fi"
-    ]
-    beside = [name for name in numbers if name != column]
+    beside = [name for name in _numbers_along(study, column) if name != column]
     if beside:
-        verb = "vary" if len(beside) > 1 else "varies"
-        yield f"{' and '.join(map(symbol_of, beside))} {verb} as well"
+        yield f"{_varies(beside)} as well"
     missing = int(study[column].isnull().sum())
     if missing:
         yield f"{counted(missing, 'sample')} without {symbol_of(column)}"
+
+
+def _numbers_along(study: xr.Dataset, dim: str) -> list[str]:
+    """The names of numbers along a dimension."""
+    along = [str(name) for name, values in study.coords.items() if values.dims == (dim,)]
+    return [name for name in along if study[name].dtype.kind in "fi"]
+
+
+def _varies(names: Sequence[str]) -> str:
+    """What is said of numbers that vary between samples; "" of none."""
+    if not names:
+        return ""
+    verb = "vary" if len(names) > 1 else "varies"
+    return f"{' and '.join(map(symbol_of, names))} {verb}"

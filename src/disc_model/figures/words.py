@@ -74,8 +74,8 @@ SHORT = {
     "scan_outcome": "outcome",
     "critical_speed": "critical speed",
     "horizon": "horizon",
-    "onset_speed": "speed at which separation begins on the way up",
-    "offset_speed": "speed at which separation ends on the way down",
+    "onset_speed": "speed at separation onset",
+    "offset_speed": "speed at separation end",
 }
 """What labels call variables whose long names explain them."""
 TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
