@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.data.variables import WITHOUT_EFFECT
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
@@ -188,7 +189,8 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
         beside = [
             name for name, values in study.coords.items() if values.dims == (dim,) and name != dim
         ]
-        columns = [str(name) for name in beside if study[name].dtype.kind in "fi"]
+        numbers = [str(name) for name in beside if study[name].dtype.kind in "fi"]
+        columns = sorted(numbers, key=lambda name: _is_without_effect(study[name]))
         columns += [str(name) for name in beside if study[name].dtype.kind in "UO"]
         if columns and (dim not in study.coords or x in columns):
             column = x or columns[0]
@@ -199,6 +201,11 @@ def _along_pairs(study: xr.Dataset, x: str) -> tuple[xr.Dataset, str]:
             require((column in columns, "x", x, rule))
             return study.swap_dims({dim: column}), column
     return study, ""
+
+
+def _is_without_effect(values: xr.DataArray) -> bool:
+    """Whether numbers along samples are none of the case."""
+    return WITHOUT_EFFECT.items() <= values.attrs.items()
 
 
 def _drawn_dims(study: xr.Dataset) -> list[str]:
@@ -305,7 +312,7 @@ def _said_of_samples(study: xr.Dataset, column: str) -> Iterator[str]:
         for name, values in study.coords.items()
         if values.dims == (column,) and values.dtype.kind in "fi"
     ]
-    beside = [name for name in numbers if name != column]
+    beside = [name for name in numbers if name != column and not _is_without_effect(study[name])]
     if beside:
         verb = "vary" if len(beside) > 1 else "varies"
         yield f"{' and '.join(map(symbol_of, beside))} {verb} as well"
