@@ -52,8 +52,7 @@ def fit(
         `Measurement` objects, which may differ in what was set, such as the speed; or a table with the columns
         ``quantity``, ``value``, ``uncertainty`` and numbers of the case that were set, such as ``Omega``, in which an
         empty cell stands for the value of the case
-    bounds : least and greatest value of varied parameters, by name; needed where the start is 0. Intervals end at
-        values within them only
+    bounds : least and greatest value of varied parameters, by name; needed where the start is 0
     confidence : probability of the confidence intervals
 
     Returns
