@@ -689,6 +689,18 @@ def test_an_interval_may_pass_both_bounds() -> None:
     assert dict(found.summary())["k_p"] == "19109 N/m (less than 19000 to more than 19200)"
 
 
+def test_a_parameter_without_an_interval_has_no_fold_within_it() -> None:
+    """The end of an interval that is not given was said to have no motion."""
+
+    def short(case: dm.Parameters) -> float:
+        return case.c_p if case.c_p < 1.8 else math.nan
+
+    found = dm.fit(BLOCK.replace(c_p=1), ["c_p"], [dm.Measurement(short, 0.0, 1.0)])
+    assert found.at_bounds == {"c_p": 0.0}
+    assert found.unpredicted == {}
+    assert found.limits["c_p"] == pytest.approx(1.645, rel=1e-3)
+
+
 @pytest.mark.parametrize("low", [19109.0, 19150.0, 20000.0])
 def test_a_bound_holds_a_value_that_lies_there(low: float) -> None:
     found = stiffness_between(low, 21000)

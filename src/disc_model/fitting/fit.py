@@ -174,7 +174,7 @@ def _result(
         indistinct = ()
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
     for i, name in enumerate(names):
-        if name in indistinct:
+        if name in indistinct or name in at_bounds:
             deviation[i] = low[i] = high[i] = np.nan
             continue
         # the others change with it as the covariance says
@@ -191,8 +191,6 @@ def _result(
             unpredicted[name] = tuple(float(end[i]) for end in gone)
         for end in gone:
             end[i] = np.nan
-        if name in at_bounds:
-            deviation[i] = low[i] = high[i] = np.nan
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
