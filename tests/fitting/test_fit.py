@@ -414,7 +414,7 @@ def test_a_fit_is_a_dataset_of_its_parameters_and_measurements() -> None:
     assert held["at_bound"].item() == 0.0
     assert held["limit"].item() == fit.limits["c_p"]
     assert np.isnan(held["low"].item())
-    assert held["low"].attrs["long_name"].endswith(", or no such motion was found there")
+    assert held["low"].attrs["long_name"].endswith(", or it lies beyond a bound")
 
     assert data["quantity"].values.tolist() == ["frequency_2_0", "frequency_0_0", "damping"]
     assert data["measured_unit"].values.tolist() == ["Hz", "Hz", ""]
@@ -645,10 +645,68 @@ def test_a_bound_that_holds_a_parameter_is_said() -> None:
     near = 19000 + 0.5 * free.parameters["k_p"].deviation
     below = case.replace(k_p=18500.0)
     beside = dm.fit(below, ["k_p"], measured, bounds={"k_p": (18000, near)})
-    assert beside.at_bounds == {"k_p": near}
-    assert not beside.consistent
-    for fit in (held, beside):
-        assert np.isnan(fit.parameters["k_p"][1:]).all()
+    assert beside.at_bounds == {}
+    assert beside.passed_bounds == {"k_p": (near,)}
+    assert np.isnan(held.parameters["k_p"][1:]).all()
+
+
+def stiffness_between(low: float, high: float) -> dm.Fit:
+    """A fit of a stiffness that is measured as 19109 ± 97 N/m."""
+
+    def stiffness(case: dm.Parameters) -> float:
+        return case.k_p
+
+    start = BLOCK.replace(k_p=0.5 * (low + high))
+    measured = [dm.Measurement(stiffness, 19109.0, 97.0)]
+    return dm.fit(start, ["k_p"], measured, bounds={"k_p": (low, high)})
+
+
+def test_a_bound_that_only_an_interval_passes_leaves_the_rest() -> None:
+    """The parameter was said to be held by the bound, and had no standard deviation."""
+    found = stiffness_between(19000, 21000)
+    k_p = found.parameters["k_p"]
+    assert found.at_bounds == {}
+    assert found.passed_bounds == {"k_p": (19000.0,)}
+    assert k_p.deviation == pytest.approx(97, rel=1e-4)
+    assert k_p.high == pytest.approx(19109 + 1.96 * 97, rel=1e-5)
+    assert math.isnan(k_p.low)
+    assert found.consistent
+    said = dict(found.summary())
+    assert said["k_p"] == "19109 N/m (less than 19000 to 19299.1)"
+    assert str(said["intervals"]).endswith(
+        "; the interval of k_p passes its bound 19000, beyond which its end is not known"
+    )
+    data = found.to_dataset().sel(parameter="k_p")
+    assert data["passed_low"].item() == 19000.0
+    assert np.isnan(data["passed_high"].item())
+    assert np.isnan(data["at_bound"].item())
+
+
+def test_an_interval_may_pass_both_bounds() -> None:
+    found = stiffness_between(19000, 19200)
+    assert found.passed_bounds == {"k_p": (19000.0, 19200.0)}
+    assert np.isnan(found.parameters["k_p"][2:]).all()
+    assert dict(found.summary())["k_p"] == "19109 N/m (less than 19000 to more than 19200)"
+
+
+def test_a_parameter_without_an_interval_has_no_fold_within_it() -> None:
+    """The end of an interval that is not given was said to have no motion."""
+
+    def short(case: dm.Parameters) -> float:
+        return case.c_p if case.c_p < 1.8 else math.nan
+
+    found = dm.fit(BLOCK.replace(c_p=1), ["c_p"], [dm.Measurement(short, 0.0, 1.0)])
+    assert found.at_bounds == {"c_p": 0.0}
+    assert found.unpredicted == {}
+    assert found.limits["c_p"] == pytest.approx(1.645, rel=1e-3)
+
+
+@pytest.mark.parametrize("low", [19109.0, 19150.0, 20000.0])
+def test_a_bound_holds_a_value_that_lies_there(low: float) -> None:
+    found = stiffness_between(low, 21000)
+    assert found.at_bounds == {"k_p": low}
+    assert found.passed_bounds == {}
+    assert found.doubt.startswith(f"k_p is held by its bound {low:.6g}: widen")
 
 
 def test_a_fit_at_a_bound_shows_what_it_says() -> None:

@@ -2,6 +2,7 @@
 point alone."""
 
 import math
+import re
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
@@ -281,6 +282,48 @@ def test_a_rule_that_cannot_be_evaluated_does_not_hold(rule: str, kept: bool) ->
     """Neither a division by zero, nor a word that would be repeated."""
     values = {"mu_k": 0.2, "mu_s": 0.4, "c_p": 0.0, "n_diameters": 2, "normalization": "x"}
     assert holds([rule], values) is kept
+
+
+RULES = [
+    (
+        "hysteresis",
+        SWEEP | {"scan": SCAN, "dwell": 0.1},
+        "evaluation_time=0.2 must be <= dwell=0.1",
+    ),
+    ("branches", SWEEP | {"scan": SCAN, "dwell": 0.1}, "evaluation_time=0.2 must be <= dwell=0.1"),
+    (
+        "branches",
+        SWEEP | {"scan": SCAN, "sweep_from": 21},
+        "sweep_from=21 must be <= the scan's last value, 20",
+    ),
+    ("locking", {"record": 5, "max_record": 4}, "record=5 must be <= max_record=4"),
+    (
+        "outcome",
+        {"horizon": 0.5},
+        "evaluation_time=1 must be <= after_separation=5 and <= horizon=0.5",
+    ),
+    ("ramps", {"low": 3, "high": 2, "rates": SCAN}, "low=3 must be < high=2"),
+    (
+        "range_law",
+        {"horizon": 1},
+        "evaluation_time=2 must be < horizon=1 and < displaced_horizon=40",
+    ),
+    (
+        "critical_speed",
+        {"horizons": [1], "scan": SCAN, "precision": 3},
+        "the scan's step must be a multiple of precision=3",
+    ),
+    ("basins", {"energies": [0, 1], "n_starts": 2}, "n_starts=2 must be 1 where an energy is 0"),
+]
+"""Options that break a rule between them, and what it says."""
+
+
+@pytest.mark.parametrize(("name", "options", "said"), RULES)
+def test_a_rule_between_options_shows_their_values(
+    name: str, options: dict[str, Any], said: str
+) -> None:
+    with refusal(re.escape(said)):
+        quantity_of(name).model_validate(options)
 
 
 def test_an_axis_has_a_hundred_thousand_values_at_most() -> None:

@@ -459,7 +459,11 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
         ),
         ({"N": []}, r"^zip.N=\[\]: must have one value or more"),
         ({"Omega": [1, 2]}, r"^zip.Omega: must not be an axis as well"),
-        ({"sample": [1, 2], "N": [1, 2]}, r"^zip.sample: is no number .*known: a, a_over_b, b,"),
+        ({"Omgea": [1, 2], "N": [1, 2]}, r"^zip.Omgea: is no number .*known: a, a_over_b, b,"),
+        ({"level": [1, 2], "N": [1, 2]}, r"^zip.level: is an argument of the function"),
+        ({"levle": [1, 2], "N": [1, 2]}, r"^zip.levle: is no number .*did you mean level\?"),
+        ({"message": [1, 2], "N": [1, 2]}, r"^zip.message: must have another name"),
+        ({"rate": [1, "x"], "N": [1, 2]}, r"^zip.rate: is no number .*must hold words or numbers"),
         ({"contct": ["bilateral"], "N": [1]}, r"^zip.contct: is no number .*mean contact\?"),
         ({"sample": ["A"], "N": [1, 2]}, r"^zip={'N': 2, 'sample': 1}: must have columns of one"),
         ({"status": ["A"], "N": [1]}, r"^zip.status: must have another name"),
@@ -470,7 +474,12 @@ def test_pairs_are_read_from_tables(table: Any) -> None:
 )
 def test_pairs_that_do_not_fit_are_refused(table: Any, message: str) -> None:
     with refusal(message):
-        sweep(products, P, zip=table, Omega=[10.0])
+        sweep(products_at, P, zip=table, Omega=[10.0])
+
+
+def products_at(case: dm.Parameters, level: float = 1.0) -> dict[str, float]:
+    """A function with an argument."""
+    return {"load": level * case.N}
 
 
 @pytest.mark.parametrize("errors", ["raise", "record"])
@@ -546,6 +555,26 @@ def test_a_function_must_take_a_case(function: Any) -> None:
         sweep(function, P, Omega=[10.0, 12.0])
 
 
+@pytest.mark.parametrize(
+    ("name", "units", "meaning"),
+    [
+        ("omega_1_0", "rad s-1", "natural frequency of the mode of 1 nodal diameter and 0 circles"),
+        ("amplitude_0_2", "kg^-1/2", "amplitude of the mode of 0 nodal diameters and 2 circles"),
+        ("damping_ratio_0_2", "1", "damping ratio of the mode of 0 nodal diameters and 2 circles"),
+    ],
+)
+def test_numbers_of_modes_have_units_and_names_along_axes(
+    name: str, units: str, meaning: str
+) -> None:
+    """Their coordinates had no attributes, and pictures showed the bare name."""
+    disc = dm.Disc(diameters=[1, 0], circles=[0, 2], omega=[1500, 1800], amplitude=[1, 2])
+    case = P.replace(disc=disc, r_0=0.1)
+    found = sweep(products, case, **{name: [case.numbers[name], 1600.0]})
+    assert found[name].attrs == {"units": units, "long_name": meaning}
+    assert dm.plot_sweep(found).get_xlabel().replace("\n", " ").startswith(meaning.capitalize())
+    pyplot.close("all")
+
+
 @pytest.mark.parametrize("as_index", [False, True])
 def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path) -> None:
     """A column of names was refused, as it is no number of the case."""
@@ -560,6 +589,47 @@ def test_words_of_a_table_stay_beside_its_samples(as_index: bool, tmp_path: Path
     expected = sweep(products, P, zip={name: table[name] for name in PAIRS})
     xr.testing.assert_identical(found.drop_vars(["sample", "new"]), expected)
     dm.save(found, tmp_path / "found.nc")
+    xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
+
+
+LABORATORY = pd.DataFrame({**PAIRS, "temperature": [20.5, np.nan, 22], "Unnamed: 0": [0, 1, 2]})
+
+
+def test_other_numbers_of_a_table_stay_beside_its_samples(tmp_path: Path) -> None:
+    """A column of numbers that the case does not have was refused."""
+    with pytest.warns(dm.ImplausibleValue) as caught:
+        found = sweep(products, P, zip=LABORATORY)
+    assert [str(each.message) for each in caught] == [
+        "temperature and Unnamed_0 are no numbers of the case: kept beside the samples, without effect"
+    ]
+    assert found["temperature"].dims == ("N_mu_k",)
+    assert found["temperature"].values.tolist()[::2] == [20.5, 22]
+    assert np.isnan(found["temperature"].values[1])
+    assert found["Unnamed_0"].values.tolist() == [0, 1, 2]
+    expected = sweep(products, P, zip=PAIRS)
+    xr.testing.assert_identical(found.drop_vars(["temperature", "Unnamed_0"]), expected)
+    dm.save(found, tmp_path / "found.nc")
+    xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
+
+
+@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
+def test_other_numbers_are_drawn_over_where_they_are_asked_for() -> None:
+    first = LABORATORY[["temperature", "Unnamed: 0", "N", "mu_k"]]
+    found = sweep(products, P, zip=first)
+    usual = dm.plot_sweep(found, "load")
+    assert usual.get_xlabel() == "Preload N (N)"
+    assert "temperature" not in usual.figure.get_suptitle()
+    asked = dm.plot_sweep(found, "load", x="temperature")
+    assert asked.get_xlabel() == "Temperature"
+    assert "N and $\\mathrm{μ_k}$ vary as well" in asked.figure.get_suptitle()
+    pyplot.close("all")
+
+
+def test_a_name_of_several_words_stays_a_coordinate_in_a_file(tmp_path: Path) -> None:
+    """It became a variable there, since files separate the names of coordinates by spaces."""
+    found = sweep(products, P, zip={"N": [300, 320], "sample name": ["A", "B"]})
+    dm.save(found, tmp_path / "found.nc")
+    assert dm.load(tmp_path / "found.nc")["sample_name"].values.tolist() == ["A", "B"]
     xr.testing.assert_identical(dm.load(tmp_path / "found.nc"), found)
 
 

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
+from disc_model.display import counted
 from disc_model.errors import Status, StatusBase
 from disc_model.parameters import RATIOS, Parameters
 
@@ -199,6 +200,10 @@ TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
 """Attributes of numbers that stand for True and False, since some are missing."""
 
 
+WITHOUT_EFFECT = {"comment": "kept beside the samples, without effect on the results"}
+"""Attributes of numbers that stand along samples, but are none of the case."""
+
+
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
     they are."""
@@ -237,6 +242,22 @@ def presentation_of(name: str) -> Shown:
     column, diameters, circles = name.rsplit("_", 2)
     symbol, unit = _OF_A_MODE[column]
     return Shown("", f"{symbol}({diameters}, {circles})", unit)
+
+
+_MODE_NUMBERS = {
+    "omega": Variable("rad s-1", "natural frequency"),
+    "amplitude": Variable("kg^-1/2", "amplitude"),
+    "damping_ratio": Variable("1", "damping ratio"),
+}
+"""What the table of a disc states of each mode."""
+
+
+def attributes_of_mode(name: str) -> dict[str, Any]:
+    """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
+    column, diameters, circles = name.rsplit("_", 2)
+    number = _MODE_NUMBERS[column]
+    nodes = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
+    return number._replace(long_name=f"{number.long_name} of the mode of {nodes}").attributes
 
 
 def axis_of(name: str, where: str = "") -> tuple[str, float]:

@@ -105,6 +105,14 @@ def warn_of_measured(measured: Sequence[tuple[str, float, str]], computed: Seque
         _warn(f"measured.{texts[0]}{more}")
 
 
+def warn_without_effect(names: Sequence[str]) -> None:
+    """Warn of columns of a table of samples, if any, that are no numbers of the case."""
+    if names:
+        are = "is no number" if len(names) == 1 else "are no numbers"
+        kept = "kept beside the samples, without effect"
+        _warn(f"{' and '.join(names)} {are} of the case: {kept}")
+
+
 def _out_of_reach(value: float, given: float, unit: str) -> str:
     """What is implausible of a measured value beside the computed one; "" of what may be small or
     have either sign, such as growth rates and damping ratios."""

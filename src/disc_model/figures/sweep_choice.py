@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.data.variables import WITHOUT_EFFECT
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
@@ -221,12 +222,18 @@ def _paired(study: xr.Dataset, x: str) -> Paired:
 
 
 def _columns_along(study: xr.Dataset, dim: str) -> list[str]:
-    """The columns of numbers, and then of words, along a dimension of samples."""
+    """The columns of numbers along a dimension of samples, those of the case first, and then of words."""
     beside = [
         str(name) for name, values in study.coords.items() if values.dims == (dim,) and name != dim
     ]
     numbers = [name for name in beside if study[name].dtype.kind in "fi"]
+    numbers.sort(key=lambda name: _is_without_effect(study[name]))
     return [*numbers, *(name for name in beside if study[name].dtype.kind in "UO")]
+
+
+def _is_without_effect(values: xr.DataArray) -> bool:
+    """Whether numbers along samples are none of the case."""
+    return WITHOUT_EFFECT.items() <= values.attrs.items()
 
 
 def _drawn_dims(study: xr.Dataset) -> list[str]:
@@ -341,9 +348,10 @@ def _said_of_samples(study: xr.Dataset, column: str) -> Iterator[str]:
 
 
 def _numbers_along(study: xr.Dataset, dim: str) -> list[str]:
-    """The names of numbers along a dimension."""
+    """The names of numbers of the case along a dimension."""
     along = [str(name) for name, values in study.coords.items() if values.dims == (dim,)]
-    return [name for name in along if study[name].dtype.kind in "fi"]
+    numbers = [name for name in along if study[name].dtype.kind in "fi"]
+    return [name for name in numbers if not _is_without_effect(study[name])]
 
 
 def _varies(names: Sequence[str]) -> str:

@@ -25,7 +25,9 @@ OF_PARAMETERS = {
     "deviation": Variable("", "standard deviation of the fitted value"),
     "low": Variable("", "low end of the confidence interval"),
     "high": Variable("", "high end of the confidence interval"),
-    "at_bound": Variable("", "bound at which the parameter lies, or that its interval would pass"),
+    "at_bound": Variable("", "bound at which the parameter lies, or that no case can pass"),
+    "passed_low": Variable("", "lower bound that the confidence interval passes"),
+    "passed_high": Variable("", "upper bound that the confidence interval passes"),
     "limit": Variable("", "value that the parameter is below, or above, with the confidence"),
     "indistinct": Variable("1", "whether the measurements do not determine the parameter"),
 }
@@ -98,9 +100,19 @@ def _values_of_parameters(fit: Fit) -> dict[str, Sequence[Any]]:
         "low": [each.low for each in fitted],
         "high": [each.high for each in fitted],
         "at_bound": [fit.at_bounds.get(name, math.nan) for name in names],
+        "passed_low": [_passed(fit, name, below=True) for name in names],
+        "passed_high": [_passed(fit, name, below=False) for name in names],
         "limit": [fit.limits.get(name, math.nan) for name in names],
         "indistinct": [name in fit.indistinct for name in names],
     }
+
+
+def _passed(fit: Fit, name: str, *, below: bool) -> float:
+    """The bound below or above the value of a parameter that its interval passes, nan if none."""
+    for bound in fit.passed_bounds.get(name, ()):
+        if (bound < fit.parameters[name].value) == below:
+            return bound
+    return math.nan
 
 
 def _values_of_pairs(fit: Fit) -> dict[str, Any]:

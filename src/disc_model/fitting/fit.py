@@ -21,7 +21,7 @@ from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
 from disc_model.fitting.arguments import Interval, checked_measurements, limits_in_si
 from disc_model.fitting.determination import indistinct_names, sensitivity_of
-from disc_model.fitting.limits import limits_at_zero, passes_zero, with_limits
+from disc_model.fitting.limits import bounds_within, limits_at_zero, passes_zero, with_limits
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.problem import Problem
 from disc_model.fitting.result import Fit, Fitted
@@ -169,28 +169,28 @@ def _result(
     low = fitted - reach
     high = fitted + reach
     unpredicted: dict[str, tuple[float, ...]] = {}
-    at_bounds = {}
-    for i, name in enumerate(names):
-        for bound in limits.get(name, ()):
-            if low[i] <= bound <= high[i]:
-                at_bounds[name] = float(bound)
+    at_bounds, passed = bounds_within(problem, fitted, deviation, reach, limits)
     if at_bounds:  # what holds one of them moves the others
         indistinct = ()
+    passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
     for i, name in enumerate(names):
-        if name in indistinct:
+        if name in indistinct or name in at_bounds:
             deviation[i] = low[i] = high[i] = np.nan
             continue
         # the others change with it as the covariance says
         move = reach[i] * covariance[:, i] / covariance[i, i]
+        for bound in passed.get(name, ()):
+            beyond = low if bound < fitted[i] else high
+            beyond[i] = np.nan
         gone = [
-            end for end, side in ((low, -1), (high, 1)) if problem.is_missing(fitted + side * move)
+            end
+            for end, side in ((low, -1), (high, 1))
+            if not np.isnan(end[i]) and problem.is_missing(fitted + side * move)
         ]
         if gone:
             unpredicted[name] = tuple(float(end[i]) for end in gone)
         for end in gone:
             end[i] = np.nan
-        if name in at_bounds:
-            deviation[i] = low[i] = high[i] = np.nan
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
@@ -209,4 +209,5 @@ def _result(
         indistinct=indistinct,
         unpredicted=unpredicted,
         at_bounds=at_bounds,
+        passed_bounds=passed,
     )

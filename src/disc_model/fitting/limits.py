@@ -20,6 +20,9 @@ from disc_model.fitting.determination import sensitivity_of
 from disc_model.fitting.problem import STEP, Problem
 from disc_model.fitting.result import Fit
 
+AT_BOUND = 1e-3
+"""Distance from a bound at which a parameter lies there, over its standard deviation, or over its
+scale if that is less."""
 RISE = (0.8, 3.0)
 """Rise of chi squared up to a limit over that of linear predictions; beyond these no limit is given."""
 
@@ -44,6 +47,34 @@ def passes_zero(problem: Problem, search: Any, name: str, confidence: float) -> 
     deviation = float(np.linalg.norm(sensitivity_of(search.jac).inverse[i]))
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
     return bool(search.x[i] <= reach) and problem.is_last(i, 0.0, 1)
+
+
+def bounds_within(
+    problem: Problem, fitted: Array, deviation: Array, reach: Array, limits: Mapping[str, Interval]
+) -> tuple[dict[str, float], dict[str, tuple[float, ...]]]:
+    """Return by name the bounds at which parameters lie, or which no case can pass but an interval
+    would; and all other bounds that intervals pass.
+
+    Parameters
+    ----------
+    fitted, deviation, reach : values, standard deviations, and half the widths of intervals, each (n,)
+    limits : the bounds of each parameter, by name
+    """
+    held: dict[str, float] = {}
+    passed: dict[str, tuple[float, ...]] = {}
+    for i, name in enumerate(problem.names):
+        near = AT_BOUND * min(float(deviation[i]), float(problem.scale[i]))
+        for bound in map(float, limits.get(name, ())):
+            distance = abs(float(fitted[i]) - bound)
+            side = 1 if fitted[i] >= bound else -1
+            if distance > reach[i]:
+                continue
+            if distance <= near or problem.is_last(i, bound, side):
+                held[name] = bound
+            else:
+                passed[name] = (*passed.get(name, ()), bound)
+    others = {name: bounds for name, bounds in passed.items() if name not in held}
+    return held, others
 
 
 def with_limits(

@@ -28,7 +28,7 @@ WRONG = "model or uncertainties"
 class Fitted(NamedTuple):
     """A fitted parameter: its value, standard deviation and confidence interval, in its unit. All but
     the value are nan if the measurements do not determine it or a bound holds it, and an end of the
-    interval also if they have no prediction there."""
+    interval also if they have no prediction there, or it lies beyond a bound."""
 
     value: float
     deviation: float
@@ -56,12 +56,14 @@ class Fit(Summarised, Drawn, EqualByValue):
         predictions would have it
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there
-    at_bounds : by name of a parameter, the bound at which it lies, or beyond which its interval would go; `Fitted` has
-        no interval then
+    at_bounds : by name of a parameter, the bound at which it lies, or that no case can pass, such as 0, but its
+        interval would; `Fitted` has no interval then
+    passed_bounds : by name of a parameter that lies within its bounds, those that its interval passes; `Fitted` has nan
+        at these ends. The standard deviation and the other end hold, and there is no `doubt`
     limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
         above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
         another parameter is in doubt
-    doubt : all reasons why values and intervals mean nothing: a search that has not converged, a bound in the way,
+    doubt : all reasons why values and intervals mean nothing: a search that has not converged, a value at a bound,
         parameters that are not determined, an interval in which the motion ends, too large a chi squared, with the
         measurement that deviates most; "" where there is none
     consistent : whether there is no `doubt`
@@ -91,6 +93,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     indistinct: tuple[str, ...] = ()
     unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     at_bounds: Mapping[str, float] = field(default_factory=dict)
+    passed_bounds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     limits: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
@@ -113,8 +116,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     def consistent(self) -> bool:
         """Whether values and intervals can be relied on, as far as the measurements tell: the search
         has converged, the measurements determine every parameter, what was measured exists at both
-        ends of every interval, and chi squared is as small as it
-        is in 95 % of fits if the model and the uncertainties are right (without degrees of freedom,
+        ends of every interval within the bounds, no bound holds a parameter, and chi squared is as small
+        as it is in 95 % of fits if the model and the uncertainties are right (without degrees of freedom,
         where it is 0 unless a bound is in the way, as with one). Otherwise `doubt` says why not."""
         return not self.doubt
 
@@ -143,6 +146,25 @@ class Fit(Summarised, Drawn, EqualByValue):
         side = "below" if limit > self.parameters[name].value else "above"
         value = number_text(limit, unit_of_parameter(name), 3)
         yield f"{name} is {side} {value} at {100 * self.confidence:.3g} % confidence"
+
+    def _interval_text(self, name: str) -> str:
+        """The interval of a parameter in words."""
+        fitted = self.parameters[name]
+        low = f"{fitted.low:.6g}"
+        high = f"{fitted.high:.6g}"
+        for bound in self.passed_bounds.get(name, ()):
+            if bound < fitted.value:
+                low = f"less than {bound:.6g}"
+            else:
+                high = f"more than {bound:.6g}"
+        return f"{low} to {high}"
+
+    def _passed_texts(self) -> Iterator[str]:
+        """Yield in words each bound that an interval passes."""
+        for name, bounds in self.passed_bounds.items():
+            for bound in bounds:
+                passed = f"the interval of {name} passes its bound {bound:.6g}"
+                yield f"{passed}, beyond which its end is not known"
 
     @property
     def misses(self) -> bool:
@@ -204,11 +226,11 @@ class Fit(Summarised, Drawn, EqualByValue):
     def to_dataset(self) -> xr.Dataset:
         """The fit as a dataset, to save, or to handle by xarray and pandas; `disc_model.save` makes one by itself.
 
-        Along `parameter`, each in its `unit`: `value`, `deviation`, `low`, `high`, `at_bound`, `limit` and
-        `indistinct`, and with `other_parameter` also `covariance` and `correlation`. Along `measurement`: `quantity`,
-        and in its `measured_unit` what was `measured`, its `uncertainty` and what is `predicted`; and what was set at
-        each, such as `Omega`. Attributes: `chi_squared`, `freedom`, `confidence`, `converged` (0 or 1), `message`,
-        `doubt`, and the fitted `case` in JSON.
+        Along `parameter`, each in its `unit`: `value`, `deviation`, `low`, `high`, `at_bound`, `passed_low` and
+        `passed_high` (bounds that the interval passes), `limit` and `indistinct`, and with `other_parameter` also
+        `covariance` and `correlation`. Along `measurement`: `quantity`, and in its `measured_unit` what was `measured`,
+        its `uncertainty` and what is `predicted`; and what was set at each, such as `Omega`. Attributes: `chi_squared`,
+        `freedom`, `confidence`, `converged` (0 or 1), `message`, `doubt`, and the fitted `case` in JSON.
 
         Examples
         --------
@@ -229,9 +251,10 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, fitted in self.parameters.items():
             text = number_text(fitted.value, unit_of_parameter(name))
             if not doubt:
-                text += f" ({fitted.low:.6g} to {fitted.high:.6g})"
+                text += f" ({self._interval_text(name)})"
             yield name, text
-        intervals = f"{self.confidence:.0%}, if the model and the uncertainties are right"
+        confidence = f"{self.confidence:.0%}, if the model and the uncertainties are right"
+        intervals = "; ".join([confidence, *self._passed_texts()])
         yield "intervals", f"none: {doubt}" if doubt else intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
         yield "consistent", f"no: {doubt}" if doubt else "yes"
@@ -265,12 +288,12 @@ def _undetermined(names: Sequence[str]) -> str:
 
 
 def _is_held(name: str, bound: float, is_last: bool) -> str:
-    """Return that a parameter is at a bound, which may be the last value of any case, or so near that
-    its interval would pass it."""
+    """Return that a parameter is at a bound, or so near the last value of any case that its interval
+    would pass it."""
     if is_last:
         passed = f"the interval of {name} passes {bound:.6g}, beyond which there is no case"
         return f"{passed}: fix it, or measure more"
-    return f"{name} is held by its bound {bound:.6g}, which its interval passes: widen the bound, or fix it"
+    return f"{name} is held by its bound {bound:.6g}: widen the bound, or fix it"
 
 
 def _ends_within(name: str, end: float) -> str:

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import inspect
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
-from difflib import get_close_matches
+from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
-import numpy as np
-
-from disc_model.disc.plausibility import warn_of_doubts
+from disc_model.disc.plausibility import warn_of_doubts, warn_without_effect
 from disc_model.errors import (
     Fault,
     ParameterError,
@@ -22,12 +19,10 @@ from disc_model.errors import (
     violations,
 )
 from disc_model.parameters import RATIOS, Parameters, foreign_case
-from disc_model.studies.quantity import STATUS
-from disc_model.studies.swept_values import checked_values, faults_of_repeated, is_missing
+from disc_model.studies.samples import OF_SWEEPS, Dimension, Known, zipped_dimension
+from disc_model.studies.swept_values import checked_values, faults_of_repeated
 from disc_model.studies.varied_arguments import Arguments, values_over
 
-OF_SWEEPS = {"status": STATUS.long_name, "message": "what became of it, in words"}
-"""Variables that every sweep has, and their names."""
 RETURNED = (
     "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
     "xarray.Dataset"
@@ -40,40 +35,6 @@ BY_PLACE = (
 """Kinds of arguments that can be given without a name."""
 ERRORS = ("raise", "record")
 """What may become of an error that is neither of this package nor of arithmetic."""
-LIKE = 0.8
-"""Likeness of two names from which the first is taken to be the second with a slip of the pen."""
-
-
-@dataclass(frozen=True)
-class Dimension:
-    """Values of numbers of the case that vary together, in columns of one length by name.
-
-    Attributes
-    ----------
-    columns : the values
-    labels : words of the points beside them, such as names of samples
-    """
-
-    columns: Mapping[str, list[Any]]
-    labels: Mapping[str, list[Any]] = field(default_factory=dict)
-
-    @property
-    def name(self) -> str:
-        return "_".join(self.columns)
-
-    @property
-    def coordinates(self) -> list[str]:
-        """Names of all that stands along the dimension."""
-        return [*self.columns, *self.labels]
-
-    def __len__(self) -> int:
-        return len(next(iter(self.columns.values())))
-
-    def points(self) -> list[dict[str, Any]]:
-        """The values by name, at each place along the dimension."""
-        names = self.columns.keys()
-        rows = zip(*self.columns.values(), strict=True)
-        return [dict(zip(names, row, strict=True)) for row in rows]
 
 
 @dataclass(frozen=True)
@@ -192,9 +153,10 @@ def checked_call(
     together = []
     taken = {*named, *OF_SWEEPS}
     if zipped is not None:
-        zipped_dimension = _zipped_dimension(zipped, sorted(names), numbers, of_case, faults)
-        together.append(zipped_dimension)
-        taken.update(zipped_dimension.coordinates)
+        known = Known(sorted(names), numbers, of_case, [*parameters][1:])
+        samples = zipped_dimension(zipped, known, faults)
+        together.append(samples)
+        taken.update(samples.coordinates)
 
     title = getattr(function, "__name__", type(function).__name__)
     arguments = Arguments(title, title if is_ours(function) else "", parameters)
@@ -207,6 +169,8 @@ def checked_call(
 
     defaults = _defaults(arguments, named, over, faults)
     raise_faults(faults)
+    for dimension in together:
+        warn_without_effect([*dimension.beside])
     return Call(
         title,
         dimensions + together,
@@ -263,78 +227,3 @@ def _faults_of_unnamed(unnamed: Sequence[Any], arguments: Sequence[str]) -> list
             rule = "must be named, and is one more than the function's arguments"
             faults.append(Fault.of(("function",), value, rule))
     return faults
-
-
-def _columns_of(zipped: Any) -> dict[str, list[Any]]:
-    """The columns of a mapping or of a pandas.DataFrame, of which an index of words with a name is
-    one; none of anything else."""
-    if not (isinstance(zipped, Mapping) or hasattr(zipped, "columns")):
-        return {}
-    table = dict(zipped.items())
-    index: Any = getattr(zipped, "index", None)
-    if isinstance(getattr(index, "name", None), str):
-        words = list(index)
-        if _are_labels(words):
-            table = {index.name: words, **table}
-    return table
-
-
-def _are_labels(values: Any) -> bool:
-    """Whether these are words, or yes and no, of which some may be missing."""
-    if isinstance(values, str) or not np.iterable(values):
-        return False
-    present = [value for value in values if not is_missing(value)]
-    return bool(present) and all(isinstance(value, str | bool | np.bool_) for value in present)
-
-
-def _labels_in(table: Mapping[str, Any], names: Sequence[str]) -> dict[str, list[Any]]:
-    """The columns that only name the points: of words or of yes and no, under names that no number
-    of the case has and that are no slip of the pen of one."""
-    folded = [name.lower() for name in names]
-    labels = {}
-    for name, values in table.items():
-        meant = get_close_matches(str(name).lower(), folded, n=1, cutoff=LIKE)
-        if name in names or meant or not _are_labels(values):
-            continue
-        labels[str(name)] = ["" if is_missing(value) else value for value in values]
-    return labels
-
-
-def _zipped_dimension(
-    zipped: Any,
-    names: Sequence[str],
-    numbers: Sequence[str],
-    alone: Sequence[str],
-    faults: list[str],
-) -> Dimension:
-    """The dimension of values that vary together, in SI units, with their labels.
-
-    Parameters
-    ----------
-    zipped : what the user gave
-    names, numbers : all that may vary, and those of them that are numbers
-    alone : names that are dimensions by themselves
-    faults : gets what is wrong
-    """
-    table = _columns_of(zipped)
-    labels = _labels_in(table, names)
-    for name in labels.keys() & {*OF_SWEEPS}:
-        faults.append(Fault(("zip", name), "", "must have another name: every sweep has one"))
-    values_by_name = {name: values for name, values in table.items() if name not in labels}
-    if not values_by_name:
-        rule = "must have columns of values by the names of numbers of the case, such as N"
-        faults.append(Fault.of(("zip",), zipped, rule))
-    columns = {}
-    for name, values in values_by_name.items():
-        if name not in names:
-            like = suggestion(str(name), names, all_of_them=False).partition(" (known")[0]
-            known = f"(known: {', '.join(numbers)}); a column of labels must hold words"
-            faults.append(Fault(("zip", str(name)), "", f"is no number of the case{like} {known}"))
-        elif name in alone:
-            faults.append(Fault(("zip", name), "", "must not be an axis as well"))
-        else:
-            columns[name] = checked_values(name, values, faults, "zip")
-    lengths = {name: len(values) for name, values in (columns | labels).items()}
-    if len({*lengths.values()}) > 1:
-        faults.append(Fault.of(("zip",), lengths, "must have columns of one length"))
-    return Dimension(columns, labels)

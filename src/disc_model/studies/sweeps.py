@@ -10,15 +10,17 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.data.variables import WITHOUT_EFFECT, attributes_of_mode
 from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
-from disc_model.studies.calls import OF_SWEEPS, Call, are_recorded, checked_call, is_ours
+from disc_model.studies.calls import Call, are_recorded, checked_call, is_ours
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
+from disc_model.studies.samples import OF_SWEEPS
 from disc_model.studies.varied_arguments import hint_of_lists
 from disc_model.studies.workers import checked_workers
 
@@ -58,7 +60,8 @@ def sweep(  # noqa: PLR0913
     over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers
         or words. Each is a dimension, after those of the case
     zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.
-        They are one dimension, whose name joins theirs. Columns of words under other names are coordinates along it
+        They are one dimension, whose name joins theirs. Columns of words or numbers under other names are
+        coordinates along it: a warning says that such numbers have no effect, and a name like a known one is refused
     workers : number of calls at a time, in threads. They pay for `simulate` over a minute or more; `floquet`,
         `outcome`, `critical` and `lyapunov_exponents` are little faster so, or slower: use `processes`
     processes : whether they are processes instead: the function must then be importable. They pay from half a second of
@@ -179,6 +182,8 @@ def _coordinates(call: Call) -> dict[str, Any]:
                 coordinates[name] = (dimension.name, _plain(values), _described(name))
         for name, words in dimension.labels.items():
             coordinates[name] = (dimension.name, words)
+        for name, numbers in dimension.beside.items():
+            coordinates[name] = (dimension.name, numbers, WITHOUT_EFFECT)
     return coordinates
 
 
@@ -188,10 +193,10 @@ def _plain(values: list[Any]) -> list[Any]:
 
 
 def _described(name: str) -> dict[str, Any]:
-    """Attributes of a coordinate; numbers of a disc's modes have none."""
+    """Attributes of a coordinate: a parameter, a ratio, or a number of one of a disc's modes."""
     if name in (*Parameters.model_fields, *RATIOS):
         return describe(name)
-    return {}
+    return attributes_of_mode(name)
 
 
 def _first_possible(case: Parameters, call: Call, points: Sequence[Mapping[str, Any]]) -> int:

@@ -44,7 +44,9 @@ SHOWN = (
 SMALLEST = (
     2.0**-40
 )  # fraction of the least separating energy of the sample, below which the bisection gives up
-_ONE_START = "n_starts must be 1 where an energy is 0, since no direction tells them apart"
+_ONE_START = (
+    "n_starts={0.n_starts} must be 1 where an energy is 0, since no direction tells them apart"
+)
 Follow = Callable[[float, int, int], OutcomeResult]
 _EACH = ("energy", "start")
 _SHARES = ("energy", "attractor_class")

@@ -60,14 +60,17 @@ class Branches(Quantity):
     """tolerance of simulations: error of event times after a second of motion"""
 
     _rules = (
-        (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
+        (
+            lambda o: o.evaluation_time <= o.dwell,
+            "evaluation_time={0.evaluation_time:g} must be <= dwell={0.dwell:g}",
+        ),
         (
             lambda o: o.max_dwell >= o.dwell,
             "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}",
         ),
         (
             lambda o: o.sweep_from is None or o.sweep_from <= o.scan.stop,
-            "sweep_from must be <= the scan's last value",
+            "sweep_from={0.sweep_from:g} must be <= the scan's last value, {0.scan.stop:g}",
         ),
     )
     scans: ClassVar = ("parameter",)

@@ -27,7 +27,7 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
-_MULTIPLE = "the scan's step must be a multiple of precision"
+_MULTIPLE = "the scan's step must be a multiple of precision={0.precision:g}"
 KINDS = ("none", "begins", "ends")
 _each = along("horizon")
 _crossing = along("horizon", "crossing_number")

@@ -40,7 +40,10 @@ class Hysteresis(Quantity):
     """length of the last stretch at a speed, which is described"""
 
     _rules = (
-        (lambda o: o.evaluation_time <= o.dwell, "evaluation_time must be <= dwell"),
+        (
+            lambda o: o.evaluation_time <= o.dwell,
+            "evaluation_time={0.evaluation_time:g} must be <= dwell={0.dwell:g}",
+        ),
         (
             lambda o: o.max_dwell >= o.dwell,
             "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}",

@@ -38,7 +38,12 @@ class Locking(Start, Quantity):
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0
     """number of places at which the map of release phases is computed"""
 
-    _rules = ((lambda o: o.record <= o.max_record, "record must be <= max_record"),)
+    _rules = (
+        (
+            lambda o: o.record <= o.max_record,
+            "record={0.record:g} must be <= max_record={0.max_record:g}",
+        ),
+    )
     COLUMNS: ClassVar = {
         "status": STATUS,
         "motion": Variable("1", "what the record shows", MOTIONS),

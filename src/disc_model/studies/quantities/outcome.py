@@ -21,7 +21,10 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import Seconds, Tolerance
 
-_TIMES = "evaluation_time must be <= after_separation and <= horizon"
+_TIMES = (
+    "evaluation_time={0.evaluation_time:g} must be <= after_separation={0.after_separation:g} and <= "
+    "horizon={0.horizon:g}"
+)
 FEWEST = 4  # least number of checks of a motion that give a rate
 
 

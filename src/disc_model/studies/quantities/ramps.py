@@ -38,8 +38,8 @@ class Ramps(Quantity):
     """time at the highest speed, and at the lowest one in the end"""
 
     _rules = (
-        (lambda o: o.low < o.high, "low must be < high"),
-        (lambda o: o.rates.start > 0, "rates must be > 0"),
+        (lambda o: o.low < o.high, "low={0.low:g} must be < high={0.high:g}"),
+        (lambda o: o.rates.start > 0, "rates must be > 0, but begin with {0.rates.start:g}"),
     )
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {

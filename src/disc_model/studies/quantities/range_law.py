@@ -39,7 +39,8 @@ class RangeLaw(Quantity):
     _rules = (
         (
             lambda o: o.evaluation_time < min(o.horizon, o.displaced_horizon),
-            "evaluation_time must be < horizon and < displaced_horizon",
+            "evaluation_time={0.evaluation_time:g} must be < horizon={0.horizon:g} and < "
+            "displaced_horizon={0.displaced_horizon:g}",
         ),
     )
     COLUMNS: ClassVar = {
