@@ -812,6 +812,28 @@ def test_samples_with_names_of_their_own_are_curves_too() -> None:
     pyplot.close("all")
 
 
+def test_rows_of_marks_of_several_sweeps_say_which_they_are_of() -> None:
+    """Those of one sweep looked like those of another."""
+    axes = {"Omega": [14, 15, 16], "N": [340, 385]}
+    lines: dict[str, Any] = {"x": "Omega", "lines": "N"}
+    ax = pyplot.figure().add_subplot()
+    stiff, soft = (dm.sweep(own_cycles, CASE.replace(k_p=k_p), **axes) for k_p in (20000, 8000))
+    dm.plot_sweep(stiff, "reach", ax=ax, **lines)
+    assert said_above(ax) == ["no value"]
+    dm.plot_sweep(soft, "reach", ax=ax, **lines)
+    names = ["$\\mathrm{k_p}$ = 20 kN/m", "$\\mathrm{k_p}$ = 8 kN/m"]
+    assert said_above(ax) == [f"no value, {name}" for name in names]
+    twin = ax.twinx()
+    dm.plot_sweep(soft.assign(reach=soft["reach"] + 1), "reach", ax=twin, **lines)
+    assert len(said_above(ax)) == 3
+    pyplot.close("all")
+
+
+def own_cycles(case: dm.Parameters) -> dict[str, float]:
+    """A number without a value at the highest speed."""
+    return {"reach": case.Omega if case.Omega < 16 else np.nan}
+
+
 def test_numbers_beside_an_axis_make_it_no_axis_of_samples() -> None:
     study = plane().assign_coords(rpm=("Omega", 9.55 * plane()["Omega"].values))
     ax = dm.plot_sweep(study, "growth_rate", x="N")

@@ -86,7 +86,7 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     return [Part("", "", part) for part in chosen]
 
 
-def draw_lines(
+def draw_lines(  # noqa: PLR0913
     ax: Axes,
     study: xr.Dataset,
     variable: str,
@@ -96,6 +96,7 @@ def draw_lines(
     *,
     joined: bool = True,
     single: Look = PLAIN,
+    sweep: int | None = None,
 ) -> list[tuple[str, Any]]:
     """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
     marks above the panel stand for missing values. Returns each line with its name.
@@ -104,6 +105,7 @@ def draw_lines(
     colour in all of them.
 
     single : colour of a single line, and dashes of all
+    sweep : number of the sweep on its axes, if each has rows of its own above the panel
     """
     if marks is None:
         marks = {}
@@ -115,7 +117,7 @@ def draw_lines(
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    looks = looks_of(parts, marks, single)
+    looks = looks_of(parts, marks, single)._replace(sweep=sweep)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = open_steps(study, array, by, log) if joined else {}
     line = dashes_of(single) if joined and not names else ""

@@ -38,11 +38,13 @@ ROOM = 0.12  # share of the panel beside its values that has room for them
 
 
 class Looks(NamedTuple):
-    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes."""
+    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes; and the
+    number of their sweep, if other sweeps have the same looks."""
 
     marks: Mapping[str, str]
     colours: Mapping[str, Any]
     sizes: Mapping[str, float]
+    sweep: int | None = None
 
     def of(self, name: str) -> dict[str, Any]:
         """The look of the marks of a line."""
@@ -157,7 +159,7 @@ def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: L
             mask = part.data.values
             if mask.any():
                 look = {**looks.of(part.name), **open_look()}
-                add_row(ax, reason, across[mask], **look)
+                add_row(ax, reason, across[mask], looks.sweep, **look)
 
 
 def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
@@ -198,4 +200,4 @@ def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Lo
     for name, is_gap in steps.items():
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
-            add_row(ax, OPEN, middle[is_gap], **look)
+            add_row(ax, OPEN, middle[is_gap], looks.sweep, **look)

@@ -1,6 +1,7 @@
 """Rows of marks above a panel, which stand for points of its lines without a value, and why these have
 none."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -26,15 +27,21 @@ TITLE = 6.0  # points, distance of a title from what stands above a panel
 
 @dataclass
 class Rows:
-    """The rows of one reason, from the lowest on, the words above them, and the strip behind them."""
+    """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
+
+    reason : the words without the name of the sweep whose points they are
+    sweep : the number of this sweep, if others have rows of the same looks
+    """
 
     words: Text
     strip: Rectangle
+    reason: str
+    sweep: int | None = None
     rows: list[Any] = field(default_factory=list)
 
 
-_ROWS: WeakKeyDictionary[Axes, dict[str, Rows]] = WeakKeyDictionary()
-"""The rows above panels, by their reasons, in their order."""
+_ROWS: WeakKeyDictionary[Axes, dict[tuple[str, int | None], Rows]] = WeakKeyDictionary()
+"""The rows above panels, by their reasons and sweeps, in their order."""
 _HEIGHTS: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
 """The heights of titles above panels with such rows, points."""
 
@@ -44,26 +51,37 @@ def rows_above(ax: Axes) -> list[Rows]:
     return [each for each in _ROWS.get(ax, {}).values() if each.words in ax.texts]
 
 
-def add_row(ax: Axes, reason: str, across: Array, **look: Any) -> None:
+def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **look: Any) -> None:
     """Mark points above a panel, in a row under the words of their reason, which stand there once for
-    all lines, also of those on axes on the same place, such as those of ``ax.twinx()``."""
+    all lines, also of those on axes on the same place, such as those of ``ax.twinx()``; or once for
+    all lines of a sweep, by its number, if others have rows of the same looks."""
     ax = _host_of(ax)
     if not rows_above(ax):
         _ROWS[ax] = {}
     reasons = _ROWS[ax]
-    if reason not in reasons:
+    key = (reason, sweep)
+    if key not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[reason] = Rows(words, strip)
+        reasons[key] = Rows(words, strip, reason, sweep)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
     [row] = ax.plot(
         across, [1.0] * len(across), transform=transform, clip_on=False, linestyle="", **look
     )
-    reasons[reason].rows.append(row)
+    reasons[key].rows.append(row)
     stack_rows(ax)
+
+
+def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
+    """Add the names of sweeps, by their numbers, to the words of rows that are those of one sweep."""
+    host = _host_of(ax)
+    for each in rows_above(host):
+        if each.sweep is not None and each.sweep in names:
+            each.words.set_text(f"{each.reason}, {names[each.sweep]}")
+    stack_rows(host)
 
 
 def _host_of(ax: Axes) -> Axes:

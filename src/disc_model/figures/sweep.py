@@ -12,11 +12,9 @@ from disc_model.errors import require
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
-from disc_model.figures.curve import draw_lines
-from disc_model.figures.curve_marks import MARKS
-from disc_model.figures.curve_samples import MOST_NAMED, draw_samples
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
+from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import set_limits
@@ -29,13 +27,13 @@ from disc_model.figures.sweep_choice import (
     title_of,
     values_of,
 )
+from disc_model.figures.sweep_drawn import draw_each
 from disc_model.figures.sweep_lines import (
     join_lines,
     lines_beside,
     lines_of,
     lines_on,
     names_asked,
-    next_look,
     quantities_of,
 )
 from disc_model.figures.types import Artist, Axes
@@ -114,24 +112,11 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     lines.shown.said = {**options, **said_of(study)}
     quantities = quantities_of(lines, others)
     page.show(quantities)
-    found = _draw_each(page.ax, study, drawn, log)
+    lines.number = len(lines_beside(page.ax))
+    found = draw_each(page.ax, study, drawn, log)
     page.ax.set_ylabel(quantities.y)
     lines.parts = [(part, ref(line)) for part, line in found]
-    join_lines(page, lines)
-
-
-def _draw_each(ax: Axes, study: xr.Dataset, drawn: Drawn, log: bool) -> list[tuple[str, Any]]:
-    """Draw a line, or one for each value of a second dimension; many samples have one name."""
-    across, look = drawn.across, next_look(ax)
-    mark = MARKS[len(lines_beside(ax)) % len(MARKS)]
-    if drawn.sampled and study.sizes[drawn.second] > MOST_NAMED:
-        return draw_samples(ax, study, drawn.variable, across, log, look, mark)
-    marks = {}
-    if drawn.second is None:
-        marks[""] = mark
-    return draw_lines(
-        ax, study, drawn.variable, across, log, marks, joined=drawn.joined, single=look
-    )
+    name_rows(page.ax, join_lines(page, lines))
 
 
 def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:

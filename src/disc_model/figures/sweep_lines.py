@@ -37,6 +37,7 @@ class Lines:
     phrase, unit : name of the variable, and its unit
     duration : time for which motions were followed, "" if the variable does not depend on it
     shown : what tells the lines from others
+    number : their place in the order in which lines were drawn there
     parts : name along a second dimension, "" without one, of each line, and the line
     """
 
@@ -46,6 +47,7 @@ class Lines:
     unit: str
     duration: str
     shown: Member
+    number: int = 0
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
 
@@ -178,13 +180,14 @@ def next_look(ax: Axes) -> Look:
     return LOOKS[len(lines_beside(ax)) % len(LOOKS)]
 
 
-def join_lines(page: Page, new: Lines) -> None:
+def join_lines(page: Page, new: Lines) -> dict[int, str]:
     """Add lines to those on their axes. Of several, the legend names each by what differs between
-    their variables and cases, or as its reader does."""
+    their variables and cases, or as its reader does. Returns the names of several by their numbers."""
     family = [*lines_beside(page.ax), new]
     _LINES[page.ax] = [*lines_on(page.ax), new]
     shown = [each.shown for each in family]
     names = [new.shown.name]
+    called: dict[int, str] = {}
     tail = common_tail([each.phrase for each in family])  # which the axis says
     for each in family:
         short = each.phrase.removesuffix(tail).rstrip(" ,")
@@ -192,6 +195,7 @@ def join_lines(page: Page, new: Lines) -> None:
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page.figure, shown)
+        called = dict(zip([each.number for each in family], names, strict=True))
 
     page.joins = True
     replaced = []
@@ -207,3 +211,4 @@ def join_lines(page: Page, new: Lines) -> None:
     page.replaced = replaced
     axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
     page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
+    return called
