@@ -74,6 +74,7 @@ SHORT = {
     "scan_outcome": "outcome",
     "critical_speed": "critical speed",
     "horizon": "horizon",
+    "mode": "mode",
     "onset_speed": "speed at separation onset",
     "offset_speed": "speed at separation end",
 }
