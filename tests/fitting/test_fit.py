@@ -17,7 +17,7 @@ from scipy.stats import binom
 
 import disc_model as dm
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_measured
-from disc_model.fitting.prediction import Prediction
+from disc_model.fitting.prediction import Prediction, Unpredicted
 from disc_model.fitting.problem import Problem
 from tests.refusals import refusal
 
@@ -806,6 +806,143 @@ def test_a_fold_within_an_interval_is_said() -> None:
     surer = dm.fit(case, ["mu_s"], {"period": (0.01485, 1e-6)})
     assert surer.unpredicted == {}
     assert surer.consistent
+
+
+def level(case: dm.Parameters) -> float:
+    """A quantity that does not exist for some values of mu_s."""
+    if 0.41 < case.mu_s < 0.43:
+        raise ArithmeticError("nothing was found")
+    return case.mu_s
+
+
+def square(case: dm.Parameters) -> float:
+    """A quantity that exists everywhere."""
+    return case.mu_s**2
+
+
+def test_a_search_that_stops_in_front_of_a_gap_says_so() -> None:
+    """It blamed the model and the uncertainties."""
+    start = DISC.replace(mu_s=0.4)
+    found = dm.fit(start, ["mu_s"], [dm.Measurement(level, 0.42, 1e-4)])
+    assert not found.converged
+    assert not found.consistent
+    assert found.gap is not None
+    assert found.gap.measurements == ("level",)
+    assert found.gap.values["mu_s"] == pytest.approx(0.41, rel=1e-3)
+    assert found.doubt == (
+        "the search stopped near mu_s = 0.41, where level does not exist: start from the other side of this gap,"
+        " or leave out this measurement"
+    )
+    assert "in front of a gap" in found.message
+    data = found.to_dataset()
+    assert data["gap"].item() == found.gap.values["mu_s"]
+    assert data["gap"].attrs["long_name"].endswith("has stopped, nan if it has not")
+
+
+def test_a_search_goes_on_beyond_a_gap_where_other_measurements_lead() -> None:
+    start = DISC.replace(mu_s=0.4)
+    measured = [dm.Measurement(level, 0.44, 1e-4), dm.Measurement(square, 0.44**2, 1e-4)]
+    found = dm.fit(start, ["mu_s"], measured)
+    assert found.consistent
+    assert found.gap is None
+    assert found.parameters["mu_s"].value == pytest.approx(0.44, rel=1e-8)
+
+
+def test_a_bound_before_a_gap_is_no_gap() -> None:
+    start = DISC.replace(mu_s=0.4)
+    measured = [dm.Measurement(level, 0.42, 1e-4)]
+    found = dm.fit(start, ["mu_s"], measured, bounds={"mu_s": (0.39, 0.405)})
+    assert found.gap is None
+    assert found.at_bounds == {"mu_s": 0.405}
+
+
+def times_of_five_speeds(true: dm.Parameters) -> list[dm.Measurement]:
+    """Exact periods of a case at five speeds, and times of slip at three."""
+    found = []
+    for speed in (10, 11, 12, 13, 14):
+        at = {"Omega": speed}
+        prediction = Prediction(true.replace(**at))
+        found.append(dm.Measurement("period", prediction.of("period"), 1e-5, at))
+        if speed % 2 == 0:
+            found.append(dm.Measurement("slip_time", prediction.of("slip_time"), 1e-5, at))
+    return found
+
+
+@pytest.mark.compiled
+def test_a_search_finds_exact_data_beyond_a_gap_without_a_cycle() -> None:
+    """The search crept along a gap at 14 rad/s, and the fit blamed the model: chi squared was 1790."""
+    true = dm.Parameters(N=385, Omega=14, mu_s=0.42, mu_k=0.25, k_p=2.1e4)
+    measured = times_of_five_speeds(true)
+    found = dm.fit(true.replace(mu_s=0.4, k_p=2e4), ["mu_s", "k_p"], measured)
+    assert found.consistent
+    assert found.parameters["mu_s"].value == pytest.approx(0.42, rel=1e-8)
+    assert found.parameters["k_p"].value == pytest.approx(2.1e4, rel=1e-8)
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(30))
+def test_exact_data_are_found_from_starts_nearby(seed: int) -> None:
+    """Of starts up to 5 % away two in 26 had ended in front of gaps."""
+    rng = np.random.default_rng(seed)
+    mu_s = 0.42 * (1 + 0.03 * rng.uniform(-1, 1))
+    k_p = 2.05e4 * (1 + 0.05 * rng.uniform(-1, 1))
+    true = dm.Parameters(N=385, Omega=14, mu_s=mu_s, mu_k=0.25, k_p=k_p)
+    factors = 1 + 0.05 * rng.uniform(-1, 1, 2)
+    start = true.replace(mu_s=mu_s * factors[0], k_p=k_p * factors[1])
+    try:
+        found = dm.fit(start, ["mu_s", "k_p"], times_of_five_speeds(true))
+    except (Unpredicted, dm.ParameterError):
+        return  # there is no cycle at one of the speeds, at the start or in the true case
+    assert found.chi_squared < 1e-3
+
+
+@pytest.mark.compiled
+def test_a_fitted_cycle_that_is_unstable_is_said() -> None:
+    case = dm.Parameters(N=385, Omega=16)
+    period = Prediction(case).of("period")
+    found = dm.fit(case.replace(mu_s=0.3995), ["mu_s"], {"period": (period, 1e-6)})
+    rate = dm.floquet(found.case).growth_rate
+    assert rate == pytest.approx(0.74, abs=0.01)
+    assert found.unstable == {"period": rate}
+    assert found.note == (
+        "in the fitted case the cycle of period (0.74/s) is unstable: a motion does not stay on it"
+    )
+    # the values are those of the cycle all the same
+    assert found.consistent
+    assert repr(found).endswith(f"; {found.note})")
+    assert dict(found.summary())["note"] == found.note
+    data = found.to_dataset()
+    assert data["unstable"].values.tolist() == [rate]
+    assert data.attrs["note"] == found.note
+
+
+@pytest.mark.compiled
+def test_a_stable_cycle_and_quantities_of_no_cycle_have_no_note() -> None:
+    case = dm.Parameters(N=385, Omega=16)
+    rate = Prediction(case).of("growth_rate")
+    assert dm.fit(case, ["mu_s"], {"growth_rate": (rate, 1e-3)}).unstable == {}
+    assert (
+        dm.fit(
+            case, ["rho"], {"frequency_2_0": (Prediction(case).of("frequency_2_0"), 1.0)}
+        ).unstable
+        == {}
+    )
+    stable = dm.fit(case, ["mu_s"], [dm.Measurement("period", 0.01485, 1e-6, {"Omega": 15})])
+    assert stable.note == ""
+    assert "note" not in dict(stable.summary())
+    assert np.isnan(stable.to_dataset()["unstable"].item())
+
+
+def test_a_note_names_all_unstable_cycles() -> None:
+    found = dm.fit(DISC, ["E"], {"frequency_0_0": (239.0, 0.5)})
+    noted = replace(found, unstable={"period": 0.5, "slip_time (Omega=14)": 0.25})
+    assert noted.note == (
+        "in the fitted case the cycles of period (0.5/s) and slip_time (Omega=14) (0.25/s) are unstable: "
+        "a motion does not stay on them"
+    )
+    rates = {f"period (Omega={speed})": 0.5 for speed in range(11, 16)}
+    assert "Omega=13) (0.5/s) and 2 others are unstable" in replace(found, unstable=rates).note
 
 
 def test_a_parameter_that_starts_far_below_its_value_is_not_doubted() -> None:

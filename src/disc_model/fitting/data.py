@@ -30,6 +30,7 @@ OF_PARAMETERS = {
     "passed_high": Variable("", "upper bound that the confidence interval passes"),
     "limit": Variable("", "value that the parameter is below, or above, with the confidence"),
     "indistinct": Variable("1", "whether the measurements do not determine the parameter"),
+    "gap": Variable("", "value in front of which the search has stopped"),
 }
 """What is known of each parameter, in its own unit,"""
 OF_PAIRS = {
@@ -43,8 +44,11 @@ OF_MEASUREMENTS = {
     "measured": Variable("", "measured value, in the unit of the quantity"),
     "uncertainty": Variable("", "standard deviation of the measured value"),
     "predicted": Variable("", "value that the fitted case predicts"),
+    "unstable": Variable(
+        "1/s", "growth rate of the measured cycle in the fitted case, if above 0.01/s"
+    ),
 }
-"""and of each measurement, in the unit of its quantity."""
+"""and of each measurement, in the unit of its quantity but for the growth rate."""
 COORDINATES = {
     "parameter": Variable("", "fitted parameter"),
     "other_parameter": Variable("", "other fitted parameter"),
@@ -75,6 +79,7 @@ def dataset_of(fit: Fit) -> xr.Dataset:
         "converged": int(fit.converged),  # files have no True and False as attributes
         "message": fit.message,
         "doubt": fit.doubt,
+        "note": fit.note,
         "case": fit.case.canonical_json,
         "versions": versions_text(),
     }
@@ -93,6 +98,7 @@ def _values_of_parameters(fit: Fit) -> dict[str, Sequence[Any]]:
     """What is known of each parameter."""
     names = list(fit.parameters)
     fitted = list(fit.parameters.values())
+    gap = fit.gap.values if fit.gap else {}
     return {
         "unit": [unit_of_parameter(name) or "1" for name in names],
         "value": [each.value for each in fitted],
@@ -104,6 +110,7 @@ def _values_of_parameters(fit: Fit) -> dict[str, Sequence[Any]]:
         "passed_high": [_passed(fit, name, below=False) for name in names],
         "limit": [fit.limits.get(name, math.nan) for name in names],
         "indistinct": [name in fit.indistinct for name in names],
+        "gap": [gap.get(name, math.nan) for name in names],
     }
 
 
@@ -128,6 +135,7 @@ def _values_of_measurements(fit: Fit) -> dict[str, Any]:
         "measured": [each.value for each in fit.measurements],
         "uncertainty": [each.uncertainty for each in fit.measurements],
         "predicted": fit.computed,
+        "unstable": [fit.unstable.get(each.name, math.nan) for each in fit.measurements],
     }
 
 

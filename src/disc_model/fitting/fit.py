@@ -20,17 +20,17 @@ import pandas as pd
 from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
 from disc_model.fitting.arguments import Interval, checked_measurements, limits_in_si
-from disc_model.fitting.determination import indistinct_names, sensitivity_of
 from disc_model.fitting.limits import bounds_within, limits_at_zero, passes_zero, with_limits
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.problem import Problem
-from disc_model.fitting.result import Fit, Fitted
+from disc_model.fitting.result import Fit, Fitted, Gap
+from disc_model.fitting.search import Search
 from disc_model.parameters import Parameters
 
-TOLERANCE = 1e-10
-"""Relative change of parameters, cost and gradient at which the search ends."""
 MARGIN = 0.01
 """Distance of the first step from limits, relative to a parameter's scale."""
+STOPPED = "The steps became too short in front of a gap."
+"""Message of a search that has stopped where a measured quantity does not exist."""
 
 
 def fit(
@@ -82,55 +82,32 @@ def fit(
     >>> found
     Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; ± one standard deviation; chi squared ...)
     """
-    from scipy import optimize
-
     measurements = checked_measurements(case, vary, measured, bounds, confidence)
     limits = limits_in_si(vary, bounds or {})
     scales = {name: high - low for name, (low, high) in limits.items() if case.numbers[name] == 0}
     problem = Problem(case, vary, measurements, scales)
-    values = np.array([each.value for each in measurements])
-    weights = 1 / np.array([each.uncertainty for each in measurements])
     start = np.array([case.numbers[name] for name in vary])
     begin = _inside(problem, start, limits)
     warn_of_doubts(case)
-    jacobians: list[Array] = []
-
-    def deviations(x: Array) -> Array:
-        return (problem.trial(x * problem.scale) - values) * weights
-
-    def slopes(x: Array) -> Array:
-        jacobian = problem.jacobian(x * problem.scale) * weights[:, None] * problem.scale
-        jacobians.append(jacobian)
-        return jacobian
-
-    def searched(begin: Array, limits: Mapping[str, Interval]) -> Any:
-        ends = np.array([limits.get(name, (-np.inf, np.inf)) for name in vary]).T
-        return optimize.least_squares(
-            deviations,
-            begin / problem.scale,
-            jac=slopes,
-            bounds=ends / problem.scale,
-            xtol=TOLERANCE,
-            ftol=TOLERANCE,
-            gtol=TOLERANCE,
-        )
+    search = Search(problem)
 
     # the start and the result are doubted, not what is tried on the way
     with trial_cases():
         computed = problem.first_predictions(begin)
         named = [(each.name, each.value, each.unit) for each in measurements]
         warn_of_measured(named, computed.tolist())
-        search = searched(begin, limits)
-        indistinct = indistinct_names(problem, search, jacobians[0], deviations)
-        at_zero = limits_at_zero(problem, search, limits)
+        end, gap = search.run_across_gaps(begin / problem.scale, limits)
+        indistinct = () if gap else search.indistinct(end)
+        at_zero = limits_at_zero(problem, end, limits)
         if at_zero and {*indistinct} <= {*at_zero}:
             limits = {**limits, **at_zero}
-            search = searched(_inside(problem, search.x * problem.scale, limits), limits)
-            indistinct = indistinct_names(problem, search, jacobians[0], deviations)
-        if len(indistinct) == 1 and passes_zero(problem, search, indistinct[0], confidence):
+            begin = _inside(problem, end.x * problem.scale, limits)
+            end, gap = search.run_across_gaps(begin / problem.scale, limits)
+            indistinct = () if gap else search.indistinct(end)
+        if len(indistinct) == 1 and passes_zero(problem, end, indistinct[0], confidence):
             limits = {indistinct[0]: (0.0, np.inf), **limits}
-        found = _result(problem, search, confidence, indistinct, limits)
-        found = with_limits(found, problem, search, deviations)
+        found = _result(search, end, confidence, indistinct, limits, gap)
+        found = with_limits(found, problem, end, search.deviations)
     warn_of_doubts(found.case)
     return found
 
@@ -148,49 +125,45 @@ def _inside(problem: Problem, start: Array, limits: Mapping[str, Interval]) -> A
 
 
 def _result(
-    problem: Problem,
-    search: Any,
+    search: Search,
+    end: Any,
     confidence: float,
     indistinct: tuple[str, ...],
     limits: Mapping[str, Interval],
+    gap: Gap | None,
 ) -> Fit:
     """Return the fit at the end of a search over scaled parameters within limits, of which some may be
-    indistinct."""
+    indistinct, or in front of a gap."""
     from scipy import stats
 
+    problem = search.problem
     names = problem.names
-    scale = problem.scale
-    inverse = sensitivity_of(search.jac).inverse
-    covariance = inverse @ inverse.T * np.outer(scale, scale)
+    covariance = search.covariance(end)
 
-    fitted = search.x * scale
+    fitted = end.x * problem.scale
     deviation = np.sqrt(np.diag(covariance))
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
     low = fitted - reach
     high = fitted + reach
-    unpredicted: dict[str, tuple[float, ...]] = {}
     at_bounds, passed = bounds_within(problem, fitted, deviation, reach, limits)
     if at_bounds:  # what holds one of them moves the others
         indistinct = ()
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
+    unpredicted: dict[str, tuple[float, ...]] = {}
     for i, name in enumerate(names):
         if name in indistinct or name in at_bounds:
             deviation[i] = low[i] = high[i] = np.nan
             continue
-        # the others change with it as the covariance says
-        move = reach[i] * covariance[:, i] / covariance[i, i]
         for bound in passed.get(name, ()):
             beyond = low if bound < fitted[i] else high
             beyond[i] = np.nan
-        gone = [
-            end
-            for end, side in ((low, -1), (high, 1))
-            if not np.isnan(end[i]) and problem.is_missing(fitted + side * move)
-        ]
+        # the others change with it as the covariance says
+        move = reach[i] * covariance[:, i] / covariance[i, i]
+        gone = _without_prediction(problem, fitted, move, [low[i], high[i]])
         if gone:
-            unpredicted[name] = tuple(float(end[i]) for end in gone)
-        for end in gone:
-            end[i] = np.nan
+            unpredicted[name] = gone
+        low[i] = np.nan if low[i] in gone else low[i]
+        high[i] = np.nan if high[i] in gone else high[i]
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
@@ -202,12 +175,31 @@ def _result(
         confidence=confidence,
         measurements=problem.measurements,
         computed=computed,
-        deviations=np.asarray(search.fun),
-        chi_squared=float(search.fun @ search.fun),
-        converged=bool(search.success),
-        message=str(search.message).strip("`. ").replace("`", "") + ".",
+        deviations=np.asarray(end.fun),
+        chi_squared=float(end.fun @ end.fun),
+        converged=bool(end.success) and not gap,
+        message=STOPPED if gap else str(end.message).strip("`. ").replace("`", "") + ".",
         indistinct=indistinct,
         unpredicted=unpredicted,
         at_bounds=at_bounds,
         passed_bounds=passed,
+        gap=gap,
+        unstable=problem.unstable(fitted),
     )
+
+
+def _without_prediction(
+    problem: Problem, fitted: Array, move: Array, ends: Sequence[float]
+) -> tuple[float, ...]:
+    """Return those of the known ends of an interval, below and above, at which a measured quantity does
+    not exist.
+
+    fitted, move : values of all parameters, and their way to the upper end, each (n,)
+    """
+    below, above = ends
+    gone = []
+    if not np.isnan(below) and problem.is_missing(fitted - move):
+        gone.append(float(below))
+    if not np.isnan(above) and problem.is_missing(fitted + move):
+        gone.append(float(above))
+    return tuple(gone)

@@ -74,7 +74,7 @@ class Prediction:
     @cached_property
     def cycle(self) -> Cycle:
         """The stick-slip cycle near the static start. Raises `Unpredicted` without one."""
-        if self.case.disc is None and self.case.n_diameters < 0:
+        if is_rigid(self.case):
             return block_cycle(self.case)
         found = floquet(self.case)
         if math.isnan(found.period):
@@ -129,6 +129,11 @@ class Prediction:
         if not math.isfinite(value):
             raise Unpredicted("it is not defined")
         return value
+
+
+def is_rigid(p: Parameters) -> bool:
+    """Whether the disc has no modes, and the slider is a block on a belt."""
+    return p.disc is None and p.n_diameters < 0
 
 
 def block_cycle(p: Parameters) -> Cycle:
@@ -198,6 +203,8 @@ QUANTITIES: Mapping[str, Quantity] = {
 }  # fmt: skip
 """Quantities by name, beside those of single modes."""
 
+OF_STEADY_CYCLES = ("period", "stick_fraction", "stick_time", "slip_time", "slip_length")
+"""Quantities of a stick-slip cycle that are measured while it goes on."""
 NAMES = (*QUANTITIES, "frequency_2_0", "damping_ratio_2_0", "coupled_frequency_1")
 """Names as messages list them; the last three stand for those of all modes."""
 
@@ -205,6 +212,11 @@ NAMES = (*QUANTITIES, "frequency_2_0", "damping_ratio_2_0", "coupled_frequency_1
 def is_of_modes(name: object) -> bool:
     """Return whether a quantity is one of the disc's modes, which every motion of a case shares."""
     return isinstance(name, str) and bool(MODE.fullmatch(name) or COUPLED.fullmatch(name))
+
+
+def is_of_steady_cycle(name: object) -> bool:
+    """Return whether a quantity is one of a stick-slip cycle that goes on, unlike its growth rate."""
+    return isinstance(name, str) and name in OF_STEADY_CYCLES
 
 
 def unit_of(name: str) -> str:

@@ -10,7 +10,13 @@ import numpy as np
 from disc_model.arrays import Array
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.fitting.measured import Measurement
-from disc_model.fitting.prediction import Prediction, Unpredicted, is_of_modes
+from disc_model.fitting.prediction import (
+    Prediction,
+    Unpredicted,
+    is_of_modes,
+    is_of_steady_cycle,
+    is_rigid,
+)
 from disc_model.parameters import Parameters
 
 STEP = 1e-4
@@ -18,6 +24,9 @@ STEP = 1e-4
 SHORTER = (1.0, 0.1, 0.01)
 """Steps over that one, the first with predictions on a side: cycles exist in narrow intervals where
 several resonances meet. Those of the last still leave errors of 1e-6 of a derivative."""
+UNSTABLE = 0.01
+"""Growth rate (1/s) from which a cycle counts as unstable: below it disturbances grow so slowly that a
+measurement of seconds ends first."""
 
 
 class Problem:
@@ -54,23 +63,31 @@ class Problem:
         ParameterError
             If a case breaks a rule, or has no such quantity; the message names it.
         """
-        fitted = dict(zip(self.names, map(float, values), strict=True))
         known: dict[str, Prediction] = {}
-        found = np.empty(len(self.measurements))
-        for i, each in enumerate(self.measurements):
-            case = self.case.replace(**fitted, **each.at)
-            prediction = known.setdefault(case.canonical_json, Prediction(case))
-            try:
-                if callable(each.quantity):
-                    found[i] = float(each.quantity(case))
-                else:
-                    found[i] = prediction.of(each.quantity)
-            except (Unpredicted, DiscModelError, ArithmeticError) as reason:
-                text = f"cannot be computed: {reason}"
-                raise ParameterError(Fault(("measured", each.name), "", text)) from None
-        if not np.isfinite(found).all():
-            wrong = self.measurements[int(np.argmin(np.isfinite(found)))]
-            raise ParameterError(Fault(("measured", wrong.name), "", "is not finite"))
+        return np.array([self._predicted(each, values, known) for each in self.measurements])
+
+    def _prediction(
+        self, each: Measurement, values: Array, known: dict[str, Prediction]
+    ) -> Prediction:
+        """Return the prediction of the case of a measurement, which is known from then on."""
+        fitted = dict(zip(self.names, map(float, values), strict=True))
+        case = self.case.replace(**fitted, **each.at)
+        return known.setdefault(case.canonical_json, Prediction(case))
+
+    def _predicted(self, each: Measurement, values: Array, known: dict[str, Prediction]) -> float:
+        """Return what is predicted of one measurement, by predictions of cases that are known by then.
+        Raises `ParameterError` without one."""
+        prediction = self._prediction(each, values, known)
+        try:
+            if callable(each.quantity):
+                found = float(each.quantity(prediction.case))
+            else:
+                found = prediction.of(each.quantity)
+        except (Unpredicted, DiscModelError, ArithmeticError) as reason:
+            text = f"cannot be computed: {reason}"
+            raise ParameterError(Fault(("measured", each.name), "", text)) from None
+        if not math.isfinite(found):
+            raise ParameterError(Fault(("measured", each.name), "", "is not finite"))
         return found
 
     def first_predictions(self, values: Array) -> Array:
@@ -104,6 +121,39 @@ class Problem:
         except ParameterError as error:
             return error.faults[0].path[0] == "measured"
         return False
+
+    def missing(self, values: Array) -> tuple[str, ...]:
+        """Return the names of measurements whose quantities a valid case does not have."""
+        known: dict[str, Prediction] = {}
+        names = []
+        for each in self.measurements:
+            try:
+                self._predicted(each, values, known)
+            except ParameterError as error:
+                if error.faults[0].path[0] != "measured":
+                    return ()
+                names.append(each.name)
+        return tuple(dict.fromkeys(names))
+
+    def unstable(self, values: Array) -> dict[str, float]:
+        """Return the growth rates (1/s) of unstable cycles, by names of the measurements made on them;
+        of those of a block on a rigid disc nothing is known."""
+        known: dict[str, Prediction] = {}
+        rates = {}
+        for each in self.measurements:
+            prediction = self._prediction(each, values, known)
+            if is_rigid(prediction.case) or not is_of_steady_cycle(each.quantity):
+                continue
+            rate = prediction.cycle.growth_rate
+            if rate > UNSTABLE:
+                rates[each.name] = rate
+        return rates
+
+    def without(self, names: Sequence[str]) -> Problem:
+        """Return the problem without the measurements of some names."""
+        kept = [each for each in self.measurements if each.name not in names]
+        scales = dict(zip(self.names, self.scale.tolist(), strict=True))
+        return Problem(self.case, self.names, kept, scales)
 
     def is_last(self, i: int, bound: float, side: int) -> bool:
         """Whether no case has a value of a parameter beyond a bound, on the other side than this."""

@@ -22,6 +22,8 @@ UNLIKELY = 0.05
 """Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
 ALL_BUT_IMPOSSIBLE = 1e-3
 """and below which something is wrong."""
+NAMED = 3
+"""Largest number of unstable cycles that a note names before others that it counts."""
 WRONG = "model or uncertainties"
 
 
@@ -34,6 +36,14 @@ class Fitted(NamedTuple):
     deviation: float
     low: float
     high: float
+
+
+class Gap(NamedTuple):
+    """Where a search has stopped because measured quantities do not exist: values of the fitted
+    parameters there, in their units, and names of the measurements."""
+
+    values: Mapping[str, float]
+    measurements: tuple[str, ...]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -63,10 +73,16 @@ class Fit(Summarised, Drawn, EqualByValue):
     limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
         above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
         another parameter is in doubt
-    doubt : all reasons why values and intervals mean nothing: a search that has not converged, a value at a bound,
-        parameters that are not determined, an interval in which the motion ends, too large a chi squared, with the
-        measurement that deviates most; "" where there is none
+    gap : values of the parameters in front of which the search has stopped, since measured quantities do not exist
+        there, as where a case has no cycle, and the names of these measurements; None where it has not
+    doubt : all reasons why values and intervals mean nothing: a search that has stopped in front of a gap, which is
+        then the only one said, or has not converged, a value at a bound, parameters that are not determined, an
+        interval in which the motion ends, too large a chi squared, with the measurement that deviates most; "" where
+        there is none
     consistent : whether there is no `doubt`
+    unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
+        0.01/s; a period, for example, cannot be measured for long there
+    note : says so; "" where all cycles are stable
 
     Examples
     --------
@@ -95,6 +111,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     at_bounds: Mapping[str, float] = field(default_factory=dict)
     passed_bounds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     limits: Mapping[str, float] = field(default_factory=dict)
+    gap: Gap | None = None
+    unstable: Mapping[str, float] = field(default_factory=dict)
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -104,7 +122,7 @@ class Fit(Summarised, Drawn, EqualByValue):
             values.append(f"{name}={fitted.value:.6g}{spread}")
         meaning = "" if doubt else "± one standard deviation"
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
-        parts = [f"Fit({', '.join(values)}", meaning, cost, doubt]
+        parts = [f"Fit({', '.join(values)}", meaning, cost, doubt, self.note]
         return "; ".join(filter(None, parts)) + ")"
 
     @property
@@ -124,6 +142,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     @property
     def doubt(self) -> str:
         """All reasons why values and intervals mean nothing; "" where the fit is consistent."""
+        if self.gap:
+            return _stopped(self.gap)
         reasons = []
         if not self.converged:
             reasons.append("the search has not converged")
@@ -137,6 +157,23 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, ends in self.unpredicted.items():
             reasons += [_ends_within(name, end) for end in ends]
         return "; ".join(reasons)
+
+    @property
+    def note(self) -> str:
+        """Which measured cycles are unstable, with their growth rates; "" where none is. The fit may be
+        consistent all the same: the values are right if the motion was still on these cycles."""
+        if not self.unstable:
+            return ""
+        cycles = [f"{name} ({rate:.2g}/s)" for name, rate in self.unstable.items()]
+        if len(cycles) == 1:
+            return f"in the fitted case the cycle of {cycles[0]} is unstable: a motion does not stay on it"
+        first = cycles[: min(NAMED, len(cycles) - 1)]
+        rest = cycles[len(first) :]
+        last = rest[0] if len(rest) == 1 else f"{len(rest)} others"
+        which = f"{', '.join(first)} and {last}"
+        return (
+            f"in the fitted case the cycles of {which} are unstable: a motion does not stay on them"
+        )
 
     def _limit_texts(self, name: str) -> Iterator[str]:
         """Yield in words the limit of a parameter, if it has one."""
@@ -227,10 +264,11 @@ class Fit(Summarised, Drawn, EqualByValue):
         """The fit as a dataset, to save, or to handle by xarray and pandas; `disc_model.save` makes one by itself.
 
         Along `parameter`, each in its `unit`: `value`, `deviation`, `low`, `high`, `at_bound`, `passed_low` and
-        `passed_high` (bounds that the interval passes), `limit` and `indistinct`, and with `other_parameter` also
-        `covariance` and `correlation`. Along `measurement`: `quantity`, and in its `measured_unit` what was `measured`,
-        its `uncertainty` and what is `predicted`; and what was set at each, such as `Omega`. Attributes: `chi_squared`,
-        `freedom`, `confidence`, `converged` (0 or 1), `message`, `doubt`, and the fitted `case` in JSON.
+        `passed_high` (bounds that the interval passes), `limit`, `indistinct` and `gap`, and with `other_parameter`
+        also `covariance` and `correlation`. Along `measurement`: `quantity`, and in its `measured_unit` what was
+        `measured`, its `uncertainty` and what is `predicted`; the growth rate of its cycle if that is `unstable`; and
+        what was set at each, such as `Omega`. Attributes: `chi_squared`, `freedom`, `confidence`, `converged` (0 or 1),
+        `message`, `doubt`, `note`, and the fitted `case` in JSON.
 
         Examples
         --------
@@ -258,6 +296,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         yield "intervals", f"none: {doubt}" if doubt else intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
         yield "consistent", f"no: {doubt}" if doubt else "yes"
+        if self.unstable:
+            yield "note", self.note
         yield "search", self.message
 
     def _repr_html_(self) -> str:
@@ -277,6 +317,18 @@ class Fit(Summarised, Drawn, EqualByValue):
             )
         )
         return html_table(("fit", ""), self.summary()) + html_table(head, rows)
+
+
+def _stopped(gap: Gap) -> str:
+    """Return that a search has stopped in front of a gap, and what helps."""
+    place = []
+    for name, value in gap.values.items():
+        place.append(f"{name} = {number_text(value, unit_of_parameter(name), 3)}")
+    missing = " and ".join(gap.measurements)
+    several = len(gap.measurements) > 1
+    verb, which = ("do", "these measurements") if several else ("does", "this measurement")
+    where = f"the search stopped near {', '.join(place)}, where {missing} {verb} not exist"
+    return f"{where}: start from the other side of this gap, or leave out {which}"
 
 
 def _undetermined(names: Sequence[str]) -> str:
