@@ -178,7 +178,7 @@ def _result(
         deviations=np.asarray(end.fun),
         chi_squared=float(end.fun @ end.fun),
         converged=bool(end.success) and not gap,
-        message=STOPPED if gap else str(end.message).strip("`. ").replace("`", "") + ".",
+        message=_why_ended(end, gap),
         indistinct=indistinct,
         unpredicted=unpredicted,
         at_bounds=at_bounds,
@@ -203,3 +203,10 @@ def _without_prediction(
     if not np.isnan(above) and problem.is_missing(fitted + move):
         gone.append(float(above))
     return tuple(gone)
+
+
+def _why_ended(end: Any, gap: Gap | None) -> str:
+    """Return why a search has ended, in words."""
+    if gap:
+        return STOPPED
+    return str(end.message).strip("`. ").replace("`", "") + "."
