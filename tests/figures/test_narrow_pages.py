@@ -111,7 +111,7 @@ def test_twin_axes_of_a_column_say_once_what_has_no_value(layout: Any) -> None:
     assert_on_page(figure)
     said = [row.words.get_text().replace("\n", " ") for row in rows_of(figure)]
     assert said == ["no cycle found", OPEN]
-    assert [len(row.rows) for row in rows_of(figure)] == [2, 1]
+    assert [len(row.rows) for row in rows_of(figure)] == [2, 2]
     assert side(ax) > 18
     pyplot.close(figure)
 

@@ -60,7 +60,9 @@ def test_a_transient_is_doubled_until_the_motion_has_settled(
 
 def test_on_a_rigid_disc_the_slider_is_released_where_the_spring_has_friction_s_limit() -> None:
     p = Parameters(N=385, Omega=15.1, n_diameters=-1)
-    values, _ = Bifurcation(section="event", transient=600, samples=5).compute_point(Point(p))
+    values, _ = Bifurcation(
+        section="event", transient=600, max_transient=600, samples=5
+    ).compute_point(Point(p))
     assert values["period_events"] == 1
     assert values["settled"] == "settled"
     assert values["psi"] == pytest.approx(
