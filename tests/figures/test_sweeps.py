@@ -1221,3 +1221,55 @@ def test_lines_of_all_variables_of_a_cycle_are_open_at_the_same_steps() -> None:
     assert 16.25 in places["growth_rate"]
     assert places["period"] == places["stick_fraction"] == places["growth_rate"]
     assert said_above(dm.plot_sweep(found, "sliding_growth_rate")) == []
+
+
+def test_counts_and_verdicts_of_a_point_without_a_cycle_are_missing() -> None:
+    """Its sticks were 0, and the motion was near the cycle that it does not have."""
+    found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
+    assert found["status"].values.tolist() == ["ok", "no_cycle"]
+    for name in ("sticks", "releases", "near_motion", "stable"):
+        assert found[name].values.tolist() == pytest.approx([1, np.nan], nan_ok=True)
+        assert said_above(dm.plot_sweep(found, name)) == ["no cycle found"]
+    assert found["stable"].attrs["comment"].startswith("1 for True")
+    pyplot.close("all")
+
+
+def test_zeros_alone_have_a_logarithmic_picture() -> None:
+    """They ended in an error of numpy."""
+    found = dm.sweep(dm.floquet, CASE, Omega=[10, 12])
+    ax = dm.plot_sweep(found, "separations", log=True)
+    assert ax.get_yticks().tolist() == [0]
+
+
+def test_counts_within_a_decade_have_round_numbers_on_a_logarithmic_axis() -> None:
+    """Of 0 and 1057 to 6516, only 0 and 6516 stood at the axis."""
+    counts = {"count": ("Omega", [0, 1057, 3000, 6516])}
+    ax = dm.plot_sweep(xr.Dataset(counts, {"Omega": [1.0, 2, 3, 4]}), log=True)
+    assert ax.get_yticks().tolist() == [0, 2000, 5000]
+
+
+def test_growth_rates_have_a_linear_scale_on_request() -> None:
+    rates = xr.DataArray(
+        [[-3.0, 0.1], [0.2, 5.0]], {"N": [1.0, 2], "Omega": [1.0, 2]}, name="growth_rate"
+    )
+    study = rates.to_dataset()
+    assert dm.plot_sweep(study.isel(N=0)).get_yscale() == "symlog"
+    assert dm.plot_sweep(study.isel(N=0), log=False).get_yscale() == "linear"
+    [norm] = [each.norm for each in dm.plot_sweep(study, log=False).collections if each.norm]
+    assert type(norm).__name__ == "Normalize"
+    assert (norm.vmin, norm.vmax) == (-5, 5)
+
+
+def test_a_picture_without_legend_has_no_words_above_it() -> None:
+    found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
+    ax = dm.plot_sweep(found, "period", legend=False)
+    assert said_above(ax) == [""]
+    [row] = rows_above(ax)[0].rows
+    assert [*row.get_xdata()] == [15.5]
+
+
+def test_samples_without_any_value_are_not_counted_as_curves() -> None:
+    loads = [300.0, np.nan, *np.linspace(310, 380, 8)]
+    pairs = {"N": loads, "mu_k": np.linspace(0.2, 0.26, 10)}
+    found = dm.sweep(dm.floquet, CASE, Omega=[10, 11], zip=pairs)
+    assert labels(dm.plot_sweep(found, "growth_rate", x="Omega").figure)[0] == "9 of 10 samples"

@@ -1033,3 +1033,18 @@ def test_several_measured_values_in_another_unit_are_one_warning() -> None:
         ImplausibleValue, match=r"period \(Omega=12\) = 16.3 s .*; 1 other measured value alike"
     ):
         warn_of_measured(named, [0.0163, 0.0157, 0.0105])
+
+
+def test_a_start_at_a_bound_stays_where_the_case_has_its_cycle() -> None:
+    """It was moved to 1 % of the bounds, where there is none, and refused by a value not given."""
+    true = dm.Parameters(N=385, Omega=15)
+    times = []
+    for speed in (12, 13, 14, 14.5):
+        cycle = dm.floquet(true.replace(Omega=speed))
+        times.append(dm.Measurement("period", cycle.period, 2e-5, at={"Omega": speed}))
+        slip = cycle.period * (1 - cycle.stick_fraction)
+        times.append(dm.Measurement("slip_time", slip, 2e-5, at={"Omega": speed}))
+    assert dm.floquet(true.replace(Omega=14.5, c_p=1)).status == "no_cycle"
+    found = dm.fit(true, ["mu_s", "k_p", "c_p"], times, bounds={"c_p": (0, 100)})
+    assert found.chi_squared < 1e-6
+    assert 0 < found.limits["c_p"] < 2

@@ -50,11 +50,13 @@ class ColourWishes:
     log : whether the scale is logarithmic
     cmap : another colour map of matplotlib, or its name
     limits : numbers at the ends of the scale, in the unit of its bar
+    linear : whether the scale is linear, even that of growth rates
     """
 
     log: bool = False
     cmap: str | Colormap | None = None
     limits: tuple[float, float] | None = None
+    linear: bool = False
 
     @property
     def has_no_middle(self) -> bool:
@@ -185,8 +187,8 @@ def growth_colours(rates: Array, wishes: ColourWishes = USUAL) -> Scale:
     """Colours of growth rates (1/s): those of all figures, around zero, whose scale is nearly
     logarithmic on both sides.
 
-    Other colours than these, limits on one side of zero, and a logarithmic scale of rates of one
-    sign have the scale of any other number.
+    Other colours than these, limits on one side of zero, a linear scale, and a logarithmic one of rates
+    of one sign have the scale of any other number.
     """
     if not _is_around_zero(rates, wishes):
         return colours_of(rates, xr.DataArray(0.0, name="growth_rate"), wishes)
@@ -202,7 +204,7 @@ def _is_around_zero(rates: Array, wishes: ColourWishes) -> bool:
     """Whether the scale of growth rates is that of all figures, with zero in its middle."""
     if wishes.limits is not None and not wishes.limits[0] < 0 < wishes.limits[1]:
         return False
-    if wishes.has_no_middle:
+    if wishes.has_no_middle or wishes.linear:
         return False
     both = (rates < 0).any() and (rates > 0).any()
     return bool(both) or not (wishes.log or wishes.cmap is not None)
@@ -237,7 +239,7 @@ def _through_zero(cmap: Colormap, values: Array, low: float, high: float) -> Sca
 def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
     """Ticks between two numbers: zero and powers of ten beyond where the scale is linear, or the
     numbers if there are less than two of these."""
-    size = max(-low, high)
+    size = max(-low, high, linear)
     first = np.ceil(np.log10(linear))
     last = np.floor(np.log10(size))
     every = max(1.0, np.ceil((last - first + 1) / MOST_TICKS))

@@ -40,6 +40,9 @@ def draw_samples(
         steps = open_steps(study, array, by, log)
 
     name = counted(len(parts), "sample")
+    shown = sum(bool(np.isfinite(part.data.values.astype(float)).any()) for part in parts)
+    if shown < len(parts):
+        name = f"{shown} of {name}"
     drawn = []
     for part in parts:
         heights = part.data.values

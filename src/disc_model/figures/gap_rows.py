@@ -75,6 +75,15 @@ def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **lo
     stack_rows(ax)
 
 
+def silence_rows(ax: Axes) -> None:
+    """Take the words of rows away, which keep their marks."""
+    found = rows_above(ax)
+    for each in found:
+        each.words.set_text("")
+    if found:
+        stack_rows(ax)
+
+
 def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
     """Add the names of sweeps, by their numbers, to the words of rows that are those of one sweep."""
     host = _host_of(ax)
@@ -107,7 +116,8 @@ def stack_rows(ax: Axes) -> None:
         height += GAP - 0.5 * mark(APART)
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
         each.words.set_transform(up)
-        lines = each.words.get_text().count("\n") + 1
+        said = each.words.get_text()
+        lines = said.count("\n") + 1 if said else 0
         height += lines * LINE * large(TEXT) + mark(FIRST) + BETWEEN
     if not found:
         return

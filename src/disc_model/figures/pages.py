@@ -11,6 +11,7 @@ from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
+from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.labels import is_square, without_font
 from disc_model.figures.legends import (
     figure_legend,
@@ -261,6 +262,9 @@ def _seen_as(handle: Artist) -> tuple[str, ...]:
 def write_legend(page: Page, wishes: Wishes) -> None:
     """Write the legend, if there is one, in the look that the reader's options give: in their place,
     or else below a new figure, or inside a reader's axes or below them."""
+    if wishes.legend is False:
+        for ax in page.axes:
+            silence_rows(ax)
     if not page.handles or wishes.legend is False:
         return
     if page.joins and not page.own:

@@ -23,7 +23,7 @@ def plot_sweep(  # noqa: PLR0913
     x: str = "",
     *,
     lines: str = "",
-    log: bool = False,
+    log: bool | None = None,
     cmap: str | Colormap | None = None,
     limits: tuple[float, float] | None = None,
     ax: Axes | None = None,
@@ -64,8 +64,9 @@ def plot_sweep(  # noqa: PLR0913
         given. Over a dimension beside paired samples, each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
-        and then linear up to its least size, or to a thousandth of the greatest if that is more. Growth rates of both
-        signs have such a scale in any case
+        and then linear up to its least size, or to a thousandth of the greatest if that is more. If not given, growth
+        rates beyond 0.2/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of
+        two, and all else a linear one
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures

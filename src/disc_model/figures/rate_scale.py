@@ -46,13 +46,27 @@ def scale_heights(ax: Axes, array: xr.DataArray, log: bool) -> None:
         ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         # numbers below the linear part's end would cover that of zero
         ends = (float(np.nanmin(heights)), float(np.nanmax(heights)))
-        ax.set_yticks(decades_through_zero(linear, *ends))
+        ticks = decades_through_zero(linear, *ends)
+        if len(ticks) < 3:
+            ticks = _steps_through_zero(linear, *ends) or ticks
+        ax.set_yticks(ticks)
         ax.yaxis.set_major_formatter("{x:g}")
         if (heights > 0).any():
             ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
     elif log:
         ax.set_yscale("log")
         plain_decades(ax.yaxis)
+
+
+def _steps_through_zero(linear: float, low: float, high: float) -> list[float]:
+    """Ticks between two numbers of one decade, zero among them: beyond where the scale is linear, one,
+    two and five times powers of ten."""
+    powers = 10.0 ** np.arange(np.floor(np.log10(linear)), np.log10(max(-low, high, linear)) + 1)
+    sizes = np.outer(powers, [1, 2, 5]).ravel()
+    sizes = sizes[sizes >= linear]
+    ticks = [*(-sizes[::-1]), 0.0, *sizes]
+    shown = [float(tick) for tick in ticks if low <= tick <= high]
+    return shown if len(shown) > 1 else []
 
 
 def _heights_on(ax: Axes) -> Array:

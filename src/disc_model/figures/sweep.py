@@ -46,7 +46,7 @@ def plot_sweep(  # noqa: PLR0913
     x: str = "",
     *,
     lines: str = "",
-    log: bool = False,
+    log: bool | None = None,
     cmap: Any = None,
     limits: Any = None,
     ax: Any = None,
@@ -64,14 +64,14 @@ def plot_sweep(  # noqa: PLR0913
         (names, "variable", variable, "must be a name, or a list of names"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (isinstance(lines, str | None), "lines", lines, "must be a name"),
-        (isinstance(log, bool), "log", log, "must be True or False"),
+        (isinstance(log, bool | None), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
     )
     varying, drawn = choose_drawn(study, variables, x, lines)  # type: ignore[arg-type]  # checked
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
-    colours = ColourWishes(log, cmap, limits)
+    colours = ColourWishes(bool(log), cmap, limits, linear=log is False)
     with page_for(wishes, COLUMN, 2.9, title=title_of(varying, drawn[0])) as page:
         for each in drawn:
             _draw(page, varying, each, colours, called.get(each.variable, ""))
@@ -90,6 +90,8 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
     elif not drawn.mapped:
         replace(wishes, limits=None).refuse()
         _draw_lines(page, study, drawn, wishes.log, name)
+        if wishes.linear and page.ax.get_yscale() == "symlog":
+            page.ax.set_yscale("linear")
         if wishes.limits is not None:
             set_limits(page.ax, wishes.limits)
     else:

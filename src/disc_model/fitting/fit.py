@@ -27,6 +27,8 @@ from disc_model.fitting.result import Fit, Fitted, Gap
 from disc_model.fitting.search import Search
 from disc_model.parameters import Parameters
 
+SHARES_OF_MARGIN = (1.0, 0.1, 0.01)
+"""Shares of the way from a limit that are tried."""
 MARGIN = 0.01
 """Distance of the first step from limits, relative to a parameter's scale."""
 STOPPED = "The steps became too short in front of a gap."
@@ -88,6 +90,7 @@ def fit(
     problem = Problem(case, vary, measurements, scales)
     start = np.array([case.numbers[name] for name in vary])
     begin = _inside(problem, start, limits)
+    begin = _predictable(problem, start, begin)
     warn_of_doubts(case)
     search = Search(problem)
 
@@ -122,6 +125,16 @@ def _inside(problem: Problem, start: Array, limits: Mapping[str, Interval]) -> A
             margin = min(MARGIN * problem.scale[i], 0.5 * (high - low))
             moved[i] = min(max(start[i], low + margin), high - margin)
     return moved
+
+
+def _predictable(problem: Problem, start: Array, begin: Array) -> Array:
+    """Return the start of the search nearer to the given one if measured quantities do not exist at
+    `begin`, away from the limits."""
+    for share in SHARES_OF_MARGIN:
+        nearer = start + share * (begin - start)
+        if not problem.is_missing(nearer):
+            return nearer
+    return begin
 
 
 def _result(

@@ -14,7 +14,7 @@ import xarray as xr
 
 from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.swept_branches import variables_of_branch
-from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, TRUTH
+from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, TRUTH, CycleStatus
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -56,6 +56,16 @@ def _of_kind(kind: str) -> dict[str, dict[str, Any]]:
     return {name: column.attributes for name, column in columns.items() if not column.flags}
 
 
+OF_A_CYCLE = (
+    "releases",
+    "backward_releases",
+    "reversals",
+    "separations",
+    "sticks",
+    "stable",
+    "near_motion",
+)
+"""Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
 OF_PARAMETER = {
     "value": "critical value of {}",
     "crossings": "value of {} at which stability changes",
@@ -105,6 +115,9 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
             if array.dtype.kind in "fc":
                 attributes = with_reason(attributes, reason_of(type(result).__name__, name))
             variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attributes)
+    if type(result).__name__ == "FloquetResult" and result.status is not CycleStatus.OK:
+        for name in OF_A_CYCLE:
+            variables[name] = xr.Variable((), math.nan, variables[name].attrs)
     return variables
 
 
@@ -145,7 +158,8 @@ def stacked(
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
         attrs = _common_attributes([row[name].attrs for row in rows if name in row])
-        if variable.dtype.kind == "b" and array.dtype.kind == "f":
+        is_truth = any(row[name].dtype.kind == "b" for row in rows if name in row)
+        if is_truth and array.dtype.kind == "f":
             attrs = {**attrs, **TRUTH}
         stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)
     return stacked, fixed
