@@ -223,3 +223,11 @@ def test_a_split_matters_from_a_tenth_of_the_rate_or_if_the_sign_changes(
         expected = "yes"
     summary = dict(found.summary())
     assert summary["the split matters"] == expected
+
+
+def test_a_split_does_not_matter_where_growth_is_zero_but_for_rounding() -> None:
+    """Any split mattered beside a neutral mode, by 1e-9 1/s."""
+    neutral = SplitGrowth(together=5e-12, growth_rate=-7.6e-10, apart=-1e-9, pairs=pd.DataFrame())
+    assert not neutral.matters
+    growing = SplitGrowth(together=-0.01, growth_rate=0.01, apart=0.02, pairs=pd.DataFrame())
+    assert growing.matters

@@ -26,6 +26,7 @@ from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import parents_of_bar
 from disc_model.figures.types import Array, Axes, FigureBase
 
+ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 FEW = 12  # counts below which each has a colour of its own
 SPAN = 1e3  # of a logarithmic scale on each side of zero, from where it is linear to its end
 MOST_TICKS = 3  # on each side of zero

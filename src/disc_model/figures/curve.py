@@ -29,7 +29,14 @@ from disc_model.figures.drawing import (
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
-from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens, scale_heights
+from disc_model.figures.rate_scale import (
+    RATE,
+    are_of_cycles,
+    are_rates,
+    opens,
+    scale_heights,
+    without_rounding,
+)
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
@@ -151,6 +158,7 @@ def heights_of(study: xr.Dataset, variable: str) -> tuple[list[str], xr.DataArra
     of -inf, which are marked above the panel."""
     names, array = as_numbers(as_classes(study, variable))
     array = array.copy(data=measured(array).values)
+    array = without_rounding(array)
     return names, array.where(~np.isneginf(array))
 
 

@@ -11,12 +11,18 @@ from matplotlib.colors import to_hex
 from disc_model.data.variables import flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, Look
-from disc_model.figures.colours import USUAL, ColourWishes, draw_bar, growth_colours, growth_norm
+from disc_model.figures.colours import (
+    ROUNDING,
+    USUAL,
+    ColourWishes,
+    draw_bar,
+    growth_colours,
+    growth_norm,
+)
 from disc_model.figures.selection import class_of_gap, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import NO_VALUE, label_of, missing_text
 
-ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
 NEGATIVE = "negative"
 NEUTRAL = "neutral"
 MAP_LOOKS = {

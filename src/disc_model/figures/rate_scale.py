@@ -5,7 +5,13 @@ other heights.
 import numpy as np
 import xarray as xr
 
-from disc_model.figures.colours import decades_through_zero, linear_to, needs_zero
+from disc_model.figures.colours import (
+    ROUNDING,
+    decades_through_zero,
+    is_growth,
+    linear_to,
+    needs_zero,
+)
 from disc_model.figures.drawing import GREY, is_in_data, plain_decades, wide
 from disc_model.figures.selection import OF_CYCLES
 from disc_model.figures.types import Array, Axes, Mask
@@ -26,6 +32,13 @@ RATE = "growth_rate"
 def are_rates(array: xr.DataArray, log: bool) -> bool:
     """Whether a variable is drawn on the scale of growth rates, which has both signs."""
     return array.name == RATE and (not log or needs_zero(array.values))
+
+
+def without_rounding(array: xr.DataArray) -> xr.DataArray:
+    """A variable with zero for growth rates that are zero but for rounding, as maps show them."""
+    if not is_growth(array.name):
+        return array
+    return array.where(~(np.abs(array) <= ROUNDING), 0.0)
 
 
 def are_of_cycles(array: xr.DataArray, rates: xr.DataArray) -> bool:

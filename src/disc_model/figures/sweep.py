@@ -39,6 +39,8 @@ from disc_model.figures.sweep_lines import (
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_in, label_of, measured
 
+MOST_ENERGIES = 5  # of kicks that an axis names each
+
 
 def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
@@ -121,6 +123,16 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     name_rows(page.ax, join_lines(page, lines))
 
 
+def _energies_of(study: xr.Dataset, drawn: Drawn) -> str:
+    """With what energies all starts of a share were kicked, in words; "" if the bars tell it."""
+    if "energy" not in study.coords or drawn.across == "energy":
+        return ""
+    energies = [f"{energy:g}" for energy in np.atleast_1d(study["energy"].values)]
+    if len(energies) > MOST_ENERGIES:
+        energies = [energies[0], "...", energies[-1]]
+    return f",\nkicked with {', '.join(energies)} J"
+
+
 def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     """Draw the shares of starts as bars; returns entries of a legend."""
     shares = study[drawn.variable]
@@ -133,7 +145,7 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     if drawn.across == "energy":
         ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label_of(shares)[0])
+    ax.set_ylabel(label_of(shares)[0] + _energies_of(study, drawn))
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
     return entries_of(classes, f"undecided within {within}: raise horizon")

@@ -2,7 +2,6 @@
 draws."""
 
 import json
-import math
 import re
 from collections.abc import Mapping
 from contextvars import ContextVar
@@ -428,7 +427,7 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     value = data[by].item()
     if isinstance(value, str):
         return WORDS.get(value, value)
-    if isinstance(value, float) and math.isnan(value):
+    if isinstance(value, float) and np.isnan(value):
         return "missing"
     if by in AT_ZERO and not value:
         return AT_ZERO[by]

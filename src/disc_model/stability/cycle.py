@@ -56,7 +56,8 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         slips all the time
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
-    near_motion : False if the cycle is unstable and `floquet` has found the motion from the static start elsewhere
+    near_motion : whether the motion from the static start may be near the cycle; None, which sweeps have as nan, where
+        this is not examined: of a stable cycle, which that motion need not reach, and of one near a given state
     other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
     stick_fraction : share of the period in stick
     state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
@@ -77,7 +78,7 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     multipliers: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
     exponents: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
     growth_rate: float = math.nan
-    near_motion: bool = True
+    near_motion: bool | None = None
     other_growth_rate: float = math.nan
     stick_fraction: float = math.nan
     state: State | None = None
@@ -98,7 +99,7 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
             summary = f"{numbers}, {len(self.multipliers)} multipliers"
             if not math.isnan(self.other_growth_rate):
                 summary += f"; the motion is near another cycle, {self.other_growth_rate:.6g} 1/s"
-            elif not self.near_motion:
+            elif self.near_motion is False:
                 summary += "; the motion is not near it"
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary})"
 

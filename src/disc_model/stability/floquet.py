@@ -59,7 +59,8 @@ def floquet(
     Returns
     -------
     FloquetResult
-        It is also returned if no cycle exists: `status` and `message` then say what was found instead. Where the cycle
+        It is also returned if no cycle exists: `status` and `message` then say what was found instead. A stable cycle
+        need not be that to which the motion from the static start comes: `outcome` follows the motion. Where the cycle
         is unstable, and the motion from the static start is elsewhere in contact after 300 releases, `message` says so,
         and `near_motion` is False. If it is near another cycle, `other_growth_rate` is that of the other: the last
         state of a simulation leads to it as `guess`.
@@ -104,15 +105,16 @@ def _beside_motion(cycle: FloquetResult) -> FloquetResult:
     assert cycle.state is not None
     map_ = ReturnMap(cycle.parameters, cycle.tol)
     start = map_.first_release
+    near = replace(cycle, near_motion=True)
     if not start.reached:
-        return cycle
+        return near
     motion = map_.evaluate(start.x, releases=SETTLED, tangent=False)
     if not motion.returned:
-        return cycle
+        return near
 
     own = map_.point(cycle.state)
     if np.linalg.norm(motion.end - own) <= SAME_POINT * np.linalg.norm(own):
-        return cycle
+        return near
     other = newton(map_, motion.end)
     rate = math.nan
     where = "not near it"
@@ -120,7 +122,7 @@ def _beside_motion(cycle: FloquetResult) -> FloquetResult:
         rate = cycle_of(map_, other).growth_rate
         where = f"near another cycle, with growth rate {rate:.6g} 1/s"
     elif cycle.growth_rate * motion.period < GROWTH:
-        return cycle
+        return near
     message = (
         f"{cycle.message}; after {SETTLED} releases the motion from the static start is {where}"
     )

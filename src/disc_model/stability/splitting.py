@@ -46,7 +46,8 @@ STEPS = 10  # of a period of the fastest solution
 ORDER = 10  # of the series of exponentials: their error is 1e-9 per step
 MOST_STEPS = 100_000  # of half a turn
 LARGE = 1e100  # size of a propagator that is scaled down
-NOTICED = 0.1  # relative change of the growth rate that matters
+NOTICED = 0.1  # relative change of the growth rate that matters,
+LEAST = 1e-3  # 1/s, if it is more than this, which changes a motion by a tenth in 100 s
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -75,10 +76,11 @@ class SplitGrowth(Summarised, EqualByValue):
 
     @property
     def matters(self) -> bool:
-        """Whether the splits change the growth rate by more than a tenth, or its sign."""
+        """Whether the splits change the growth rate by more than a tenth, or its sign, and by more
+        than 0.001/s: without dampers it may be zero to rounding."""
         changes_sign = (self.together > 0) != (self.growth_rate > 0)
         change = abs(self.growth_rate - self.together)
-        return changes_sign or change > NOTICED * abs(self.together)
+        return change > LEAST and (changes_sign or change > NOTICED * abs(self.together))
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         yield "pairs together", number_text(self.together, "1/s")

@@ -131,6 +131,8 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         for verdict in ("stable", "at_lower_bound"):
             if hasattr(result, verdict):
                 values[verdict] = getattr(result, verdict)
+        if values.get("near_motion", True) is None:
+            values["near_motion"] = math.nan
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
