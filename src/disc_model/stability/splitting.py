@@ -47,7 +47,7 @@ ORDER = 10  # of the series of exponentials: their error is 1e-9 per step
 MOST_STEPS = 100_000  # of half a turn
 LARGE = 1e100  # size of a propagator that is scaled down
 NOTICED = 0.1  # relative change of the growth rate that matters,
-LEAST = 1e-3  # 1/s, if it is more than this, which changes a motion by a tenth in 100 s
+LEAST = 1e-6  # 1/s, if it is more than this, which changes a motion by a tenth in a day
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -77,7 +77,7 @@ class SplitGrowth(Summarised, EqualByValue):
     @property
     def matters(self) -> bool:
         """Whether the splits change the growth rate by more than a tenth, or its sign, and by more
-        than 0.001/s: without dampers it may be zero to rounding."""
+        than 1e-6/s: without dampers it may be zero to rounding."""
         changes_sign = (self.together > 0) != (self.growth_rate > 0)
         change = abs(self.growth_rate - self.together)
         return change > LEAST and (changes_sign or change > NOTICED * abs(self.together))
