@@ -116,7 +116,9 @@ def numbers_over_the_grid(study: xr.Dataset) -> list[str]:
     return [
         str(name)
         for name, values in study.items()
-        if {*values.dims} == {"Omega", "N"} and values.dtype.kind == "f"
+        if {*values.dims} == {"Omega", "N"}
+        and values.dtype.kind == "f"
+        and "comment" not in values.attrs  # which says that these are True and False
     ]
 
 
