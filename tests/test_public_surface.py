@@ -104,7 +104,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"study": GRID},
         PICTURE
         | {
-            "log": "True",
+            "log": "True None",
             "variable": "None",
             "x": "None",
             "lines": "None",
