@@ -1,6 +1,6 @@
 """What a case predicts of quantities that can be measured, by their names.
 
-Cycles are found by `floquet`; a block on a rigid disc, which has no modes, is simulated.
+Cycles are those of `floquet`; a block on a rigid disc, which has no modes, is simulated.
 """
 
 from __future__ import annotations
@@ -14,10 +14,11 @@ from typing import NamedTuple
 import numpy as np
 
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
+from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.stability.floquet import floquet
+from disc_model.stability.cycle import find_cycle
 from disc_model.stability.sliding import steady_sliding
 
 MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
@@ -76,7 +77,8 @@ class Prediction:
         """The stick-slip cycle near the static start. Raises `Unpredicted` without one."""
         if is_rigid(self.case):
             return block_cycle(self.case)
-        found = floquet(self.case)
+        with compiling():
+            found = find_cycle(self.case)
         if math.isnan(found.period):
             raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
