@@ -46,6 +46,13 @@ CYCLE_TOLERANCES = (1e-14, 1e-6)  # of the search for a cycle: relative residual
 
 # ---- Numbers
 
+
+def is_missing(value: Any) -> bool:
+    """Whether this is what a table has for a missing number or word: None, nan, or pandas.NA."""
+    is_nan = isinstance(value, float) and math.isnan(value)
+    return value is None or is_nan or type(value).__name__ == "NAType"
+
+
 Units = str | Mapping[str, "Units"]  # a unit; or, for values by name, those that have one
 
 

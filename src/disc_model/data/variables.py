@@ -231,7 +231,22 @@ class Shown(NamedTuple):
 SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
 for _name, (_upper, _lower) in RATIOS.items():
     SHOWN[_name] = Shown("Ratio", f"{SHOWN[_upper].symbol}/{SHOWN[_lower].symbol}", "")
-_OF_A_MODE = {"omega": ("ω", "rad/s"), "amplitude": ("Ψ", "kg^-1/2"), "damping_ratio": ("ζ", "")}
+
+
+class OfMode(NamedTuple):
+    """A number that the table of a disc states of each mode: its symbol and unit for readers, and what
+    it is."""
+
+    symbol: str
+    unit: str
+    variable: Variable
+
+
+_OF_A_MODE = {
+    "omega": OfMode("ω", "rad/s", Variable("rad s-1", "natural frequency")),
+    "amplitude": OfMode("Ψ", "kg^-1/2", Variable("kg^-1/2", "amplitude")),
+    "damping_ratio": OfMode("ζ", "", Variable("1", "damping ratio")),
+}
 
 
 def presentation_of(name: str) -> Shown:
@@ -240,22 +255,20 @@ def presentation_of(name: str) -> Shown:
     if name in SHOWN:
         return SHOWN[name]
     column, diameters, circles = name.rsplit("_", 2)
-    symbol, unit = _OF_A_MODE[column]
-    return Shown("", f"{symbol}({diameters}, {circles})", unit)
+    number = _OF_A_MODE[column]
+    return Shown("", f"{number.symbol}({diameters}, {circles})", number.unit)
 
 
-_MODE_NUMBERS = {
-    "omega": Variable("rad s-1", "natural frequency"),
-    "amplitude": Variable("kg^-1/2", "amplitude"),
-    "damping_ratio": Variable("1", "damping ratio"),
-}
-"""What the table of a disc states of each mode."""
+def unit_of_mode(name: str) -> str:
+    """Unit for readers of a number of one of a disc's modes, such as omega_2_0; "" of any other."""
+    column = name.rsplit("_", 2)[0]
+    return _OF_A_MODE[column].unit if column in _OF_A_MODE else ""
 
 
 def attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
-    number = _MODE_NUMBERS[column]
+    number = _OF_A_MODE[column].variable
     nodes = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
     return number._replace(long_name=f"{number.long_name} of the mode of {nodes}").attributes
 
@@ -269,8 +282,9 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:
-    """The "base" or the "options" that the dataset of a grid study states."""
-    return json.loads(study.attrs[what])
+    """The "base" or the "options" that the dataset of a grid study or of a sweep states; empty
+    without."""
+    return json.loads(study.attrs.get(what, "{}"))
 
 
 def values_text(

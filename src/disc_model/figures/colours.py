@@ -64,12 +64,13 @@ class ColourWishes:
         """Whether the colours asked for say nothing of a sign: their middle is not set apart."""
         return self.cmap is not None and not is_diverging(colormaps.get_cmap(self.cmap))
 
-    def refuse(self) -> None:
-        """Raise `ParameterError` where there are no colours of numbers to choose."""
+    def refuse(self, *, of_lines: bool = False) -> None:
+        """Raise `ParameterError` where there are no colours of numbers to choose; lines have limits all
+        the same."""
         rule = "is for maps of numbers: classes and lines have colours of their own"
         require(
             (self.cmap is None, "cmap", self.cmap, rule),
-            (self.limits is None, "limits", self.limits, rule),
+            (of_lines or self.limits is None, "limits", self.limits, rule),
         )
 
 

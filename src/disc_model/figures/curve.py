@@ -139,11 +139,11 @@ def draw_lines(  # noqa: PLR0913
         if heights.size > CROWDED:
             look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
-                _draw_dots(ax, along, heights, looks.colours[part.name])
+                draw_dots(ax, along, heights, looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
-    set_scales(ax, study, variable, x, log)
+    set_scales(ax, study, names, array, x, log)
 
     # what is no value, or none that was found
     point_down(ax, parts, along, bounds, looks)
@@ -162,9 +162,14 @@ def heights_of(study: xr.Dataset, variable: str) -> tuple[list[str], xr.DataArra
     return names, array.where(~np.isneginf(array))
 
 
-def set_scales(ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool) -> None:
-    """Set the scales, ticks and labels of axes with lines of a variable."""
-    names, array = heights_of(study, variable)
+def set_scales(
+    ax: Axes, study: xr.Dataset, names: Sequence[str], array: xr.DataArray, x: str, log: bool
+) -> None:
+    """Set the scales, ticks and labels of axes with lines of a variable.
+
+    names, array : of its classes, and its heights, as `heights_of` gives them
+    """
+    variable = str(array.name)
     label, along = measured_along(array[x])
     _forget_empty(ax)
     shows = _shows_numbers(ax)
@@ -255,7 +260,7 @@ def _few_marks(heights: np.ndarray, *, joined: bool, alone: bool) -> dict[str, A
     return {"markevery": sorted({*range(0, heights.size, every), greatest})}
 
 
-def _draw_dots(ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any) -> None:
+def draw_dots(ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any) -> None:
     """Draw each of many points as a dot, so that those by themselves stay visible."""
     ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))
 

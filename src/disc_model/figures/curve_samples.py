@@ -7,16 +7,15 @@ import xarray as xr
 
 from disc_model.display import counted
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.curve import dashes_of, heights_of, open_steps, set_scales
+from disc_model.figures.curve import dashes_of, draw_dots, heights_of, open_steps, set_scales
 from disc_model.figures.curve_marks import measured_along, open_look, reasons_of_gaps
-from disc_model.figures.drawing import BLACK, GREY, mark, wide
+from disc_model.figures.drawing import BLACK, GREY, wide
 from disc_model.figures.gap_rows import add_row
 from disc_model.figures.selection import opened, parts_along, remaining
 from disc_model.figures.types import Array, Axes, Mask
 
 MOST_NAMED = 6  # samples whose lines have a name each
 WIDTH = 0.5  # points, of a line
-DOT = 1.5  # points, size of a point that no line joins to others
 
 
 def draw_samples(
@@ -53,9 +52,9 @@ def draw_samples(
         if names:
             alone = np.isfinite(heights)
         if alone.any():
-            ax.plot(along[alone], heights[alone], ".", color=colour, markersize=mark(DOT))
+            draw_dots(ax, along[alone], heights[alone], colour)
     drawn[0].set_label(name)
-    set_scales(ax, study, variable, x, log)
+    set_scales(ax, study, names, array, x, log)
     _mark_missing(ax, study, array, x, {"color": colour, "marker": marker})
     return [(name, drawn[0])]
 

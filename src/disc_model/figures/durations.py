@@ -1,10 +1,11 @@
 """For how long motions were followed, as far as results depend on it, in words of figures."""
 
-import json
 from typing import Any
 
 import numpy as np
 import xarray as xr
+
+from disc_model.data.variables import stated_in
 
 OF_HORIZON = (
     "outcome",
@@ -82,13 +83,13 @@ def _long_name(study: xr.Dataset, name: str) -> str:
 
 def horizon_text(study: xr.Dataset) -> str:
     """The one horizon that a study states, with its unit; "" if there is none."""
-    return _seconds(_options(study).get("horizon"))
+    return _seconds(stated_in(study, "options").get("horizon"))
 
 
 def run_text(study: xr.Dataset) -> str:
     """The length of all runs of a sweep of `simulate`, with its unit; "" if they differ, or if it is
     not known because they continue another run."""
-    options = _options(study)
+    options = stated_in(study, "options")
     if "initial_state" in options:
         return _seconds(options.get("duration"))
     return one_time(study, "t_end")
@@ -102,12 +103,6 @@ def one_time(study: xr.Dataset, name: str) -> str:
     times = study[name].values
     known = np.unique(times[np.isfinite(times)])
     return _seconds(known.tolist())
-
-
-def _options(study: xr.Dataset) -> dict[str, Any]:
-    """The options with which a study was computed."""
-    options: dict[str, Any] = json.loads(study.attrs.get("options", "{}"))
-    return options
 
 
 def _seconds(time: Any) -> str:

@@ -265,7 +265,8 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if wishes.legend is False:
         for ax in page.axes:
             silence_rows(ax)
-    if not page.handles or wishes.legend is False:
+        return
+    if not page.handles:
         return
     if page.joins and not page.own:
         page.handles = _joined(page.axes, page.handles, page.replaced)

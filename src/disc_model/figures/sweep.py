@@ -1,7 +1,6 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 from weakref import ref
 
@@ -90,7 +89,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
         page.show(Quantities(across, label_of(study[drawn.variable])[0]))
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
-        replace(wishes, limits=None).refuse()
+        wishes.refuse(of_lines=True)
         _draw_lines(page, study, drawn, wishes.log, name)
         if wishes.linear and page.ax.get_yscale() == "symlog":
             page.ax.set_yscale("linear")
@@ -117,7 +116,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     quantities = quantities_of(lines, others)
     page.show(quantities)
     lines.number = len(lines_beside(page.ax))
-    found = draw_each(page.ax, study, drawn, log)
+    found = draw_each(page.ax, study, drawn, log, lines.number)
     page.ax.set_ylabel(quantities.y)
     lines.parts = [(part, ref(line)) for part, line in found]
     name_rows(page.ax, join_lines(page, lines))

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
-from disc_model.data.variables import WITHOUT_EFFECT
+from disc_model.data.variables import WITHOUT_EFFECT, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
@@ -173,7 +173,7 @@ def _with_one_horizon(study: xr.Dataset) -> xr.Dataset:
     ``study.sel(horizon=50)``."""
     if "horizon" not in study.coords or study["horizon"].ndim:
         return study
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     options["horizon"] = study["horizon"].item()
     return study.assign_attrs(options=json.dumps(options))
 
@@ -313,7 +313,7 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
 def options_of(study: xr.Dataset) -> dict[str, str]:
     """Words for the options with which a study was computed, by their names, such as the length of
     stays: those that are numbers or words."""
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     if {"dwell", "max_dwell"} <= {*options}:
         stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
         options["stays"] = f"{' to '.join(stays)} s"

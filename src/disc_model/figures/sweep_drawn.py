@@ -7,15 +7,20 @@ import xarray as xr
 from disc_model.figures.curve import draw_lines
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.curve_samples import MOST_NAMED, draw_samples
+from disc_model.figures.family import LOOKS
 from disc_model.figures.sweep_choice import Drawn
-from disc_model.figures.sweep_lines import lines_beside, next_look
 from disc_model.figures.types import Axes
 
 
-def draw_each(ax: Axes, study: xr.Dataset, drawn: Drawn, log: bool) -> list[tuple[str, Any]]:
-    """Draw a line, or one for each value of a second dimension; many samples have one name."""
-    across, look = drawn.across, next_look(ax)
-    number = len(lines_beside(ax))
+def draw_each(
+    ax: Axes, study: xr.Dataset, drawn: Drawn, log: bool, number: int
+) -> list[tuple[str, Any]]:
+    """Draw a line, or one for each value of a second dimension; many samples have one name.
+
+    number : of lines that were drawn there before
+    """
+    across = drawn.across
+    look = LOOKS[number % len(LOOKS)]
     mark = MARKS[number % len(MARKS)]
     if drawn.sampled and study.sizes[drawn.second] > MOST_NAMED:
         return draw_samples(ax, study, drawn.variable, across, log, look, mark)

@@ -11,9 +11,8 @@ from weakref import WeakKeyDictionary, ref
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.figures.branch_lines import Look
 from disc_model.figures.durations import duration_of
-from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
+from disc_model.figures.family import Member, name_in, names_of, retitle
 from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.pages import Page
@@ -173,11 +172,6 @@ def _distinct(names: Sequence[str], family: Sequence[Member]) -> list[str]:
         alike = each.name and names.count(name) > 1
         found.append(f"{name}, {_within(each.values['variable'])}" if alike else name)
     return found
-
-
-def next_look(ax: Axes) -> Look:
-    """The look of the next lines on axes."""
-    return LOOKS[len(lines_beside(ax)) % len(LOOKS)]
 
 
 def join_lines(page: Page, new: Lines) -> dict[int, str]:

@@ -1,7 +1,6 @@
 """Words of figures: labels of variables, names of values, and what a figure's head says. Nothing here
 draws."""
 
-import json
 import re
 from collections.abc import Mapping
 from contextvars import ContextVar
@@ -19,6 +18,7 @@ from disc_model.data.variables import (
     attributes,
     axis_of,
     flag_names,
+    stated_in,
     typeset,
 )
 from disc_model.figures.classes import name_of
@@ -315,7 +315,7 @@ def missing_text(study: xr.Dataset, name: str) -> str:
         horizon = "the horizon"
     if name in TIMES_OF_SEPARATION and horizon:
         # some that occur have no time where departures are extrapolated
-        options = json.loads(study.attrs.get("options", "{}"))
+        options = stated_in(study, "options")
         untimed = options.get("extrapolate") or "extrapolate" in study.dims
         return f"none within {horizon}, or not timed" if untimed else f"none within {horizon}"
     reason = _reason_in(study, name) or name_of(NO_VALUE)
@@ -357,7 +357,7 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
 def _none_up_to_bound(study: xr.Dataset) -> str:
     """What is said of a search that has found no critical value: the motion is stable at all values
     up to the upper bound, which is in the unit of the value; "" of a bound that is a text."""
-    highest = json.loads(study.attrs.get("options", "{}")).get("bounds", ["", ""])[1]
+    highest = stated_in(study, "options").get("bounds", ["", ""])[1]
     if isinstance(highest, str):
         return f"none up to {highest}" if highest else ""
     shown = measured(study["value"].copy(data=np.full(study["value"].shape, float(highest))))

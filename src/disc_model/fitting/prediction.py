@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.data.variables import unit_of_mode
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
@@ -235,8 +236,7 @@ def unit_of(name: str) -> str:
 
 def unit_of_parameter(name: str) -> str:
     """Return the unit of a parameter or of a number of a disc's table; "" without one."""
-    table = {"omega": "rad/s", "amplitude": "kg^-1/2", "damping_ratio": ""}
-    unit = Parameters.unit(name) or table.get(name.rsplit("_", 2)[0], "")
+    unit = Parameters.unit(name) or unit_of_mode(name)
     return "" if unit == "1" else unit
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.fitting.measured import Measurement
-from disc_model.units import number
+from disc_model.units import is_missing, number
 
 NEEDED = ("quantity", "value", "uncertainty")
 """Columns that every table has."""
@@ -85,10 +85,9 @@ def _plain(cell: Any) -> Any:
 
 
 def _is_empty(cell: Any) -> bool:
-    """Whether a cell is empty: None, nan, pandas.NA, or a text of blanks."""
+    """Whether a cell is empty: a missing value, or a text of blanks."""
     is_blank = isinstance(cell, str) and not cell.strip()
-    is_nan = isinstance(cell, float) and np.isnan(cell)
-    return cell is None or is_blank or is_nan or type(cell).__name__ == "NAType"
+    return is_blank or is_missing(cell)
 
 
 def in_row(fault: str, row: int) -> str:

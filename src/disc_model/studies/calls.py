@@ -44,6 +44,7 @@ class Call:
     Attributes
     ----------
     title : name of the function
+    ours : the same if it is one of this package, else ""
     dimensions : values of numbers of the case
     options : arguments of the function that do not vary
     arguments : names of all arguments of the function beside the case
@@ -53,6 +54,7 @@ class Call:
     """
 
     title: str
+    ours: str
     dimensions: list[Dimension]
     options: Mapping[str, Any]
     arguments: frozenset[str]
@@ -119,7 +121,7 @@ def are_recorded(errors: Any) -> bool:
     return bool(errors == "record")
 
 
-def is_ours(function: Any) -> bool:
+def _is_ours(function: Any) -> bool:
     """Whether this is a function of this package; its module is None in some shells."""
     return str(getattr(function, "__module__", "")).startswith("disc_model.")
 
@@ -159,7 +161,7 @@ def checked_call(
         taken.update(samples.coordinates)
 
     title = getattr(function, "__name__", type(function).__name__)
-    arguments = Arguments(title, title if is_ours(function) else "", parameters)
+    arguments = Arguments(title, title if _is_ours(function) else "", parameters)
     if not arguments.takes_any:
         faults += _unknown(options, parameters, numbers)
     varied: dict[str, list[Any]] = {}
@@ -173,6 +175,7 @@ def checked_call(
         warn_without_effect([*dimension.beside])
     return Call(
         title,
+        arguments.ours,
         dimensions + together,
         options,
         frozenset(arguments.names),

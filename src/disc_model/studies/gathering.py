@@ -115,9 +115,6 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
             if array.dtype.kind in "fc":
                 attributes = with_reason(attributes, reason_of(type(result).__name__, name))
             variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attributes)
-    if type(result).__name__ == "FloquetResult" and result.status is not CycleStatus.OK:
-        for name in OF_A_CYCLE:
-            variables[name] = xr.Variable((), math.nan, variables[name].attrs)
     return variables
 
 
@@ -131,14 +128,21 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         for verdict in ("stable", "at_lower_bound"):
             if hasattr(result, verdict):
                 values[verdict] = getattr(result, verdict)
-        if values.get("near_motion", True) is None:
-            values["near_motion"] = math.nan
+        if type(result).__name__ == "FloquetResult":
+            values |= dict.fromkeys(_missing_of_cycle(result), math.nan)
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
     if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
         return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
+
+
+def _missing_of_cycle(result: Any) -> Sequence[str]:
+    """Counts and verdicts of a result of `floquet` that have no value."""
+    if result.status is not CycleStatus.OK:
+        return OF_A_CYCLE
+    return ["near_motion"] if result.near_motion is None else []
 
 
 def stacked(
@@ -159,8 +163,9 @@ def stacked(
         values = [row[name].values if name in row else None for row in rows]
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        attrs = _common_attributes([row[name].attrs for row in rows if name in row])
-        is_truth = any(row[name].dtype.kind == "b" for row in rows if name in row)
+        present = [row[name] for row in rows if name in row]
+        attrs = _common_attributes([each.attrs for each in present])
+        is_truth = any(each.dtype.kind == "b" for each in present)
         if is_truth and array.dtype.kind == "f":
             attrs = {**attrs, **TRUTH}
         stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)

@@ -13,8 +13,8 @@ import numpy as np
 
 from disc_model.errors import Fault, suggestion
 from disc_model.studies.quantity import STATUS
-from disc_model.studies.swept_values import checked_values, is_missing
-from disc_model.units import is_number
+from disc_model.studies.swept_values import checked_values
+from disc_model.units import is_missing, is_number
 
 OF_SWEEPS = {"status": STATUS.long_name, "message": "what became of it, in words"}
 """Variables that every sweep has, and their names."""
@@ -86,9 +86,7 @@ def _columns_of(zipped: Any) -> dict[str, list[Any]]:
 
 def _are_labels(values: Any) -> bool:
     """Whether these are words, or yes and no, of which some may be missing."""
-    if isinstance(values, str) or not np.iterable(values):
-        return False
-    present = [value for value in values if not is_missing(value)]
+    present = _present_in(values)
     return bool(present) and all(isinstance(value, str | bool | np.bool_) for value in present)
 
 
@@ -128,10 +126,15 @@ def _meant_by(name: object, names: Sequence[str]) -> str:
 
 def _are_numbers(values: Any) -> bool:
     """Whether these are numbers, of which some may be missing."""
-    if isinstance(values, str) or not np.iterable(values):
-        return False
-    present = [value for value in values if not is_missing(value)]
+    present = _present_in(values)
     return bool(present) and all(map(is_number, present))
+
+
+def _present_in(values: Any) -> list[Any]:
+    """The values of a column that are not missing; none of what is no column."""
+    if isinstance(values, str) or not np.iterable(values):
+        return []
+    return [value for value in values if not is_missing(value)]
 
 
 def _rule_of_unknown(name: object, known: Known) -> str:

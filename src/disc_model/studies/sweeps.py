@@ -15,7 +15,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
-from disc_model.studies.calls import Call, are_recorded, checked_call, is_ours
+from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import stacked, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
@@ -111,14 +111,13 @@ def sweep(  # noqa: PLR0913
     call = checked_call(function, case, unnamed, over, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
     chosen = {**call.defaults, **call.options}
-    searched = _searched(function, call)
+    searched = _searched(call)
     _refuse_searched(call, searched)
-    ours = call.title if is_ours(function) else ""
-    _refuse_what_is_left_out(ours, call.options)
+    _refuse_what_is_left_out(call)
     records = are_recorded(errors)
     points = [*call.points()]
     first = _first_possible(case, call, points)
-    row = partial(_row, partial(function, **call.options), case, call, ours, records)
+    row = partial(_row, partial(function, **call.options), case, call, records)
     numbered = [(number == first, point) for number, point in enumerate(points)]
     rows = calls.results(row, numbered, call.title)
 
@@ -150,24 +149,24 @@ def _refuse_searched(call: Call, searched: set[str]) -> None:
     raise_faults([Fault((name,), "", rule) for name in swept if name in searched])
 
 
-def _refuse_what_is_left_out(ours: str, options: Mapping[str, Any]) -> None:
+def _refuse_what_is_left_out(call: Call) -> None:
     """Raise `ParameterError` where a function of this package would compute what a sweep leaves
     out."""
-    if ours in WITHOUT_RESULT:
-        raise ParameterError(Fault(("function",), ours, WITHOUT_RESULT[ours]))
-    if ours == "simulate" and options.get("windows"):
-        raise ParameterError(Fault.of(("windows",), options["windows"], WITHOUT_SAMPLES))
+    if call.ours in WITHOUT_RESULT:
+        raise ParameterError(Fault(("function",), call.ours, WITHOUT_RESULT[call.ours]))
+    windows = call.options.get("windows")
+    if call.ours == "simulate" and windows:
+        raise ParameterError(Fault.of(("windows",), windows, WITHOUT_SAMPLES))
 
 
-def _searched(function: Any, call: Call) -> set[str]:
+def _searched(call: Call) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
     mean nothing: of `critical` and `continue_cycle` the one along which they go, of a quantity those
     of its scan."""
-    ours = is_ours(function)
-    if ours and call.title in ("critical", "continue_cycle"):
+    if call.ours in ("critical", "continue_cycle"):
         return {name for name in call.values_of("name") if isinstance(name, str)}
-    if ours and call.title in quantity_names():
-        return {*quantity_of(call.title).scans}
+    if call.ours in quantity_names():
+        return {*quantity_of(call.ours).scans}
     return set()
 
 
@@ -246,16 +245,10 @@ def _with_hint(error: Exception, call: Call) -> Exception:
 
 
 def _row(
-    function: Any,
-    case: Parameters,
-    call: Call,
-    ours: str,
-    records: bool,
-    numbered: tuple[bool, Any],
+    function: Any, case: Parameters, call: Call, records: bool, numbered: tuple[bool, Any]
 ) -> dict[str, xr.Variable]:
-    """The variables of one call, `ours` being the name of a function of this package; what the
-    function is wrongly given or returns at the first point that is a case, which is said with the
-    point, is a fault of all."""
+    """The variables of one call; what the function is wrongly given or returns at the first point that
+    is a case, which is said with the point, is a fault of all."""
     is_first, point = numbered
     try:
         result = _called(function, case, call, point)
@@ -269,7 +262,7 @@ def _row(
             return _failure(error)
         raise
     try:
-        variables = call.checked(result, variables_of_result(result, ours))
+        variables = call.checked(result, variables_of_result(result, call.ours))
     except NUMERICAL as error:
         if is_first:
             raise

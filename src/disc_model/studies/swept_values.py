@@ -10,13 +10,7 @@ from pydantic import create_model
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.case import SomeParameters
-from disc_model.units import Finite, Strict, in_si, number
-
-
-def is_missing(value: Any) -> bool:
-    """Whether this is what a table has for a missing word: None, nan, or pandas.NA."""
-    is_nan = isinstance(value, float) and math.isnan(value)
-    return value is None or is_nan or type(value).__name__ == "NAType"
+from disc_model.units import Finite, Strict, in_si, is_missing, number
 
 
 def checked_values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:
