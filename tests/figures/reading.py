@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+import disc_model as dm
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 
@@ -33,6 +34,11 @@ def draw(
     figure = render(kind_of(kind).model_validate({"kind": kind, **phrase}), inputs)
     assert_fit_for_print(figure)
     return figure
+
+
+def as_map(study: xr.Dataset, *chosen: Any, **wishes: Any) -> Axes:
+    """Draw a sweep as a map, also if one of its dimensions has few values."""
+    return dm.plot_sweep(study, *chosen, lines=False, **wishes)
 
 
 LEAST_PANEL = 0.4  # inch

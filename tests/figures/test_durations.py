@@ -9,6 +9,7 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.words import label_in, missing_text
+from tests.figures.reading import as_map
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 LOADS = [300.0, 385.0]  # N
@@ -163,7 +164,7 @@ def test_times_of_one_run_share_its_length() -> None:
 
 def test_bars_of_colours_have_the_time_in_which_they_were_counted() -> None:
     study = dm.sweep(dm.simulate, CASE, N=LOADS, Omega=[10.0, 12.0], t_end=0.1)
-    ax = dm.plot_sweep(study, "n_events")
+    ax = as_map(study, "n_events")
     label = ax.figure.axes[1].get_ylabel()
     assert " ".join(label.split()) == "Number of events within 0.1 s"
     pyplot.close("all")

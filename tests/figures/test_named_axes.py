@@ -12,6 +12,7 @@ from matplotlib import pyplot
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.sweep_lines import common_words
+from tests.figures.reading import as_map
 from tests.figures.test_wishes import CASE, DRAWN, branch, legend_texts, run
 from tests.refusals import refusal
 
@@ -356,7 +357,7 @@ def test_numbers_of_a_short_bar_do_not_meet(log: bool) -> None:
 def test_variables_that_are_drawn_together_are_lines_over_one_dimension() -> None:
     study = dm.sweep(dm.floquet, CASE, Omega=[10.0, 12.0], N=[300.0, 385.0])
     with refusal("must be lines over the same dimension"):
-        dm.plot_sweep(study, ["growth_rate", "period"])
+        as_map(study, ["growth_rate", "period"])
 
 
 @pytest.mark.parametrize(

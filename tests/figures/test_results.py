@@ -17,7 +17,7 @@ import disc_model as dm
 from disc_model.figures.amplitudes import amplitudes
 from disc_model.figures.spectrum import draw_spectrum
 from disc_model.figures.sweep_choice import OF_FUNCTIONS
-from tests.figures.reading import labels
+from tests.figures.reading import as_map, labels
 from tests.refusals import refusal
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -258,23 +258,23 @@ def test_a_sweep_shows_first_what_a_reader_looks_for(
 
 def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     line = dm.sweep(dm.floquet, P, Omega=[10, 12, 14, 15])
-    ax = dm.plot_sweep(line)
+    ax = as_map(line)
     np.testing.assert_allclose(ax.lines[0].get_ydata(), line["growth_rate"])
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
     plane = dm.sweep(dm.floquet, P, Omega=[10, 12, 14], N=[300, 385])
-    ax = dm.plot_sweep(plane, "period", x="N")
+    ax = as_map(plane, "period", x="N")
     np.testing.assert_allclose(ax.collections[0].get_array(), 1e3 * plane["period"])
     assert ax.get_ylabel() == "Speed Ω (rad/s)"
     assert ax.figure.axes[1].get_ylabel() == "Period of the stick-slip cycle (ms)"
     outcomes = plane.assign(
         outcome=(("Omega", "N"), [["quiet", "quiet"], ["separation", "quiet"], ["quiet", "quiet"]])
     )
-    named = labels(dm.plot_sweep(outcomes, "outcome").figure)
+    named = labels(as_map(outcomes, "outcome").figure)
     assert named == ["quiet", "separation", "unresolved", "Outcome"]
     with refusal("variable='perod': must be one over the grid, did you mean period"):
-        dm.plot_sweep(plane, "perod")
+        as_map(plane, "perod")
     with refusal("study='c, Omega, N': must vary along at most two"):
-        dm.plot_sweep(plane.expand_dims(c=[0.0, 0.1]), "period")
+        as_map(plane.expand_dims(c=[0.0, 0.1]), "period")
     counted = {
         "growth_rate": (("branch", "branch_point"), np.ones((2, 3))),
         "reached": ("sweep_value", [1.0, 2.0]),
@@ -282,7 +282,7 @@ def test_a_sweep_is_drawn_as_a_line_or_as_a_map() -> None:
     branches = xr.Dataset(
         counted, {"branch": [0, 1], "branch_point": [0, 1, 2], "sweep_value": [10.0, 11.0]}
     )
-    np.testing.assert_allclose(dm.plot_sweep(branches).lines[0].get_ydata(), [1, 2])
+    np.testing.assert_allclose(as_map(branches).lines[0].get_ydata(), [1, 2])
 
 
 def test_a_sweep_of_sliding_is_not_called_a_cycle() -> None:
@@ -291,11 +291,11 @@ def test_a_sweep_of_sliding_is_not_called_a_cycle() -> None:
     sliding = dm.sweep(dm.steady_sliding, P.replace(c_p=0.5), **axes)
     assert (sliding["growth_rate"] < 0).sel(N=50).all()
     assert (sliding["growth_rate"] > 0).sel(N=300).all()
-    figure = dm.plot_sweep(sliding).figure
+    figure = as_map(sliding).figure
     assert " ".join(figure.axes[1].get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
     assert "stable" in labels(figure)
     assert "stable cycle" not in labels(figure)
-    [line] = dm.plot_sweep(sliding.sel(N=300)).lines[:1]
+    [line] = as_map(sliding.sel(N=300)).lines[:1]
     assert " ".join(line.axes.get_ylabel().split()) == "Growth rate of steady sliding (1/s)"
 
 
@@ -305,9 +305,9 @@ def test_sliding_that_grows_is_not_painted_as_steady() -> None:
     plane["status"] = plane["status"].where(plane["Omega"] < 60, "no_stick_slip")
     plane["growth_rate"] = plane["growth_rate"].where(plane["Omega"] < 60)
     plane["sliding_growth_rate"].loc[{"Omega": 60.0}] = [-0.1, 1.2]
-    assert {"steady sliding", "unstable steady sliding"} <= set(labels(dm.plot_sweep(plane).figure))
+    assert {"steady sliding", "unstable steady sliding"} <= set(labels(as_map(plane).figure))
     assert "slides without sticking" in labels(
-        dm.plot_sweep(plane.drop_vars("sliding_growth_rate")).figure
+        as_map(plane.drop_vars("sliding_growth_rate")).figure
     )
 
 

@@ -15,7 +15,7 @@ import disc_model as dm
 from disc_model.figures.labels import titles_of
 from disc_model.figures.placing import Row, check_room
 from disc_model.figures.sizes import COLUMN, PAGE
-from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
+from tests.figures.reading import as_map, assert_fit_for_print, assert_numbers_are_apart
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -53,8 +53,8 @@ DRAWN: dict[str, Draw] = {
     "exponents": lambda **wishes: exponents().plot(**wishes),
     "branch": lambda **wishes: branch().plot("period", **wishes),
     "line": lambda **wishes: dm.plot_sweep(growth().sel(N=385), **wishes),
-    "map": lambda **wishes: dm.plot_sweep(growth(), **wishes),
-    "words": lambda **wishes: dm.plot_sweep(growth(), "stable", **wishes),
+    "map": lambda **wishes: as_map(growth(), **wishes),
+    "words": lambda **wishes: as_map(growth(), "stable", **wishes),
 }
 """Pictures of one panel."""
 WITH_LEGEND = ("portrait", "multipliers", "eigenvalues", "branch", "map", "words")
@@ -350,9 +350,9 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # the error says it
         with refusal(r"ax=.*: must have room beside a colour bar"):
-            dm.plot_sweep(partly, ax=ax)
+            as_map(partly, ax=ax)
     figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
-    dm.plot_sweep(partly, ax=ax)
+    as_map(partly, ax=ax)
     assert min(ax.bbox.width, ax.bbox.height) / figure.dpi * 25.4 > 20
     pyplot.close("all")
 

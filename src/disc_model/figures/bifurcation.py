@@ -41,6 +41,7 @@ UNDECIDED: dict[str, Any] = {
     "mfc": "none",
     "mew": 0.5,
 }
+UNDECIDED_NAME = "not settled, or undecided"
 RINGS_APART = 0.025  # of the range of all samples, least distance of such marks at one point
 IN_LEGEND = 6.0  # size of the marks there: those of the diagram are too small for it
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
@@ -102,7 +103,7 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
     settled = (flag_names(study["settled"]) == "settled")[:, None]
     names = EVENTS if stated_in(study, "options")["section"] == "event" else {}
     rings = apart(values, ~settled & (phase != "none"))
-    dots = [("not settled, or undecided", rings, UNDECIDED)]
+    dots = [(UNDECIDED_NAME, rings, UNDECIDED)]
     for name, colour in PHASE_COLOURS.items():
         look = {**MARKS[name], "color": colour}
         dots.append((names.get(name, name), settled & (phase == name), look))

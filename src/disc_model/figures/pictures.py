@@ -4,7 +4,7 @@ drawn."""
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from disc_model.display import draw
 
@@ -22,7 +22,7 @@ def plot_sweep(  # noqa: PLR0913
     variable: str | Sequence[str] = "",
     x: str = "",
     *,
-    lines: str = "",
+    lines: str | Literal[False] = "",
     log: bool | None = None,
     cmap: str | Colormap | None = None,
     limits: tuple[float, float] | None = None,
@@ -33,6 +33,11 @@ def plot_sweep(  # noqa: PLR0913
 ) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
+
+    Where one of two dimensions has three values or fewer, each of these has a line. Where a variable has
+    several values at each point, such as the samples of `bifurcation` or an array that a function of
+    your own returns, all are points over what varies, as in a bifurcation diagram. Grey rings there are
+    of motions that had not settled.
 
     Values that vary together, such as paired samples, are points over one of their columns, which
     may be that of their names. A second
@@ -60,9 +65,11 @@ def plot_sweep(  # noqa: PLR0913
     variable : one, or a list of variables that are lines of one unit, such as ``["onset_speed", "offset_speed"]`` of
         `hysteresis`; if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent,
         the number of separations of `simulate`, the lowest coupled frequency, or the first number there is
-    x : the dimension, or the column of paired values or names, along the horizontal axis; the first of numbers if not
-        given. Over a dimension beside paired samples, each of these has a line: up to six are named, and more are thin
-    lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map
+    x : the dimension, or the column of paired values or names, along the horizontal axis; if not given, the first of
+        numbers, or the one with more values if the other has three or fewer. Over a dimension beside paired samples,
+        each of these has a line: up to six are named, and more are thin
+    lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map;
+        False for a map in any case, which `cmap` asks for as well
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. If not given, growth
         rates beyond 0.2/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of

@@ -1,7 +1,7 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 from weakref import ref
 
 import numpy as np
@@ -46,7 +46,7 @@ def plot_sweep(  # noqa: PLR0913
     variable: str | Sequence[str] = "",
     x: str = "",
     *,
-    lines: str = "",
+    lines: str | Literal[False] = "",
     log: bool | None = None,
     cmap: Any = None,
     limits: Any = None,
@@ -60,16 +60,19 @@ def plot_sweep(  # noqa: PLR0913
     if isinstance(variable, list | tuple) and variable:
         variables = [*variable]
     names = all(isinstance(each, str | None) for each in variables)
+    is_named = lines is False or isinstance(lines, str | None)
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
         (names, "variable", variable, "must be a name, or a list of names"),
         (isinstance(x, str | None), "x", x, "must be a name"),
-        (isinstance(lines, str | None), "lines", lines, "must be a name"),
+        (is_named, "lines", lines, "must be a name, or False for a map"),
         (isinstance(log, bool | None), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
     )
-    varying, drawn = choose_drawn(study, variables, x, lines)  # type: ignore[arg-type]  # checked
+    asked = lines or ""
+    as_map = lines is False or (cmap is not None and not lines)  # lines have no map of colours
+    varying, drawn = choose_drawn(study, variables, x, None if as_map else asked)  # type: ignore[arg-type]  # checked
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
     colours = ColourWishes(bool(log), cmap, limits, linear=log is False)

@@ -1,6 +1,7 @@
 """What a picture of a sweep shows: which variable, over which of its dimensions, and of what case."""
 
 import json
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
@@ -49,6 +50,10 @@ OPTIONS = {
 """What legends say of times among the options that differ between sweeps."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
+COUNT = re.compile("number of the (?!.* along )")
+"""What long names of dimensions begin with along which a variable has several values at one point, in
+no order of their own."""
+FEW = 3  # values of a dimension, which are lines rather than rows of a map
 
 
 class Paired(NamedTuple):
@@ -67,6 +72,7 @@ class Drawn:
     mapped : whether the second dimension goes up, in a map
     joined : whether lines join the points; not those of paired values, which have no order
     sampled : whether the second dimension is that of paired samples, each of which has a line
+    counted : whether the second dimension only counts values, all of which are points
     """
 
     variable: str
@@ -75,6 +81,7 @@ class Drawn:
     mapped: bool
     joined: bool = True
     sampled: bool = False
+    counted: bool = False
 
     @property
     def is_line(self) -> bool:
@@ -83,13 +90,13 @@ class Drawn:
 
 
 def choose_drawn(
-    study: xr.Dataset, variables: Sequence[str], x: str, lines: str = ""
+    study: xr.Dataset, variables: Sequence[str], x: str, lines: str | None = ""
 ) -> tuple[xr.Dataset, list[Drawn]]:
     """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
     are lines over the same dimension. Raises `ParameterError`.
 
     x, lines : dimensions along the horizontal axis, and with a line for each value; "" for the usual
-        ones
+        ones; None for a map in place of lines
     """
     _refuse_branches(study)
     if not variables[0]:
@@ -117,7 +124,7 @@ def _refuse_branches(study: xr.Dataset) -> None:
     raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 
-def _drawn(paired: Paired, variable: str, x: str, lines: str) -> Drawn:
+def _drawn(paired: Paired, variable: str, x: str, lines: str | None) -> Drawn:
     """What is drawn of a variable, over a column of paired values, if there is one."""
     study, column, samples = paired
     name = _chosen_variable(study, variable)
@@ -125,6 +132,10 @@ def _drawn(paired: Paired, variable: str, x: str, lines: str) -> Drawn:
         drawn = _with_lines(study, name, column or x, lines)
     else:
         drawn = _chosen_axes(study, name, column or x)
+    if lines is None and drawn.second in study.coords:
+        drawn = replace(drawn, mapped=_are_plane(study, drawn), counted=False)
+    elif drawn.mapped:
+        drawn = _with_few_lines(study, drawn, x)
     if column:
         return replace(drawn, mapped=False, joined=False)
     if samples and drawn.second == samples:
@@ -144,7 +155,18 @@ def _with_lines(study: xr.Dataset, variable: str, x: str, lines: str) -> Drawn:
     require((len(dims) > 1, "lines", lines, alone))
     require((lines in known, "lines", lines, other))
     across = x or next(dim for dim in dims if dim != lines)
-    return replace(_chosen_axes(study, variable, across), mapped=False)
+    return replace(_chosen_axes(study, variable, across), mapped=False, counted=False)
+
+
+def _with_few_lines(study: xr.Dataset, drawn: Drawn, x: str) -> Drawn:
+    """What is drawn of a map: a line for each value of the dimension with fewest values, if these are
+    few, and if it is not the one that a reader wants along the horizontal axis."""
+    across, second = drawn.across, str(drawn.second)
+    if not x and study.sizes[across] < study.sizes[second]:
+        across, second = second, across
+    if study.sizes[second] > FEW:
+        return drawn
+    return replace(drawn, across=across, second=second, mapped=False)
 
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
@@ -261,9 +283,10 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     choices = [
         name
         for name, dims in over.items()
-        if dims & numbers and dims <= {*study.coords} and study[name].dtype.kind != "c"
+        if dims & numbers and study[name].dtype.kind != "c" and len(dims - {*study.coords}) < 2
     ]
-    named = variable or _usual_variable(study, choices)
+    single = [name for name in choices if over[name] <= {*study.coords}]
+    named = variable or _usual_variable(study, single or choices)
     points = "must have two points or more along a number or a word"
     require((bool(numbers), "study", "a single point", points))
     real = named not in study or study[named].dtype.kind != "c"
@@ -271,7 +294,7 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     require((real, "variable", named, parts))
     rule = f"must be one over the grid{suggestion(named, choices)}"
     further = [dim for dim in over.get(named, ()) if dim not in study.coords]
-    if further:
+    if further and named not in choices:
         rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
     require((named in choices, "variable", named, rule))
     return named
@@ -281,13 +304,28 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     """The dimensions along which a variable is drawn; raises `ParameterError`."""
     dims = [str(dim) for dim in study[variable].dims]
     numbers = [dim for dim in dims if dim in _drawn_dims(study)]
-    across = x or numbers[0]
+    across = x or next((dim for dim in numbers if not _only_counts(study, dim)), numbers[0])
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
     require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
     second = next((dim for dim in dims if dim != across), None)
-    plane = len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
-    return Drawn(variable, across, second, mapped=plane)
+    counted = second is not None and _only_counts(study, second)
+    drawn = Drawn(variable, across, second, mapped=False, counted=counted)
+    return replace(drawn, mapped=not counted and _are_plane(study, drawn))
+
+
+def _are_plane(study: xr.Dataset, drawn: Drawn) -> bool:
+    """Whether a variable has two dimensions of numbers."""
+    numbers = [dim for dim in (drawn.across, drawn.second) if dim in _drawn_dims(study)]
+    return len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
+
+
+def _only_counts(study: xr.Dataset, dim: str) -> bool:
+    """Whether a dimension only counts the values that a variable has at a point, such as the samples
+    of a Poincaré section."""
+    if dim not in study.coords:
+        return True
+    return bool(COUNT.match(str(study[dim].attrs.get("long_name", ""))))
 
 
 def values_of(study: xr.Dataset) -> dict[str, Any]:
