@@ -24,7 +24,7 @@ _NAMES = {
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
-    "figures.pictures": "plot_modes plot_sweep",
+    "figures.pictures": "plot_campbell plot_modes plot_sweep",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
     ),
@@ -70,7 +70,7 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
-    from disc_model.figures.pictures import plot_modes, plot_sweep
+    from disc_model.figures.pictures import plot_campbell, plot_modes, plot_sweep
     from disc_model.fitting.fit import fit
     from disc_model.fitting.measured import Measurement
     from disc_model.fitting.result import Fit

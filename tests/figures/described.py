@@ -289,8 +289,8 @@ def sliding(outcome: bool = False) -> xr.Dataset:
     return xr.Dataset(data, coords, stated(parameter="mu_k"))
 
 
-def sliding_modes() -> Figure:
-    return drawn("sliding_modes", sliding())
+def sliding_modes(**phrase: Any) -> Figure:
+    return drawn("sliding_modes", sliding(), **phrase)
 
 
 def root_locus() -> Figure:

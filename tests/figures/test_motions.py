@@ -663,6 +663,47 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
     assert "l = 3" not in named, "its mode ends at 182 Hz"
 
 
+@pytest.mark.parametrize(
+    ("highest", "cut", "peak", "triangles", "multiples"),
+    [
+        ("200 Hz", [], "peak of growth, crossing at it", [], ["multiple of $f_s$ or $f_Ω$"]),
+        (
+            "145 Hz",
+            ["cut at 145 Hz: 2 modes above"],
+            "peak of growth, crossing at it",
+            [],
+            ["multiple of $f_s$ or $f_Ω$"],
+        ),
+        (
+            "100 Hz",
+            ["cut at 100 Hz: 2 modes above"],
+            "peak of growth, crossing at it",
+            [10.52],
+            ["multiple of $f_Ω$"],
+        ),
+        ("2 Hz", ["cut at 2 Hz: 3 modes above"], "peak of growth", [10.52, 14.1], []),
+    ],
+)
+def test_a_campbell_diagram_says_what_lies_above_its_highest_frequency(
+    highest: str, cut: list[str], peak: str, triangles: list[float], multiples: list[str]
+) -> None:
+    """Crossings above it had a mark in the legend, and their modes were left out without a word."""
+    figure = campbell(highest=highest)
+    said = labels(figure)
+    assert [text for text in said if text.startswith("cut at")] == cut
+    assert peak in said
+    assert (f"crossing above {highest}" in said) == bool(triangles)
+    assert [text for text in said if "multiple of" in text] == multiples
+    marked = [line for line in figure.axes[0].lines if line.get_marker() == "^"]
+    assert sorted(round(line.get_xdata()[0], 2) for line in marked) == triangles
+
+
+def test_sliding_modes_above_the_highest_frequency_are_counted() -> None:
+    assert not [text for text in labels(sliding_modes()) if text.startswith("cut")]
+    cut = labels(sliding_modes(highest=150.0))
+    assert [text for text in cut if text.startswith("cut at 150 Hz: ")]
+
+
 def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     *lines_of_modes, below_the_axis = labels(sliding_modes())
     assert lines_of_modes == ["mode decays", "mode grows"]
@@ -815,7 +856,7 @@ def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> No
     data = {"growth_rate": ("Omega", np.full(5, 0.3))}
     study = xr.Dataset({**data, "sliding_frequency": (("Omega", "mode"), modes)}, {"Omega": speeds})
     monkeypatch.setattr(campbell_diagram, "peaks", lambda _: [Peak(2, crossing)])
-    campbell_diagram._name_peaks(top, bottom, study)
+    campbell_diagram.name_peaks(top, bottom, study)
     figure.draw_without_rendering()
     [name] = top.texts
     assert name.get_visible()

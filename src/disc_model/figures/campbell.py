@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
+from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -52,6 +53,9 @@ BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 SYMBOLS = ("$f_s$", "$f_Ω$")
 """Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
+FREQUENCY = "Frequency in the slider's frame (Hz)"
+RATE = "Largest growth rate\nof the cycle (1/s)"
+EDGE = 1.0  # height of a mark at this edge, as a share of the panel
 
 
 class Peak(NamedTuple):
@@ -73,41 +77,54 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     )
     above = axes[: len(parts)]
     below = axes[len(parts) :]
-    highest = plot.highest
-    if highest is None:
-        highest = ROOM * max(float(part.data["sliding_frequency"].max()) for part in parts)
-    for top, bottom, part in zip(above, below, parts, strict=True):
-        _draw_column(top, bottom, part.data.transpose("Omega", ...), highest)
-    rates = [part.data["growth_rate"].values for part in parts]
+    columns = [part.data.transpose("Omega", ...) for part in parts]
+    highest = plot.highest or highest_of(columns)
+    draw_panels(above, below, columns, highest)
+    letters(axes, titles_of(parts))
+    for top, bottom, column in zip(above, below, columns, strict=True):
+        name_peaks(top, bottom, column, highest)
+    _legend(figure, columns, highest)
+    return figure
+
+
+def highest_of(columns: Sequence[xr.Dataset]) -> float:
+    """The upper end of an axis that shows all frequencies, Hz."""
+    return ROOM * max(float(column["sliding_frequency"].max()) for column in columns)
+
+
+def draw_panels(
+    above: Sequence[Axes], below: Sequence[Axes], columns: Sequence[xr.Dataset], highest: float
+) -> None:
+    """Draw frequencies up to the highest shown (Hz), and growth rates below them, on one scale."""
+    for top, bottom, column in zip(above, below, columns, strict=True):
+        _draw_column(top, bottom, column, highest)
+    rates = [column["growth_rate"].values for column in columns]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
     above[0].set_ylim(0, highest)
     below[0].set_ylim(min(3 * low, -LINEAR), max(3 * high, LINEAR))
-    above[0].set_ylabel("Frequency in the slider's frame (Hz)")
-    below[0].set_ylabel("Largest growth rate\nof the cycle (1/s)")
-    for ax in axes:
+    above[0].set_ylabel(FREQUENCY)
+    below[0].set_ylabel(RATE)
+    for ax in (*above, *below):
         whole_marks(ax)
-    letters(axes, titles_of(parts))
-    for top, bottom, part in zip(above, below, parts, strict=True):
-        _name_peaks(top, bottom, part.data.transpose("Omega", ...))
-    _legend(figure, [part.data.transpose("Omega", ...) for part in parts])
-    return figure
 
 
-def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
+def _legend(figure: Figure, studies: Sequence[xr.Dataset], highest: float = np.inf) -> None:
     """Name lines, marks and bands that are drawn."""
-    found = [peak for study in studies for peak in peaks(study)]
+    figure_legend(figure, entries_of(studies, highest), columns=3)
+
+
+def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
+    """Entries of a legend for the lines, marks and bands that are drawn, and for what lies above the
+    highest frequency shown (Hz)."""
     rates = [study["growth_rate"].values for study in studies]
     handles: list[Artist] = [
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
-    crossed = {_symbol(peak.crossing) for peak in found if peak.crossing is not None}
-    if crossed:
-        symbols = " or ".join(sorted(crossed, key=SYMBOLS.index))
-        handles.append(sample(label=f"multiple of {symbols}", **_multiple_look()))
-    if found:
-        handles.append(sample(label="peak of growth, crossing at it", **_dot(alone=False)))
-        handles.append(sample(label="speed of a peak", **_speed_look()))
+    above = max(_count_above(study, highest) for study in studies)
+    if above:
+        handles.append(entry_of_cut(above, highest))
+    handles += _entries_of_peaks([peak for study in studies for peak in peaks(study)], highest)
     if any(unjoined(rate).any() for rate in rates):
         handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
@@ -115,7 +132,36 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset]) -> None:
         handles.append(open_line(wide_step, BLACK, wide(0.8)))
     if any(np.isnan(rate).any() for rate in rates):
         handles.append(Patch(label="no growth rate", **BAND))
-    figure_legend(figure, handles, columns=3)
+    return handles
+
+
+def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
+    """Entries of a legend for peaks, and for their crossings below and above the highest frequency
+    shown (Hz)."""
+    handles: list[Artist] = []
+    crossings = [peak.crossing for peak in found if peak.crossing is not None]
+    shown = [crossing for crossing in crossings if _meeting(crossing)[1] <= highest]
+    crossed = {_symbol(crossing) for crossing in shown}
+    if crossed:
+        symbols = " or ".join(sorted(crossed, key=SYMBOLS.index))
+        handles.append(sample(label=f"multiple of {symbols}", **_multiple_look()))
+    if found:
+        name = "peak of growth"
+        if shown or not crossings:
+            name = f"{name}, crossing at it"
+        handles.append(sample(label=name, **_dot(alone=False)))
+        handles.append(sample(label="speed of a peak", **_speed_look()))
+    if len(shown) < len(crossings):
+        label = f"crossing above {highest:g} Hz"
+        handles.append(sample(label=label, **_beyond_look()))
+    return handles
+
+
+def _count_above(study: xr.Dataset, highest: float) -> int:
+    """The number of modes with frequencies above the highest shown, Hz."""
+    if np.isinf(highest):
+        return 0
+    return int(modes_above(study["sliding_frequency"], highest).sum())
 
 
 def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> None:
@@ -127,7 +173,9 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> 
     _draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, rate, alone)
     for peak in peaks(study):
-        _draw_peak(top, bottom, study, peak, bool(alone[peak.place]))
+        _draw_peak(top, bottom, study, peak, highest)
+    if _count_above(study, highest):
+        mark_cut(top, highest)
     for ax in (top, bottom):
         for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle
             ax.axvspan(start, end, **BAND)
@@ -167,8 +215,10 @@ def _draw_rates(ax: Axes, speeds: Array, rate: Array, alone: Mask) -> None:
     scale_rates(ax)
 
 
-def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bool) -> None:
-    """Mark a peak of the growth rate, and the crossing of a mode with a multiple of a frequency."""
+def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: float) -> None:
+    """Mark a peak of the growth rate, and the crossing of a mode with a multiple of a frequency, or at
+    the upper edge that it lies above the highest frequency shown (Hz)."""
+    alone = bool(unjoined(study["growth_rate"].values)[peak.place])
     speed = study["Omega"].values[peak.place]
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
@@ -176,17 +226,35 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, alone: bo
     bottom.plot(speed, rate, **_dot(alone))
     if peak.crossing is None:
         return
+    place = _meeting(peak.crossing)
+    if place[1] > highest:
+        edge = top.get_xaxis_transform()
+        top.plot(place[0], EDGE, transform=edge, clip_on=False, **_beyond_look())
+        return
 
     by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
     line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
     top.plot(study["Omega"], multiple * line, zorder=0, **_multiple_look())
-    top.plot(*_meeting(peak.crossing), **_dot(alone))
+    top.plot(*place, **_dot(alone))
 
 
 def _speed_look() -> dict[str, Any]:
     """Look of the line at the speed of a peak, which is no narrow band without a growth rate."""
     return {"color": BLACK, "linewidth": wide(0.6), "linestyle": (0, (1, 2))}
+
+
+def _beyond_look() -> dict[str, Any]:
+    """Look of the mark of a crossing above the frequencies shown."""
+    return {
+        "color": BLACK,
+        "linestyle": "",
+        "marker": "^",
+        "markersize": mark(4),
+        "markerfacecolor": "white",
+        "markeredgewidth": wide(0.7),
+        "zorder": 4,  # on the edge
+    }
 
 
 def _multiple_look() -> dict[str, Any]:
@@ -199,8 +267,9 @@ def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
     return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
 
 
-def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
-    """Write the multiples at peaks and at crossings, where there is room."""
+def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.inf) -> None:
+    """Write the multiples at peaks, and at crossings up to the highest frequency shown (Hz), where there
+    is room."""
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
@@ -213,7 +282,8 @@ def _name_peaks(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
             continue
         name = _multiple(peak.crossing)
         meeting = _meeting(peak.crossing)
-        above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=outline)
+        if meeting[1] <= highest:
+            above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=outline)
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
         below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
 

@@ -115,6 +115,51 @@ def plot_sweep(  # noqa: PLR0913
     )
 
 
+def plot_campbell(
+    study: xr.Dataset,
+    *,
+    highest: float | None = None,
+    ax: Axes | NDArray[Any] | None = None,
+    legend: bool | Mapping[str, Any] = True,
+    labels: Mapping[str, str] | None = None,
+    title: str | None = None,
+) -> NDArray[Any]:
+    """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
+    stick-slip cycle.
+
+    At the highest peaks of growth are the multiples of a frequency that meet a mode there. What lies
+    above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the speed of
+    a crossing above it.
+
+    Parameters
+    ----------
+    study : of ``quantity: campbell``, such as `run_study` returns; along the speed only
+    highest : Hz, upper end of the axis of frequencies; all of them if not given
+    ax : two axes to draw on, that of frequencies first
+    legend, labels, title : as in `Result.plot`
+
+    Returns
+    -------
+    array of two Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or the study varies along something else than the speed.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> axes = {"Omega": {"start": 10, "stop": 11, "step": 0.05}}
+    >>> study = dm.run_study({"study": "c", "quantity": "campbell", "base": {"N": 385}, "axes": axes})
+    >>> frequencies, rates = dm.plot_campbell(study, highest=400)
+    >>> rates.get_xlabel()
+    'Speed Ω (rad/s)'
+    """
+    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
+    return draw("plot_campbell", study, highest=highest, **wishes)
+
+
 def plot_modes(
     case: Parameters,
     most: int = 15,

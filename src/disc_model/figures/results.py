@@ -1,6 +1,7 @@
 """Pictures that results draw of themselves, by the names under which they ask for them."""
 
 from disc_model.figures.branch import plot_branch
+from disc_model.figures.campbell_picture import plot_campbell
 from disc_model.figures.critical import plot_critical
 from disc_model.figures.eigenvalues import plot_eigenvalues
 from disc_model.figures.exponents import plot_exponents
@@ -20,6 +21,7 @@ __all__ = [
     "animate",
     "film_writer",
     "plot_branch",
+    "plot_campbell",
     "plot_critical",
     "plot_eigenvalues",
     "plot_exponents",

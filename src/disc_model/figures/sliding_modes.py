@@ -6,6 +6,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -82,15 +83,20 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
+        if modes_above(column["frequency"], highest).any():
+            mark_cut(top, highest)
         _name_decays(bottom, column, greatest)
         _mark_below(bottom, column, lowest)
     letters(axes, titles_of(parts))
-    _legend(figure, columns, lowest)
+    _legend(figure, columns, lowest, highest)
     return figure
 
 
-def _legend(figure: Figure, columns: Sequence[xr.Dataset], lowest: float) -> None:
-    """Name the widths of the lines that are drawn, and the modes below the axis of growth rates."""
+def _legend(
+    figure: Figure, columns: Sequence[xr.Dataset], lowest: float, highest: float = np.inf
+) -> None:
+    """Name the widths of the lines that are drawn, and the modes below the axis of growth rates and
+    above that of frequencies."""
     rates = np.concatenate([column["mode_growth_rate"].values.ravel() for column in columns])
     largest = np.concatenate([column["largest_growth_rate"].values.ravel() for column in columns])
     handles = []
@@ -98,6 +104,9 @@ def _legend(figure: Figure, columns: Sequence[xr.Dataset], lowest: float) -> Non
         handles.append(sample(color=GREY, linewidth=wide(DECAYS), label="mode decays"))
     if (largest > ROUNDING).any():
         handles.append(sample(color=BLACK, linewidth=wide(GROWS), label="mode grows"))
+    above = max(int(modes_above(column["frequency"], highest).sum()) for column in columns)
+    if above:
+        handles.append(entry_of_cut(above, highest))
     names = [*dict.fromkeys(line.name for column in columns for line in below(column, lowest))]
     if names:
         said = names[:MOST_NAMES]

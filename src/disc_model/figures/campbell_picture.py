@@ -1,0 +1,68 @@
+"""A Campbell diagram of a study on a reader's axes."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.errors import require
+from disc_model.figures.campbell import (
+    FREQUENCY,
+    RATE,
+    draw_panels,
+    entries_of,
+    highest_of,
+    name_peaks,
+)
+from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.drawing import COLUMN
+from disc_model.figures.named_axes import Quantities
+from disc_model.figures.selection import without_single
+from disc_model.figures.sweep_choice import values_of
+from disc_model.figures.words import SPEED, what_case
+from disc_model.units import is_number
+
+NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
+"""What a study has that such a diagram can show."""
+OTHERS = ("Omega", "mode", "crossing")
+"""Dimensions of such a study beside those of its grid."""
+HEIGHT = 5.4  # inch, with its legend
+
+
+def plot_campbell(
+    study: xr.Dataset,
+    *,
+    highest: float | None = None,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | None = None,
+) -> np.ndarray:
+    """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
+    describes."""
+    is_study = isinstance(study, xr.Dataset) and all(name in study for name in NEEDED)
+    known = highest is None or (is_number(highest) and highest > 0)
+    require(
+        (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
+        (known, "highest", highest, "must be a number > 0, in Hz"),
+    )
+    column = without_single(study, *OTHERS).transpose("Omega", ...)
+    further = [str(dim) for dim in column.dims if dim not in OTHERS]
+    rule = f"must not vary along it: select one, as by study.isel({'=0, '.join(further)}=0)"
+    points = "must have two speeds or more"
+    require(
+        (not further, "study", ", ".join(further), rule),
+        (column.sizes["Omega"] > 1, "study", "a single speed", points),
+    )
+
+    shown = highest or highest_of([column])
+    wishes = Wishes(ax, legend, labels, title)
+    case = what_case(values_of(column))
+    shared: dict[str, Any] = {"sharex": True, "height_ratios": [3, 2]}
+    with page_for(wishes, COLUMN, HEIGHT, 2, 1, title=case, **shared) as page:
+        page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
+        top, bottom = page.axes
+        draw_panels([top], [bottom], [column], shown)
+        name_peaks(top, bottom, column, shown)
+        page.explain(entries_of([column], shown), beside="below")
+    return np.array(page.axes, dtype=object)

@@ -1,0 +1,68 @@
+"""Campbell diagrams of a study on a reader's axes."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from disc_model.figures.sizes import COLUMN, PAGE
+from tests.figures.described import campbell_study
+from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart, labels
+from tests.refusals import refusal
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+def test_a_campbell_diagram_takes_the_axes_of_a_reader(width: float) -> None:
+    figure, axes = pyplot.subplots(2, 1, figsize=(width, 4.6), layout="constrained", sharex=True)
+    top, bottom = dm.plot_campbell(campbell_study(), ax=axes, highest=150, title="(a) modes")
+    assert [top, bottom] == [*axes]
+    assert top.get_title() == "(a) modes"
+    assert top.get_ylim() == (0, 150)
+    assert " ".join(top.get_ylabel().split()) == "Frequency in the slider's frame (Hz)"
+    assert bottom.get_xlabel() == "Speed Ω (rad/s)"
+    [legend] = [ax.get_legend() for ax in axes if ax.get_legend()]
+    assert "cut at 150 Hz: 1 mode above" in [text.get_text() for text in legend.get_texts()]
+    assert_numbers_are_apart(top)
+    assert_numbers_are_apart(bottom)
+    assert_fit_for_print(figure)
+
+
+def test_a_new_campbell_diagram_has_all_frequencies() -> None:
+    top, _ = dm.plot_campbell(campbell_study())
+    assert top.get_ylim()[1] > float(campbell_study()["sliding_frequency"].max())
+    assert not [text for text in labels(top.figure) if text.startswith("cut")]
+    assert_fit_for_print(top.figure)
+
+
+def over_two_loads() -> xr.Dataset:
+    study = campbell_study()
+    return xr.concat([study, study], xr.Variable("N", np.array([300.0, 385.0])))
+
+
+@pytest.mark.parametrize(
+    ("study", "wishes", "said"),
+    [
+        (over_two_loads(), {}, r"study='N': must not vary along it: .* study.isel\(N=0\)"),
+        (
+            campbell_study().drop_vars("crossing_Omega"),
+            {},
+            "must be a study of `quantity: campbell`",
+        ),
+        (campbell_study(), {"highest": -1.0}, "highest=-1: must be a number > 0, in Hz"),
+        (campbell_study().isel(Omega=[0]), {}, "must have two speeds or more"),
+    ],
+)
+def test_what_is_no_campbell_diagram_is_refused(
+    study: xr.Dataset, wishes: dict[str, Any], said: str
+) -> None:
+    with refusal(said):
+        dm.plot_campbell(study, **wishes)
