@@ -330,6 +330,32 @@ def test_shares_of_undecided_starts_say_what_decides_them() -> None:
     assert labels(ax.figure) == ["undecided within 0.5 s: raise horizon"]
 
 
+def test_undecided_starts_that_lost_contact_are_told_apart() -> None:
+    """Both were shares of one colour, though the dataset knew which starts had lost contact."""
+    found = dm.basins(P.replace(Omega=14), [0.1, 0.2], 4, horizon=0.5)
+    lost = [["no", "no", "no", "no"], ["yes", "no", "no", "yes"]]
+    study = found.assign(lost_contact=(found["lost_contact"].dims, lost))
+    ax = dm.plot_sweep(study)
+    said = [" ".join(text.split()) for text in labels(ax.figure)]
+    assert said == [
+        "undecided within 0.5 s: raise horizon",
+        "undecided within 0.5 s, but contact was lost: raise horizon",
+    ]
+    heights = [bar.get_height() for bar in ax.patches]
+    assert heights == [1.0, 0.5, 0.0, 0.5], "of both energies, first those that kept contact"
+    partly = study.isel(start=[0, 1])
+    assert labels(dm.plot_sweep(partly).figure) == ["undecided within 0.5 s: raise horizon"]
+
+
+def test_shares_by_speed_tell_lost_contact_apart() -> None:
+    sweep = dm.sweep(dm.basins, P, Omega=[14, 15], energies=[0.1], n_starts=2, horizon=0.5)
+    lost = np.where(np.arange(2)[:, None, None] == 1, "yes", "no")
+    study = sweep.assign(
+        lost_contact=(sweep["lost_contact"].dims, np.broadcast_to(lost, (2, 1, 2)))
+    )
+    assert [bar.get_height() for bar in dm.plot_sweep(study).patches] == [1.0, 0.0, 0.0, 1.0]
+
+
 def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     shapes = [[0.0, 1.0], [0.0, 4.0]]
     disc = dm.Disc(

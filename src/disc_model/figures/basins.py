@@ -37,15 +37,21 @@ STACKED = (
     "steady_sliding",
     "at_rest",
     "undecided",
+    "undecided_lost",
     "failed",
 )
 """Order in which shares of outcomes are stacked."""
+LOST = "undecided_lost"
+"""Class of undecided starts that have lost contact."""
+BARS = {**LOOKS, LOST: LOOKS["undecided"]._replace(hatch=3 * "-")}
+"""Looks of the classes that are stacked."""
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
 """Shares of starts that the legend shows."""
 OF_DIAMOND = "50 %"  # size of the diamond there
 ZERO = 0.04  # height of the marks of critical energies of zero, as a share of the panel
 BELOW = 0.1  # share of the panel below the axis for them
+ROUNDING = 1e-9  # of a share
 BAR = 0.9  # width of a bar over the least distance of two
 
 
@@ -58,9 +64,10 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     figure, axes = _panels(plot.inches, len(energies))
     *shares, attractors, kicks = axes
 
-    classes = outcomes_in(study["basin_fraction"])
+    classes = outcomes_in(shares_of(study, "basin_fraction"))
+    by_energy = shares_of(study, "basin_fraction_by_energy")
     for ax, energy in zip(shares, energies, strict=True):
-        of_energy = study["basin_fraction_by_energy"].sel(energy=energy)
+        of_energy = by_energy.sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
@@ -99,6 +106,26 @@ def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:
 # ---- Shares
 
 
+def shares_of(study: xr.Dataset, variable: str) -> xr.DataArray:
+    """Shares of starts by what these come to; undecided ones that have lost contact are a class of their
+    own where the study knows of all starts."""
+    shares = study[variable]
+    if not {"kind", "lost_contact"} <= {*study}:
+        return shares
+    undecided = study["kind"].copy(data=flag_names(study["kind"]) == "undecided")
+    apart = study["lost_contact"].copy(data=flag_names(study["lost_contact"]) == "yes")
+    starts = [dim for dim in undecided.dims if dim not in shares.dims]
+    whole = shares.sel(attractor_class="undecided", drop=True)
+    known = whole.isnull() | (abs(undecided.mean(starts) - whole) < ROUNDING)
+    if not known.all():  # some starts were left out
+        return shares
+    kept = (undecided & ~apart).mean(starts).where(whole.notnull())
+    lost = (undecided & apart).mean(starts).where(whole.notnull())
+    others = shares.where(shares["attractor_class"] != "undecided", kept)
+    further = lost.expand_dims(attractor_class=[LOST])
+    return xr.concat([others, further], "attractor_class", coords="minimal", compat="override")
+
+
 def outcomes_in(shares: xr.DataArray) -> list[str]:
     """The outcomes that occur among the starts, in the order in which their shares are stacked."""
     known = {str(word) for word in shares["attractor_class"].values}
@@ -108,9 +135,14 @@ def outcomes_in(shares: xr.DataArray) -> list[str]:
 
 
 def entries_of(classes: Sequence[str], undecided: str) -> list[Artist]:
-    """Entries of a legend of outcomes, and its words for undecided ones."""
-    look = LOOKS["undecided"]._replace(label=undecided)
-    return entries(classes, {**LOOKS, "undecided": look})
+    """Entries of a legend of outcomes, and its words for undecided ones, of which those that have lost
+    contact say so before what is advised."""
+    words, colon, advice = undecided.partition(":")
+    named = {
+        "undecided": BARS["undecided"]._replace(label=undecided),
+        LOST: BARS[LOST]._replace(label=f"{words}, but contact was lost{colon}{advice}"),
+    }
+    return entries(classes, {**BARS, **named})
 
 
 def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: Array) -> None:
@@ -120,7 +152,7 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: A
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for word, heights, bottoms in zip(classes, shares, below, strict=True):
-        look = LOOKS[word]
+        look = BARS[word]
         ax.bar(
             along,
             heights,
@@ -147,7 +179,7 @@ def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
     total = study.sizes["energy"] * study.sizes["start"]
     edge: dict[str, Any] = {"edgecolor": BLACK, "linewidth": wide(0.4)}
     for word in STACKED:
-        look = LOOKS[word]
+        look = BARS[word]
         point, number = np.nonzero((kinds == word) & (starts > 0))
         areas = LARGEST * starts[point, number] / total
         shape = "D" if look.hatch else "o"
@@ -155,7 +187,7 @@ def _draw_attractors(ax: Axes, study: xr.Dataset, along: Array) -> None:
         ax.scatter(along[point], heights, areas, color=look.face, marker=shape, zorder=3, **edge)
     for text, share in AREAS.items():
         ax.scatter([], [], LARGEST * share, facecolor="none", label=text, **edge)
-    drawn = [LOOKS[word] for word in STACKED if ((kinds == word) & (starts > 0)).any()]
+    drawn = [BARS[word] for word in STACKED if ((kinds == word) & (starts > 0)).any()]
     if any(look.hatch for look in drawn):
         area = LARGEST * AREAS[OF_DIAMOND]
         diamond: dict[str, Any] = {"marker": "D", "facecolor": "none", **edge}

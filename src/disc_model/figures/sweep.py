@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.figures.basins import draw_shares, entries_of, outcomes_in
+from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
 from disc_model.figures.drawing import COLUMN
@@ -137,7 +137,7 @@ def _energies_of(study: xr.Dataset, drawn: Drawn) -> str:
 
 def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     """Draw the shares of starts as bars; returns entries of a legend."""
-    shares = study[drawn.variable]
+    shares = shares_of(study, drawn.variable)
     classes = outcomes_in(shares)
     across = measured(study[drawn.across])
     places = across.values
@@ -147,7 +147,7 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     if drawn.across == "energy":
         ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label_of(shares)[0] + _energies_of(study, drawn))
+    ax.set_ylabel(label_of(study[drawn.variable])[0] + _energies_of(study, drawn))
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
     return entries_of(classes, f"undecided within {within}: raise horizon")
