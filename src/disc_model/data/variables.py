@@ -206,10 +206,14 @@ WITHOUT_EFFECT = {"comment": "kept beside the samples, without effect on the res
 
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
-    they are."""
+    they are, and "" for nan."""
+    values = variable.values
     if variable.dtype.kind in "UO":
-        return np.asarray(variable.values, dtype=str)
-    return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
+        return np.asarray(values, dtype=str)
+    known = np.array([*variable.attrs["flag_meanings"].split(), ""])
+    # the last one is that of a missing value
+    places = np.where(np.isnan(values), -1, values).astype(int)
+    return np.asarray(known[places])
 
 
 def typeset(text: str) -> str:
