@@ -9,7 +9,6 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
-from types import MappingProxyType
 
 import numpy as np
 
@@ -122,7 +121,9 @@ class UndecidedModes(DiscModelError):
         of the coupled frequencies
     """
 
-    values: Mapping[tuple[int, ...], float] = MappingProxyType({})
+    def __init__(self, message: str) -> None:
+        super().__init__(message)
+        self.values: Mapping[tuple[int, ...], float] = {}
 
     @classmethod
     def after(

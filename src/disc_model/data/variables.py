@@ -146,13 +146,11 @@ OF_RESULTS = {
     for kind, table in _TABLES["results"].items()
 }
 """Variables of results by their class or function, which may mean something else elsewhere."""
-COUNTS = {
-    "steps": "steps",
-    "n_events": "events",
-    "n_separations": "separations",
-    "audited_steps": "audited_steps",
+OF_ARGUMENTS = {
+    function: {name: Variable(*entry) for name, entry in table.items()}
+    for function, table in _TABLES["arguments"].items()
 }
-"""Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
+"""Arguments of functions that are no options of a quantity, by function."""
 BESIDE_WINDOWS = frozenset(
     {"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields}
 )
