@@ -177,8 +177,18 @@ def test_events_are_written_as_text_and_a_dataset_in_another_format(
     target = tmp_path / "run.mat"
     assert command.out("convert", str(file), str(target)) == f"saved               {target}\n"
     assert disc_model.load(target).identical(disc_model.load(file))
-    assert "must end in .nc or .mat" in command.error("convert", str(file), "x.txt")
+    assert "must end in .nc or .mat or .csv" in command.error("convert", str(file), "x.txt")
     assert "there is no such file" in command.error("convert", "none.nc", str(target))
+
+
+def test_a_grid_is_converted_to_a_table(command: Command, tmp_path: Path) -> None:
+    """Only the events and samples of a run could be written as text."""
+    case = disc_model.Parameters(N=200, Omega=50, n_diameters=1)
+    file = tmp_path / "grid.nc"
+    disc_model.save(disc_model.sweep(disc_model.steady_sliding, case, N=[150, 200]), file)
+    target = tmp_path / "grid.csv"
+    command.out("convert", str(file), str(target))
+    assert target.read_text().startswith("N (N),status,message,")
 
 
 @pytest.mark.parametrize(

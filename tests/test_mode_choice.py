@@ -2,6 +2,7 @@
 
 import json
 import math
+import pickle
 from collections.abc import Callable
 from typing import Any
 
@@ -9,7 +10,7 @@ import pytest
 
 from disc_model import Parameters, choose_modes, mode_choice, steady_sliding
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import RICH, choose_when_run, frequency_error
+from disc_model.mode_choice import RICH, UndecidedModes, choose_when_run, frequency_error
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import parse_study
@@ -84,6 +85,20 @@ def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured
     measured(lambda d, c: float(d))
     failed = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
     assert "n_diameters: undecided" in failed.attrs["message"]
+
+
+@pytest.mark.parametrize("value", [float, lambda d: math.nan], ids=["changing", "missing"])
+def test_an_undecided_choice_has_the_values_it_looked_at(
+    value: Callable[[int], float], measured: Measured
+) -> None:
+    """They were computed and lost."""
+    asked = measured(lambda d, c: value(d))
+    with pytest.raises(UndecidedModes, match="n_diameters: undecided: ") as raised:
+        choose_modes(P, quantity="growth")
+    error = pickle.loads(pickle.dumps(raised.value))
+    assert [*error.values] == asked
+    assert error.values[2, 0] == pytest.approx(value(2), nan_ok=True)
+    assert error.__notes__[1].startswith("growth with 2 diameters, 0 circles (5 real modes): ")
 
 
 STEEL = Parameters(

@@ -300,10 +300,16 @@ def compile_() -> None:
 # ---- A simulation
 
 
-def _savable(path: Path) -> Path:
-    if _writable(path).suffix not in SUFFIXES:
-        raise ValueError(f"must end in {' or '.join(SUFFIXES)}")
+def _of_suffix(path: Path, suffixes: Sequence[str]) -> Path:
+    """Refuse a file without one of these suffixes, or one that cannot be written."""
+    if _writable(path).suffix not in suffixes:
+        raise ValueError(f"must end in {' or '.join(suffixes)}")
     return path
+
+
+def _savable(path: Path) -> Path:
+    """Refuse a file in which no run can be saved."""
+    return _of_suffix(path, SUFFIXES)
 
 
 def _drawable(path: Path) -> Path:
@@ -370,13 +376,16 @@ def run(p: Parameters, options: RunOptions) -> None:
 
 def convert(
     source: Annotated[Path, typer.Argument(help="dataset of a study, or a saved run or sweep")],
-    target: Annotated[Path, typer.Argument(help="file to write: .mat for MATLAB, .nc for netCDF")],
+    target: Annotated[
+        Path,
+        typer.Argument(help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF"),
+    ],
 ) -> None:
-    """Write a dataset in another format, such as results/s/s.nc for MATLAB."""
-    from disc_model.data.exchange import load, save
+    """Write a dataset in another format, such as results/s/s.nc for MATLAB or as a table."""
+    from disc_model.data.exchange import WRITTEN, load, save
 
     try:
-        _savable(target)
+        _of_suffix(target, WRITTEN)
     except ValueError as error:
         raise ParameterError(Fault.of(("TARGET",), str(target), str(error))) from None
     save(load(source), target)

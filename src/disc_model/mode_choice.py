@@ -63,7 +63,7 @@ class ModeChoice(Summarised):
         by = self.quantity
         if by != FREQUENCIES:  # which are those at rest
             by = f"{by} at {number_text(p.Omega, 'rad/s')}"
-        return f"ModeChoice({self._size_text(size)}, by {by}, error {self.error:.2g})"
+        return f"ModeChoice({self.size_text(size)}, by {by}, error {self.error:.2g})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
@@ -75,7 +75,7 @@ class ModeChoice(Summarised):
         if self.quantity != FREQUENCIES:
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
-        yield "largest model compared", self._size_text(self.rich)
+        yield "largest model compared", self.size_text(self.rich)
         shortest = shortest_wave(p)
         if shortest is not None:
             waves = f"waves of {shortest.length:.3g} thicknesses"
@@ -84,10 +84,10 @@ class ModeChoice(Summarised):
                 f"{waves}, frequency of a thin plate {100 * shortest.excess:.2g} % too high",
             )
         for size, value in self.values.items():
-            yield f"{self.quantity} with {self._size_text(size)}", f"{value:.6g}"
+            yield f"{self.quantity} with {self.size_text(size)}", f"{value:.6g}"
 
     @staticmethod
-    def _size_text(size: tuple[int, ...]) -> str:
+    def size_text(size: tuple[int, ...]) -> str:
         """The size of a model in words."""
         if len(size) == 1:
             return counted(size[0], "mode")
@@ -112,6 +112,32 @@ class ModeChoice(Summarised):
         return json.dumps(record, sort_keys=True)
 
 
+class UndecidedModes(DiscModelError):
+    """No number of modes could be chosen; the message says why, and a note below it has the table of `values`.
+
+    Attributes
+    ----------
+    values : what was looked at for each model computed, by size as in `ModeChoice`: the quantity, or the relative error
+        of the coupled frequencies
+    """
+
+    def __init__(self, message: str) -> None:
+        super().__init__(message)
+        self.values: Mapping[tuple[int, ...], float] = {}
+
+    @classmethod
+    def after(
+        cls, p: Parameters, what: str, values: Mapping[tuple[int, ...], float], reason: str
+    ) -> UndecidedModes:
+        """The error with the values of a quantity, and a note of them in words."""
+        error = cls(f"n_diameters: undecided: {reason}")
+        error.values = values
+        for size, value in values.items():
+            modes = counted(count_modes(p, size), "real mode")
+            error.add_note(f"{what} with {ModeChoice.size_text(size)} ({modes}): {value:.6g}")
+        return error
+
+
 def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     """Find the model with the fewest real modes whose `frequency_error` is within ``tolerance``."""
     sizes: Sequence[tuple[int, ...]]
@@ -125,23 +151,26 @@ def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
     modes = mode_arrays(p)
     right = coupled_frequencies(p, contact_compliance(p))
     top = BAND * float(modes.omega.min())
+    errors: dict[tuple[int, ...], float] = {}
     for size in sizes[:-1]:
         chosen = resized(p, size)
         frequencies = coupled_frequencies(p, contact_compliance(chosen), _modes_within(p, size))
         error = _worst(frequencies, right, top)
+        errors[size] = error
         if error <= tolerance:
             return ModeChoice(chosen, tolerance, error, count_modes(p, size), rich)
-    if p.disc is not None:
-        raise DiscModelError(_too_few_modes(p.disc))
-    raise DiscModelError(
-        f"tolerance={tolerance:g}: no model up to {RICH} (diameters, circles) meets it; enlarge it"
+    reason = (
+        f"no model up to {RICH} (diameters, circles) meets {tolerance:g}; enlarge the tolerance"
     )
+    if p.disc is not None:
+        reason = _too_few_modes(p.disc)
+    raise UndecidedModes.after(p, "error of frequencies", errors, reason)
 
 
 def _too_few_modes(disc: Disc) -> str:
     """Why no first modes of a table can be chosen by frequencies."""
     return (
-        f"n_diameters: undecided: no fewer than all {counted(len(disc.omega), 'mode')} of the "
+        f"no fewer than all {counted(len(disc.omega), 'mode')} of the "
         f"table have these frequencies, and whether all are enough is not known; {MORE_MODES}"
     )
 
@@ -230,10 +259,11 @@ def choose_modes(
     ------
     ParameterError
         If a value of the case breaks a rule, the quantity is unknown, or the tolerance is below 1e-4.
-    DiscModelError
+    disc_model.mode_choice.UndecidedModes
         If no model meets the tolerance or agrees with two larger ones, or there is no cycle, separation or steady
-        sliding to choose by; and if a table has too few modes to tell. Where friction acts on the surface at a
-        point, motions do not converge: the message then asks for the arc of a pad.
+        sliding to choose by; and if a table has too few modes to tell. Its `values` are those of all models that were
+        computed. Where friction acts on the surface at a point, motions do not converge: the message then asks for the
+        arc of a pad.
 
     Warns
     -----
@@ -274,7 +304,7 @@ def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
 
 
 def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) -> ModeChoice:
-    """The requested choice, whose models a bar counts; raises `DiscModelError` if there is none."""
+    """The requested choice, whose models a bar counts; raises `UndecidedModes` if there is none."""
     bar = bar or Bar(None)
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
@@ -287,9 +317,8 @@ def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) ->
                 values[each] = MEASURES[request.quantity](resized(p, each))
                 bar.advance()
         if (p.disc is not None or size == GIVEN_UP) and all(map(np.isnan, values.values())):
-            raise DiscModelError(
-                f"n_diameters: undecided: no {request.quantity} to choose by with {_listed(p, group)}"
-            )
+            reason = f"no {request.quantity} to choose by with {_listed(p, group)}"
+            raise UndecidedModes.after(p, request.quantity, values, reason)
         change = max(_change(values[size], values[other]) for other in others)
         if change <= request.tolerance:
             count = count_modes(p, size)
@@ -298,9 +327,8 @@ def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) ->
                 chosen, request.tolerance, change, count, group[-1], request.quantity, values
             )
     changes = f"changes by {change:.2g} of itself among {_listed(p, group)}, more than {request.tolerance:g}"
-    raise DiscModelError(
-        f"n_diameters: undecided: {request.quantity} still {changes}; {_advice(p)}"
-    )
+    reason = f"{request.quantity} still {changes}; {_advice(p)}"
+    raise UndecidedModes.after(p, request.quantity, values, reason)
 
 
 def _advice(p: Parameters) -> str:
@@ -327,9 +355,8 @@ def _compared(p: Parameters, quantity: str) -> Iterator[tuple[tuple[int, ...], .
     most = counts(p.disc)[-1]
     count = counts(p.disc)[0]
     if count == most:
-        raise DiscModelError(
-            f"n_diameters: undecided: only one mode of the table moves at the slider; {MORE_MODES}"
-        )
+        reason = f"only one mode of the table moves at the slider; {MORE_MODES}"
+        raise UndecidedModes.after(p, quantity, {}, reason)
     while count < most:
         yield tuple(dict.fromkeys([(count,), (min(2 * count, most),), (most,)]))
         count += (count + 1) // 2

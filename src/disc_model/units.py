@@ -292,7 +292,7 @@ Positive = Annotated[
 Count = Annotated[int, BeforeValidator(whole)]
 Seconds = Annotated[Positive, Unit("s")]
 Speed = Annotated[Positive, Unit("rad/s")]
-Tolerance = Annotated[Real, within(TOLERANCES)]
+Tolerance = Annotated[Real, Unit("s"), within(TOLERANCES)]
 CycleTolerance = Annotated[Real, within(CYCLE_TOLERANCES)]
 
 

@@ -195,7 +195,9 @@ BY_CASE = xr.Dataset(coords={"case": ("case", [P])})
         (xr.Dataset({"x" * 64: ((), 1.0)}), "x.mat", "^x{64}: must be a name of at most 63"),
         (xr.Dataset({"a b": ((), 1.0), "a-b": ((), 1.0)}), "x.mat", "^a-b: must differ from a b"),
         (xr.DataTree.from_dict({"dataset": BY_CASE[[]]}), "x.mat", "^dataset: must be a name"),
-        (every_kind(), "x.csv", "must end in .nc or .mat"),
+        (every_kind(), "x.txt", "must end in .nc or .mat or .csv"),
+        (every_kind(), "x.csv", "^data: has a row for each N, Omega .*: none, no_words, single;"),
+        (RUN.to_tree(), "x.csv", "^data: must be one group to be a table, such as data"),
     ],
 )
 def test_what_a_file_cannot_hold_is_refused(
@@ -254,3 +256,82 @@ def test_a_table_or_a_run_given_for_a_dataset_is_told_what_to_do(tmp_path: Path)
     run = dm.simulate(dm.Parameters(N=200, Omega=20), 1e-4)
     with refusal(r"it has a method save of its own"):
         dm.save(run, tmp_path / "run.nc")  # type: ignore[arg-type]
+
+
+GRID: dict[str, Any] = {
+    "study": "s",
+    "quantity": "outcome",
+    "base": {"Omega": 50, "n_diameters": 1},
+    "axes": {"N": [150, 200]},
+    "options": {"horizon": 1},
+}
+
+
+def test_a_grid_is_written_as_a_table_with_units_and_words(tmp_path: Path) -> None:
+    """A dataset could be saved for other programs, but not for a spreadsheet."""
+    grid = dm.run_study(GRID)
+    path = tmp_path / "grid.csv"
+    dm.save(grid, path)
+    table = pd.read_csv(path)
+    assert table["N (N)"].tolist() == [150, 200]
+    assert table["status"].tolist() == ["ok", "ok"]
+    assert table["outcome"].tolist() == dm.words(grid["outcome"]).values.tolist()
+    np.testing.assert_array_equal(table["P_max (N)"], grid["P_max"])
+    assert not table.filter(like=") (").columns.tolist()
+
+
+def test_a_sweep_is_a_table_with_a_column_for_each_further_place(tmp_path: Path) -> None:
+    swept = dm.sweep(dm.floquet, P, N=[150, 200], mu_k_over_mu_s=[0.5, 0.6])
+    path = tmp_path / "sweep.csv"
+    dm.save(swept, path)
+    table = pd.read_csv(path)
+    assert table["N (N)"].tolist() == [150, 150, 200, 200]
+    assert table["mu_k_over_mu_s"].tolist() == [0.5, 0.6, 0.5, 0.6]
+    np.testing.assert_array_equal(table["growth_rate (s-1)"], swept["growth_rate"].values.ravel())
+    second = swept["exponents"].isel(exponents_index=1).values
+    np.testing.assert_array_equal(table["exponents_imag[1] (s-1)"], second.imag.ravel())
+
+
+def test_places_along_a_coordinate_are_named_by_its_values(tmp_path: Path) -> None:
+    shares = xr.Dataset(
+        {"status": ("N", ["ok", "ok"]), "share": (("N", "kind"), [[0.1, 0.9], [0.2, 0.8]])},
+        {"N": [1.0, 2.0], "kind": ["quiet", "separation"]},
+    )
+    path = tmp_path / "shares.csv"
+    dm.save(shares, path)
+    table = pd.read_csv(path)
+    assert table.columns.tolist() == ["N", "status", "share[quiet]", "share[separation]"]
+    assert table["share[separation]"].tolist() == [0.9, 0.8]
+
+
+def test_a_result_without_points_is_a_table_of_one_row(tmp_path: Path) -> None:
+    path = tmp_path / "outcome.csv"
+    dm.save(dm.outcome(P, 1), path)
+    assert pd.read_csv(path)["status"].tolist() == ["ok"]
+
+
+# ---- Words
+
+
+def test_words_of_studies_are_those_of_sweeps() -> None:
+    """`status == "ok"` was false for all points of a study, and true for those of a sweep."""
+    grid = dm.words(dm.run_study(GRID))
+    swept = dm.sweep(dm.outcome, P.replace(Omega=50), horizon=1, N=[150, 200])
+    for name in ("status", "outcome"):
+        assert grid[name].values.tolist() == swept[name].values.tolist()
+        assert grid[name].attrs.keys() == {"long_name"}
+    xr.testing.assert_identical(dm.words(swept), swept)
+
+
+def test_words_of_a_variable_and_of_a_tree() -> None:
+    tree = RUN.to_tree()
+    kinds = RUN.events["kind"].tolist()
+    assert dm.words(tree["events/kind"]).values.tolist() == kinds
+    assert dm.words(tree)["events/kind"].values.tolist() == kinds
+    xr.testing.assert_identical(dm.words(tree["events/time"]), tree["events/time"])
+
+
+def test_a_point_that_is_left_out_has_no_word() -> None:
+    status = dm.run_study(GRID)["status"]
+    heavy = status.where(status["N"] > 160)
+    assert dm.words(heavy).values.tolist() == ["", "ok"]

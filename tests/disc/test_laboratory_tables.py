@@ -115,6 +115,22 @@ def test_units_may_have_a_row_of_their_own(tmp_path: Path) -> None:
     assert_right(read(tmp_path, text + table))
 
 
+@pytest.mark.parametrize(
+    ("names", "units"),
+    [
+        ("f;amplitude;damping", "[kHz];(1/sqrt(kg));(%)"),
+        ("f_kHz;Amplitude_per_sqrt_kg;damping in %", "kHz;1/sqrt(kg);%"),
+    ],
+    ids=["in brackets", "in the heads as well"],
+)
+def test_a_unit_stands_once_in_a_head(names: str, units: str, tmp_path: Path) -> None:
+    """The heads were "f ([kHz])" and "f_kHz (kHz)", which were refused, and so said messages about rows."""
+    table = rows(
+        DIAMETERS, np.array(FREQUENCIES) / 1e3, AMPLITUDES, np.array(RATIOS) * 100, separator=";"
+    )
+    assert_right(read(tmp_path, f"diameters;{names}\n-;{units}\n{table}"))
+
+
 def test_a_report_says_how_each_column_was_understood(tmp_path: Path) -> None:
     """There was none of a table of single modes, so that a percentage could be one of a hundred."""
     text = "diameters;f (kHz);amplitude (kg^-1/2);damping in %\n2;1,5;0,54;0,1\n3;2;0,43;0,3\n"

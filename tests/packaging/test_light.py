@@ -37,7 +37,7 @@ p = dm.Parameters(N=200, Omega=20, n_diameters=1, normalization="orthonormal")
 result = dm.simulate(p, 0.02, {"late": dm.Window(last=0.01, rate=1000)})
 result.save(sys.argv[1])
 assert dm.load(sys.argv[1])["late/P"].sizes["time"] == 11
-assert len(result.events) == result.statistics["events"]
+assert len(result.events) == result.statistics["n_events"]
 dm.deflection(p, dm.snapshots(p, [0.0, 0.01]), p.r_0, 0.0)
 dm.plate_modes(p), dm.residual_flexibility(p), dm.choose_modes(p.replace(n_diameters=4), 0.1)
 try:

@@ -114,3 +114,13 @@ def test_runs_in_threads_equal_runs_in_turn() -> None:
         together = list(threads.map(run, cases))
     assert together == list(map(run, cases))
     assert any(rows for rows, _ in together)
+
+
+def test_counts_of_a_run_have_the_names_that_datasets_have() -> None:
+    """`n_separations` of a sweep was `separations` of a run; a former name still gives the count."""
+    run = simulate(P, 0.02)
+    assert run.statistics["n_events"] == len(run.events)
+    assert run.statistics.keys() > {"steps", "n_events", "n_separations"}
+    assert run.statistics["events"] == run.statistics["n_events"]
+    with pytest.raises(KeyError, match="event"):
+        run.statistics["event"]

@@ -113,7 +113,7 @@ def test_a_text_is_a_case():
 def test_nothing_is_kept_if_nothing_is_asked_for():
     result = simulate(P, 0.03, events=False, tol=1e-9)
     assert len(result.events) == 0
-    assert result.statistics["events"] > 0
+    assert result.statistics["n_events"] > 0
     still = simulate(P.replace(Omega=0), 0.01, {"turns": Poincare()})
     assert len(still.samples["turns"]["time"]) == 0
 

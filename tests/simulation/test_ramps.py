@@ -92,7 +92,7 @@ def test_samples_events_and_statistics_know_no_pieces():
     assert len(result.samples["bins"]["time"]) == 61 // 3
     spent = sum(statistics[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
     assert spent == pytest.approx(0.05, rel=1e-12)
-    assert statistics["events"] == len(result.events)
+    assert statistics["n_events"] == len(result.events)
     assert (np.diff(result.events["time"]) >= 0).all()
     assert result.final_state.time == pytest.approx(0.05, rel=1e-14)
 

@@ -602,7 +602,7 @@ def test_a_segment_has_heights_from_static_equilibrium_and_shares_of_its_time() 
 def test_switches_of_a_leg_are_its_releases_and_losses_of_contact() -> None:
     leg = simulate(Parameters(N=385, Omega=15.1), 60)
     table = leg.events
-    assert leg.statistics["separations"] > 0
+    assert leg.statistics["n_separations"] > 0
     released = table["kind"] == "stick_to_slip"
     lost = table["kind"] == "separation"
     times, angles = switch_angles(leg)

@@ -230,7 +230,7 @@ def test_a_bar_counts_values_between_the_points_too(
     monkeypatch.setattr(parameter_scan, "_doubtful_shares", lambda low, high: next(shares, []))
     scan_of([(0.5, 0.7)], monkeypatch, points=2, progress=True)
     assert "3/3" in capsys.readouterr().err
-    with refusal(r"kind='slide': must be one of stick_slip, sliding; "):
+    with refusal(r"kind='slide': must be 'stick_slip', .* or 'sliding', steady sliding; "):
         critical.critical(BLOCK, "c", (0, 1), kind="slide", progress=3)
 
 
@@ -494,3 +494,29 @@ def test_neutral_sliding_is_not_said_to_be_stable() -> None:
     block = Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
     found = critical.critical(block, "Omega", (5, 20), points=4, kind="sliding")
     assert found.message.startswith("steady sliding has no growing mode at any of the ")
+
+
+def made_up(crossings: list[float], unstable_above: list[bool]) -> critical.Critical:
+    """A result over values from 1 to 9 with these changes of stability."""
+    return critical.Critical(
+        parameters=BLOCK,
+        name="Omega",
+        value=math.nan,
+        crossings=np.array(crossings),
+        unstable_above=np.array(unstable_above),
+        values=np.array([1.0, 9.0]),
+        growth_rate=np.zeros(2),
+        resolution=8.0,
+    )
+
+
+def test_the_border_is_where_the_motion_becomes_unstable_for_good() -> None:
+    """Three arrays had to be combined for it, of each sample of a sweep."""
+    assert made_up([2.0, 3.0, 5.0], [True, False, True]).border == 5.0
+    assert math.isnan(made_up([2.0, 3.0], [True, False]).border)
+    assert math.isnan(made_up([], []).border)
+
+
+def test_cycles_that_never_stick_are_said_to_be_for_another_function() -> None:
+    with refusal(r"kind='slipping': must be .*; cycles that never stick .* continue_cycle"):
+        critical.critical(BLOCK, "c", (0, 1), kind="slipping")

@@ -6,10 +6,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, simulate
+from disc_model import Parameters, floquet, simulate, sweep
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.engine import transitions
 from disc_model.errors import DiscModelError
+from disc_model.fitting.prediction import Prediction
 from disc_model.stability.cycle import (
     CycleError,
     FloquetResult,
@@ -248,6 +249,8 @@ def test_a_cycle_has_its_events_by_their_kinds():
 def test_numbers_of_a_cycle_are_relative_to_its_period_and_the_deflection():
     cycle = cycle_of_all_events()
     assert cycle.stick_fraction == pytest.approx(0.25)
+    assert cycle.stick_time == pytest.approx(0.005 / 3)
+    assert math.isnan(cycle.slip_time), "the slider is off the disc for a part of the rest"
     # of the difference of two floats near 0.1
     assert cycle.residual == pytest.approx(2e-6, rel=1e-9)
 
@@ -292,7 +295,7 @@ def test_a_motion_is_not_near_a_cycle_that_it_would_have_left_long_ago():
         "after 300 releases the motion from the static start is not near it"
     )
     assert "the motion is not near it" in repr(found)
-    assert simulate(case, 20).statistics["separations"] == 0
+    assert simulate(case, 20).statistics["n_separations"] == 0
 
 
 def test_the_motion_near_its_own_cycle_is_near_no_other():
@@ -305,3 +308,14 @@ def test_the_motion_near_its_own_cycle_is_near_no_other():
         assert found.near_motion is (None if found.stable else True)
         assert "motion" not in found.message
     assert signs == {True, False}
+
+
+def test_times_of_stick_and_slip_are_those_that_are_fitted() -> None:
+    """They had to be computed from the period and the share of stick."""
+    case = Parameters(N=385, Omega=15)
+    cycle = floquet(case)
+    for name in ("stick_time", "slip_time"):
+        assert getattr(cycle, name) == pytest.approx(Prediction(case).of(name), rel=1e-12)
+    swept = sweep(floquet, case, N=[385])
+    assert swept["slip_time"].item() == cycle.slip_time
+    assert swept["slip_time"].attrs["units"] == "s"

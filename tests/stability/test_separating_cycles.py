@@ -131,4 +131,4 @@ def test_a_branch_passes_a_grazing_at_which_the_map_is_continuous() -> None:
     # simulated some steps beside it, one cycle loses contact, and the other keeps it
     for i, separates in ((grazing.after - 3, True), (grazing.after + 4, False)):
         run = simulate(branch.case_at(i), branch.period[i], initial_state=branch.state(i))
-        assert (run.statistics["separations"] > 0) == separates
+        assert (run.statistics["n_separations"] > 0) == separates

@@ -23,6 +23,7 @@ import disc_model as dm
 from disc_model.figures.words import label_of
 from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
+from disc_model.studies.varied_arguments import Arguments
 from disc_model.studies.whole_study import run_study
 from tests.refusals import refusal
 
@@ -503,8 +504,69 @@ def test_a_number_that_cannot_be_fails_its_own_row(
     assert swept["message"].values[0] == f"ParameterError: {rule}"
     np.testing.assert_allclose(swept["load"], [np.nan, 60.0, 92.4])
     np.testing.assert_array_equal(swept["N"], [number, 300.0, 385.0])
-    along = sweep(products, P, N=table["N"], errors=errors)
+
+
+@pytest.mark.parametrize("errors", ["raise", "record"])
+def test_a_number_that_cannot_be_fails_its_place_along_an_axis(errors: str) -> None:
+    along = sweep(products, P, N=[-1, 300, 385], errors=errors)
     assert along["status"].values.tolist() == ["failed", "ok", "ok"]
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf, None])
+def test_a_value_that_has_no_place_along_an_axis_is_refused(value: float | None) -> None:
+    """Its points failed, and pictures left them out without a word."""
+    rule = "must be a finite number along an axis$"
+    with refusal(rf"^N\[1\]=(nan|-?inf): {rule}"):
+        sweep(products, P, N=[300, value, 385])
+    if value is not None:
+        with refusal(rf"^over\.level\[1\]=(nan|-?inf): {rule}"):
+            sweep(products_at, P, over={"level": [1.0, value]}, N=[300])
+
+
+def test_arguments_along_an_axis_have_units_and_names() -> None:
+    """A step of speeds had none, which an axis of a picture then had not, either."""
+    short = {"dwell": 0.1, "max_dwell": 0.1, "evaluation_time": 0.05}
+    steps = {"step": [0.25, 0.5]}
+    swept = sweep(dm.hysteresis, P, over=steps, bounds=(8, 8.5), **short)
+    assert swept["step"].attrs == {"units": "rad s-1", "long_name": "step of the speeds"}
+    tolerances = {"tol": [1e-8, 1e-10]}
+    cycles = sweep(dm.floquet, P, over=tolerances)
+    assert cycles["tol"].attrs["units"] == "1"
+    runs = sweep(dm.simulate, P, over=tolerances, t_end=0.1)
+    assert runs["tol"].attrs["units"] == "s"
+
+
+WITHOUT_ONE_UNIT = ("precision", "values", "bounds", "lines", "direction", "start", "energies")
+"""Arguments in the unit of a parameter that another one names, or of several values."""
+
+VARIED = (
+    "basins",
+    "continue_cycle",
+    "critical",
+    "critical_speed",
+    "floquet",
+    "hysteresis",
+    "lyapunov_exponents",
+    "outcome",
+    "pinned_range",
+    "simulate",
+    "split_growth",
+)
+"""Functions of a case whose arguments vary in sweeps."""
+
+
+@pytest.mark.parametrize("name", VARIED)
+def test_every_number_that_can_vary_has_a_unit(name: str) -> None:
+    function = getattr(dm, name)
+    parameters = inspect.signature(function).parameters
+    arguments = Arguments(name, name, parameters)
+    for argument in arguments.names:
+        annotation = str(parameters[argument].annotation)
+        takes_numbers = re.search(r"\b(int|float)\b", annotation)
+        if not takes_numbers or argument in WITHOUT_ONE_UNIT:
+            continue
+        attributes = arguments.attributes(argument)
+        assert "units" in attributes, argument
 
 
 def test_a_wrong_argument_is_told_at_the_first_point_that_is_a_case() -> None:

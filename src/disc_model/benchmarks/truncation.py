@@ -131,7 +131,7 @@ def _late(p: Parameters, start: State, tol: float) -> dict[str, float]:
     return {
         "tol_late": tol,
         "cost_separating": cost,
-        "separations": run.statistics["separations"] / length,
+        "separations": run.statistics["n_separations"] / length,
         "separated_share": run.statistics["time_separation"] / length,
         "u_range": float(seen["u_max"].max() - seen["u_min"].min()),
         "force_max_separating": float(seen["P_max"].max()),

@@ -1,5 +1,5 @@
-"""Datasets of sweeps, studies and of anyone's own in files that other programs read: netCDF, and
-the format of MATLAB."""
+"""Datasets of sweeps, studies and of anyone's own in files that other programs read: netCDF, the
+format of MATLAB, and tables of text."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.files import regular_file
+from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.data.matlab import load_mat, save_mat
+from disc_model.data.point_table import save_points
 from disc_model.data.tables import check_suffix
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.parameters import Disc
@@ -27,6 +28,10 @@ DISCS = "json_of_disc"
 """Attribute of a variable of texts, each of which is a disc in JSON: yes."""
 TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
 """Suffixes of files that are certainly no datasets."""
+TABLE = ".csv"
+"""Suffix of a table of text."""
+WRITTEN = (*SUFFIXES, TABLE)
+"""Suffixes of files that `save` writes."""
 
 
 class HasDataset(Protocol):
@@ -36,7 +41,7 @@ class HasDataset(Protocol):
 
 
 def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
-    """Write a dataset, such as `sweep` and `run_study` return, to a file, which `disc_model.load` reads back.
+    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
 
     Parameters
     ----------
@@ -45,7 +50,10 @@ def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
-        Both hold a checksum, by which `load` notices any damage
+        Both hold a checksum, by which `load` notices any damage. ".csv": a table with a row for each point, units in
+        the heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`; a variable with further
+        dimensions has a column for each place along them, such as `multipliers_real[0]`. It is for other programs:
+        `load` reads no tables
 
     Returns
     -------
@@ -54,7 +62,7 @@ def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
     Raises
     ------
     ParameterError
-        If the file has another suffix, or the dataset holds what such a file cannot.
+        If the file has another suffix, or the dataset holds what such a file cannot, as a table a tree.
     disc_model.data.dataset.WriteError
         If the folder does not exist, or the disk is full.
 
@@ -73,15 +81,26 @@ def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
     elif hasattr(data, "save"):
         rule = f"{rule}; it has a method save of its own"
     require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
-    file = check_suffix(regular_file(path))
+    file = check_suffix(regular_file(path), WRITTEN)
     tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
     groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
     if file.suffix == ".nc":
         parts = {path: _with_parts(group) for path, group in groups.items()}
         dataset.save(xr.DataTree.from_dict(parts), file)
+    elif file.suffix == TABLE:
+        save_points(_with_parts(_only(groups)), file)
     else:
         save_mat(groups, file)
+
+
+def _only(groups: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """The only one of groups; raises `ParameterError` where there are several."""
+    first, *others = groups
+    if others:
+        rule = f"must be one group to be a table, such as data[{others[0]!r}].to_dataset()"
+        raise ParameterError(Fault(("data",), "", rule))
+    return groups[first]
 
 
 def load(path: str | Path) -> xr.Dataset | xr.DataTree:

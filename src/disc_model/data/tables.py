@@ -4,7 +4,7 @@ text."""
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from disc_model.data.coded import words
 from disc_model.data.dataset import read_tree, save
 from disc_model.data.files import (
     SUFFIXES,
@@ -23,7 +24,7 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import COORDINATES, OF_STATES, SERIES, flag_names
+from disc_model.data.variables import COORDINATES, OF_STATES, SERIES
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 
 # columns of numbers, shape (n,), by the names of tables and their own
@@ -33,10 +34,10 @@ BESIDE = ("result", "units", "meanings")
 _MATLAB_NAME = re.compile(r"[A-Za-z]\w{0,62}", re.ASCII)
 
 
-def check_suffix(path: Path) -> Path:
+def check_suffix(path: Path, suffixes: Sequence[str] = SUFFIXES) -> Path:
     """A path, unless there is no form of files for its suffix; raises `ParameterError`."""
-    if path.suffix not in SUFFIXES:
-        rule = f"must end in {' or '.join(SUFFIXES)}"
+    if path.suffix not in suffixes:
+        rule = f"must end in {' or '.join(suffixes)}"
         raise ParameterError(Fault.of(("path",), str(path), rule))
     return path
 
@@ -170,16 +171,16 @@ def save_csv(tables: Mapping[str, xr.Dataset], path: str | Path) -> None:
     for name, table in tables.items():
         columns = {}
         for key in (*table.coords, *table.data_vars):
-            variable = table[key]
-            head = str(key)
-            values = variable.values
-            if "flag_meanings" in variable.attrs:
-                values = flag_names(variable)
-            elif variable.attrs.get("units", "1") != "1":
-                head = f"{key} ({variable.attrs['units']})"
-            columns[head] = ("row", values)
+            variable = words(table[key])
+            columns[head_of(str(key), variable.attrs)] = ("row", variable.values)
         frame = xr.Dataset(columns).to_dataframe()
         write_atomically(folder / f"{name}.csv", partial(frame.to_csv, index=False))
+
+
+def head_of(name: str, attributes: Mapping[Any, Any]) -> str:
+    """The head of a column: a name, and the unit of its numbers."""
+    unit = attributes.get("units", "1")
+    return name if unit in ("", "1") else f"{name} ({unit})"
 
 
 def _made_folder(path: str | Path) -> Path:

@@ -146,13 +146,11 @@ OF_RESULTS = {
     for kind, table in _TABLES["results"].items()
 }
 """Variables of results by their class or function, which may mean something else elsewhere."""
-COUNTS = {
-    "steps": "steps",
-    "n_events": "events",
-    "n_separations": "separations",
-    "audited_steps": "audited_steps",
+OF_ARGUMENTS = {
+    function: {name: Variable(*entry) for name, entry in table.items()}
+    for function, table in _TABLES["arguments"].items()
 }
-"""Numbers of steps and events among the scalars, and their names in `Result.statistics`."""
+"""Arguments of functions that are no options of a quantity, by function."""
 BESIDE_WINDOWS = frozenset(
     {"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields}
 )
@@ -206,10 +204,14 @@ WITHOUT_EFFECT = {"comment": "kept beside the samples, without effect on the res
 
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
-    they are."""
+    they are, and "" for nan."""
+    values = variable.values
     if variable.dtype.kind in "UO":
-        return np.asarray(variable.values, dtype=str)
-    return np.asarray(np.array(variable.attrs["flag_meanings"].split())[variable.values])
+        return np.asarray(values, dtype=str)
+    known = np.array([*variable.attrs["flag_meanings"].split(), ""])
+    # the last one is that of a missing value
+    places = np.where(np.isnan(values), -1, values).astype(int)
+    return np.asarray(known[places])
 
 
 def typeset(text: str) -> str:

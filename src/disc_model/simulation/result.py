@@ -17,7 +17,7 @@ from disc_model import errors
 from disc_model.arrays import EqualByValue
 from disc_model.attachable import RunPictures
 from disc_model.data.files import unreadable
-from disc_model.data.variables import COUNTS, EVENT_KINDS, PHASES, SCALARS, values_text
+from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
@@ -49,6 +49,19 @@ _PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0", "versi
 """Values of a `Result` that its files hold as they are."""
 
 
+FORMER_NAMES = {"events": "n_events", "separations": "n_separations"}
+"""Names of counts in `Result.statistics` that earlier versions had."""
+
+
+class Totals(dict[str, float]):
+    """Statistics of a run by name, also by former names."""
+
+    def __missing__(self, name: str) -> float:
+        if name in FORMER_NAMES:
+            return self[FORMER_NAMES[name]]
+        raise KeyError(name)
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class Result(Summarised, RunPictures, EqualByValue):
     """A finished simulation, or the part of it that could be computed; see `status`.
@@ -66,7 +79,7 @@ class Result(Summarised, RunPictures, EqualByValue):
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
-    statistics : steps, events, separations, time_stick, time_slip, time_separation (s); of the audit of energies
+    statistics : steps, n_events, n_separations, time_stick, time_slip, time_separation (s); of the audit of energies
         energy_residual, audited_steps and, nan unless every step is audited, energy_residual_transverse and
         energy_residual_inplane; surface_speed, nan unless friction acts on a surface that moves; wall_time (s)
     versions : JSON of the versions of disc_model and of what it uses, by which the motion was computed
@@ -181,7 +194,6 @@ class Result(Summarised, RunPictures, EqualByValue):
     def scalars(self) -> dict[str, float]:
         """Values of `disc_model.data.variables.SCALARS`, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
-        values |= {name: self.statistics[key] for name, key in COUNTS.items()}
         for name in ("first_separation", "t_end", "tol", "u_0"):
             values[name] = getattr(self, name)
         values["time_reached"] = self.final_state.time
@@ -297,7 +309,7 @@ class Result(Summarised, RunPictures, EqualByValue):
         lost = "no separation" if math.isnan(first) else f"first separation at {first:.6f} s"
         windows = counted(len(self.samples), "window")
         ended = f"{self.status.value} at {self.final_state.time:.9g} s"
-        events = self.statistics["events"]
+        events = self.statistics["n_events"]
         ramped = "".join(f", {ramp.parameter} to {ramp.to:g}" for ramp in self.ramps)
         return f"Result(N={p.N:g} N, Omega={p.Omega:g} rad/s{ramped}: {ended}, {lost}, {events} events, {windows})"
 
@@ -310,7 +322,7 @@ class Result(Summarised, RunPictures, EqualByValue):
         yield "advice", "" if self.status.complete else self.status.advice
         yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
-        yield "events", s["events"]
+        yield "events", s["n_events"]
         yield from (
             (f"  {kind}", count)
             for kind, count in self.events["kind"].value_counts().items()
@@ -352,8 +364,8 @@ class Statistics(Strict):
     """The `Result.statistics` in a file, which are those of the motion alone."""
 
     steps: Count
-    events: Count
-    separations: Count
+    n_events: Count
+    n_separations: Count
     time_stick: Real
     time_slip: Real
     time_separation: Real
@@ -402,7 +414,7 @@ def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Resu
     for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
         known = np.isin(events[name], range(len(words))).all()
         require((known, f"events.{name}", events[name], "must be numbers of their words"))
-    statistics = dict(header.statistics)
+    statistics = Totals(header.statistics)
     statistics["wall_time"] = math.nan
     return Result(
         parameters=header.parameters,

@@ -23,7 +23,7 @@ from disc_model.simulation.case import SampleTimes, angle_of_drive, pieces
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.request import Request
 from disc_model.simulation.rest import holds_for_good, spring_pull
-from disc_model.simulation.result import Result
+from disc_model.simulation.result import Result, Totals
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -225,17 +225,17 @@ class Run:
         last = self.pieces[-1]
         return last.Omega == 0 and last.begin <= self.time
 
-    def _statistics(self) -> dict[str, float]:
+    def _statistics(self) -> Totals:
         """Return the `Result.statistics`."""
         buffers = self.collector.buffers
         every_step = self.request.execution.audit_every_step
         count = buffers.counters.tolist()
         total = buffers.audit.tolist()
-        statistics = {
-            "steps": count[record.STEPS],
-            "events": count[record.EVENTS],
-            "separations": count[record.SEPARATIONS],
-        }
+        statistics = Totals(
+            steps=count[record.STEPS],
+            n_events=count[record.EVENTS],
+            n_separations=count[record.SEPARATIONS],
+        )
         for phase, duration in zip(PHASES, buffers.phase_times.tolist(), strict=True):
             statistics[f"time_{phase}"] = duration
 

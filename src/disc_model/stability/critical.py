@@ -14,7 +14,7 @@ from disc_model.errors import raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
-from disc_model.stability.cycle import STICK_SLIP
+from disc_model.stability.cycle import SLIPPING, STICK_SLIP
 from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
@@ -22,6 +22,9 @@ from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_fault
 MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are bisected
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
+RULE_OF_KIND = (
+    f"must be {STICK_SLIP!r}, the motion near the static start, or {SLIDING!r}, steady sliding"
+)
 MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
 """Kinds of motion whose stability is followed, and what texts call them."""
 
@@ -40,6 +43,8 @@ class Critical(Drawn, EqualByValue):
     value : the least value computed at which the motion is unstable, or no cycle is found and stick-slip goes on; if
         there is a lower one, it is stable there, less than `precision` away; nan if there is none. The lower bound,
         where that motion is unstable there already: it may be so below, too
+    border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
+        stable there, or unstable at all values. Tongues of instability may lie below it
     at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
     message : says so if `value` is the lower bound or nan; else ""
     kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
@@ -51,6 +56,16 @@ class Critical(Drawn, EqualByValue):
     resolution : the largest step between neighbouring values computed. No stretch of stability or
         of instability that is wider has been overlooked. Most narrower ones are seen, because they
         are looked for where multipliers meet
+
+    Examples
+    --------
+    The least unstable value may lie in a narrow tongue; from the border on, the motion stays unstable:
+
+    >>> import disc_model as dm
+    >>> light = dm.Parameters(N=385, Omega=15, mu_s=0.44, mu_k=0.24, m=0.1)
+    >>> found = dm.critical(light, "Omega", (12, 22), points=9)
+    >>> print(f"{found.value:.2f} and {found.border:.2f} rad/s")
+    12.00 and 18.79 rad/s
     """
 
     _picture = "plot_critical"
@@ -102,6 +117,14 @@ class Critical(Drawn, EqualByValue):
     def at_lower_bound(self) -> bool:
         """Whether the motion is unstable at the lower bound already, which is the `value` then."""
         return bool(self.value == self.values[0])
+
+    @property
+    def border(self) -> float:
+        """The value above which the motion stays unstable up to the upper bound; nan if it is stable
+        there, or unstable at all values."""
+        if len(self.crossings) and self.unstable_above[-1]:
+            return float(self.crossings[-1])
+        return math.nan
 
     @property
     def unstable(self) -> Array:
@@ -161,7 +184,7 @@ def critical(
     Returns
     -------
     Critical
-        `value`, `crossings`, and `resolution`, beyond which nothing can have been overlooked; a
+        `value`, `border`, `crossings`, and `resolution`, beyond which nothing can have been overlooked; a
         `message` where the motion is unstable at the lower bound already, or nowhere.
 
     Raises
@@ -192,7 +215,7 @@ def critical(
         (ends is not None, "bounds", bounds, "must be two ascending finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
-        (known, "kind", kind, f"must be one of {', '.join(MOTIONS)}"),
+        (known, "kind", kind, _rule_of_kind(kind)),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
@@ -217,6 +240,13 @@ def critical(
             scan.located_changes(shortest)
             follow_stable_cycles(scan, shortest)
     return _result(scan, kind, shortest)
+
+
+def _rule_of_kind(kind: object) -> str:
+    """The rule that an unknown kind of motion breaks, and what to call for one of `floquet`."""
+    if kind == SLIPPING:
+        return f"{RULE_OF_KIND}; cycles that never stick are followed by continue_cycle(..., kind='slipping')"
+    return RULE_OF_KIND
 
 
 def _result(scan: Scan, kind: str, shortest: float) -> Critical:

@@ -60,6 +60,8 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         this is not examined: of a stable cycle, which that motion need not reach, and of one near a given state
     other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
     stick_fraction : share of the period in stick
+    stick_time, slip_time : s, durations of stick and of slip, means of the period's releases, as `fit` takes them; a
+        `slip_time` of nan where contact is lost
     state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
     bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
         "period_doubling" (real, negative) or "neimark_sacker" (complex); "" without a cycle
@@ -128,6 +130,19 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     def stable(self) -> bool:
         """Whether the cycle exists and small disturbances of it die out."""
         return self.growth_rate < 0
+
+    @property
+    def stick_time(self) -> float:
+        """Duration of stick (s), the mean of the period's releases."""
+        return self.stick_fraction * self.period / max(self.releases, 1)
+
+    @property
+    def slip_time(self) -> float:
+        """Duration of slip (s), the mean of the period's releases; nan where contact is lost, since
+        the slider does not slip then."""
+        if self.separations:
+            return math.nan
+        return (1 - self.stick_fraction) * self.period / max(self.releases, 1)
 
     @property
     def motion(self) -> str:

@@ -137,7 +137,7 @@ def shares(result: Result) -> Shares:
     slip = statistics["time_slip"]
     separation = statistics["time_separation"]
     total = stick + slip + separation
-    rate = statistics["separations"] / total
+    rate = statistics["n_separations"] / total
     return Shares(stick / total, slip / total, separation / total, rate)
 
 

@@ -20,7 +20,7 @@ from disc_model.errors import (
 )
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.studies.samples import OF_SWEEPS, Dimension, Known, zipped_dimension
-from disc_model.studies.swept_values import checked_values, faults_of_repeated
+from disc_model.studies.swept_values import checked_values, faults_along_axis
 from disc_model.studies.varied_arguments import Arguments, values_over
 
 RETURNED = (
@@ -187,8 +187,9 @@ def checked_call(
 
 def _dimension(name: str, values: Any, faults: list[str]) -> Dimension:
     """The dimension of a number of the case; what is wrong with its values is added to the faults."""
-    column = checked_values(name, values, faults)
-    faults += faults_of_repeated(name, column)
+    wrong: list[str] = []
+    column = checked_values(name, values, wrong)
+    faults += wrong or faults_along_axis(name, column)
     return Dimension({name: column})
 
 

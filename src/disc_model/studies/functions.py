@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.coded import words
 from disc_model.data.missing import explained
 from disc_model.data.swept_speeds import doubtful_contact, swept_speeds
-from disc_model.data.variables import flag_names
 from disc_model.display import counted, progress_bar
 from disc_model.errors import (
     Fault,
@@ -82,10 +82,7 @@ def _quantity(
         "versions": versions_text(),
     }
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
-    for flag in [flag for flag, variable in dataset.items() if "flag_meanings" in variable.attrs]:
-        words = flag_names(dataset[flag])
-        dataset[flag] = (dataset[flag].dims, words, {"long_name": dataset[flag].attrs["long_name"]})
-    return explained(dataset, name)
+    return explained(words(dataset), name)
 
 
 def _fault_of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:

@@ -66,8 +66,11 @@ OF_A_CYCLE = (
     "near_motion",
 )
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
+BY_METHODS = ("stable", "at_lower_bound", "border", "stick_time", "slip_time")
+"""Numbers and verdicts of results that are no fields of theirs, but follow from these."""
 OF_PARAMETER = {
     "value": "critical value of {}",
+    "border": "value of {} above which the motion stays unstable",
     "crossings": "value of {} at which stability changes",
     "values": "value of {} at which the motion was computed",
     "resolution": "largest step between values of {} at which the motion was computed",
@@ -125,9 +128,9 @@ def _named_values(result: Any) -> Mapping[str, Any]:
     if is_dataclass(result):
         names = [field.name for field in fields(result) if not field.name.startswith("_")]
         values = {name: getattr(result, name) for name in names}
-        for verdict in ("stable", "at_lower_bound"):
-            if hasattr(result, verdict):
-                values[verdict] = getattr(result, verdict)
+        for name in BY_METHODS:
+            if hasattr(result, name):
+                values[name] = getattr(result, name)
         if type(result).__name__ == "FloquetResult":
             values |= dict.fromkeys(_missing_of_cycle(result), math.nan)
         if hasattr(result, "sliding"):

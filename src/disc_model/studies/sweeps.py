@@ -87,13 +87,13 @@ def sweep(  # noqa: PLR0913
     ------
     ParameterError
         If `case` is no case, a name is neither a number of it nor an argument of the function, a value is no number, an
-        axis has a value twice, columns differ in length, or no value of an axis or column can be; the message names the
-        row, counted from 0, as in ``zip.N[1]=-1``. If no point makes a case. If the function would compute what a sweep
-        leaves out, as `neutral_curves`, `fit`, and `simulate` with `windows` do. And if an argument of the function is
-        missing, or refused at the first point that is a case, or the function returns nothing there. Where numbers of
-        the case break a rule, such as a load below zero or nan for an empty cell of a table, the point has failed. Any
-        other error of the function ends the sweep, with a note of what varies at the point, unless `errors` is
-        "record".
+        axis has a value twice or one that is nan or infinite, columns differ in length, or no value of an axis or
+        column can be; the message names the row, counted from 0, as in ``zip.N[1]=-1``. If no point makes a case. If
+        the function would compute what a sweep leaves out, as `neutral_curves`, `fit`, and `simulate` with `windows`
+        do. And if an argument of the function is missing, or refused at the first point that is a case, or the function
+        returns nothing there. Where numbers of the case break a rule, such as a load below zero or nan for an empty
+        cell of a table, the point has failed. Any other error of the function ends the sweep, with a note of what
+        varies at the point, unless `errors` is "record".
 
     Examples
     --------

@@ -91,11 +91,15 @@ def _number_of(name: str, value: Any) -> float | None:
         return None
 
 
-def faults_of_repeated(name: str, values: Sequence[Any]) -> Iterator[Fault]:
-    """Yield a fault for each number or word that stands along an axis once more."""
+def faults_along_axis(name: str, values: Sequence[Any]) -> Iterator[Fault]:
+    """Yield a fault for each number that is nan or infinite, which has no place along an axis, and for
+    each number or word that stands there once more."""
     known = set()
     for row, value in enumerate(values):
         if not isinstance(value, float | int | str):
+            continue
+        if isinstance(value, float) and not math.isfinite(value):
+            yield Fault.of((f"{name}[{row}]",), value, "must be a finite number along an axis")
             continue
         if value in known:
             yield Fault.of((f"{name}[{row}]",), value, "must not be given twice along an axis")

@@ -8,11 +8,11 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from disc_model.data.variables import SCALARS
+from disc_model.data.variables import OF_ARGUMENTS
 from disc_model.errors import Fault, suggestion
-from disc_model.studies.options import options_of
+from disc_model.studies.options import Option, options_of
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.studies.swept_values import as_list, faults_of_repeated
+from disc_model.studies.swept_values import as_list, faults_along_axis
 from disc_model.units import in_si, number
 
 QUANTITIES = {"lyapunov_exponents": "lyapunov"}
@@ -69,16 +69,17 @@ class Arguments:
         return "" if annotation is inspect.Parameter.empty else str(annotation)
 
     def unit_and_meaning(self, name: str) -> tuple[str, str]:
-        """The SI unit of an argument and what it is, as far as this package knows them."""
+        """The SI unit of an argument, "1" of a plain number, and what it is, as far as this package
+        knows them."""
+        known = OF_ARGUMENTS.get(self.ours, {})
+        if name in known:
+            return known[name].units, known[name].long_name
         quantity = QUANTITIES.get(self.ours, self.ours)
         if quantity in quantity_names():
             for option in options_of(quantity_of(quantity)):
                 if option.name in (name, OPTIONS.get(name)):
-                    # remarks follow, and units of other options are in words
-                    meaning = re.split("[,:;] ", option.meaning)[0]
-                    return "" if "`" in option.unit else option.unit, meaning
-        if self.ours == "simulate" and name == "t_end":
-            return SCALARS[name].units, SCALARS[name].long_name
+                    # remarks follow
+                    return _unit_of(option), re.split("[,:;] ", option.meaning)[0]
         return "", ""
 
     def attributes(self, name: str) -> dict[str, str]:
@@ -87,6 +88,16 @@ class Arguments:
         unit = re.sub(r"/(\w+?)\^?(\d?)$", lambda below: f" {below[1]}-{below[2] or 1}", unit)
         attributes = {"units": unit, "long_name": meaning}
         return {key: text for key, text in attributes.items() if text}
+
+
+def _unit_of(option: Option) -> str:
+    """The SI unit of an option, "1" of a plain number, "" of words and of what has the unit of
+    another option."""
+    if "`" in option.unit:
+        return ""
+    if not option.unit and option.form.startswith(("number", "whole number", "list of numbers")):
+        return "1"
+    return option.unit
 
 
 def values_over(
@@ -124,7 +135,7 @@ def values_over(
         if wrong:
             faults.append(Fault.of(("over", name), given, wrong))
             continue
-        faults += [fault.inside(("over",)) for fault in faults_of_repeated(name, values)]
+        faults += [fault.inside(("over",)) for fault in faults_along_axis(name, values)]
         found[name] = values
     return found
 

@@ -87,7 +87,7 @@ def test_each_column_is_measured_of_its_own_signal() -> None:
     samples = {"u": height, "P": force, "phase": phase}
     late = xr.Dataset({name: ("time", values) for name, values in samples.items()}, {"time": time})
     p = Parameters(N=200, Omega=20)
-    statistics = {"separations": 200, "time_separation": 0.125, "time_stick": 0.5}
+    statistics = {"n_separations": 200, "time_separation": 0.125, "time_stick": 0.5}
     found = _measure(MadeUpRun(p, statistics, late))
 
     pinned = pinned_range(p, found["vibration_frequency"])
@@ -106,7 +106,7 @@ def test_each_column_is_measured_of_its_own_signal() -> None:
     }
     # the last sample begins another period
     assert found == pytest.approx(expected, rel=1e-3)
-    assert _measure(MadeUpRun(p, {"separations": 0}, late)) == {}
+    assert _measure(MadeUpRun(p, {"n_separations": 0}, late)) == {}
 
 
 @pytest.fixture(scope="module")

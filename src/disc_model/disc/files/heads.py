@@ -89,6 +89,18 @@ def read_head(text: str) -> Head:
     return Head(text, QUANTITIES[word], factor)
 
 
+def with_unit(text: str, unit: str) -> str:
+    """A head with a unit that stands in a row of its own, in brackets or not; as it is if the head
+    states one."""
+    if match := _BRACKETS.fullmatch(unit):
+        before, round_brackets, square_brackets = match.groups()
+        unit = unit if before else (round_brackets or square_brackets or "")
+    if text in COLUMNS or unit in ("", "-"):
+        return text
+    _, stated = _word(*_name_and_unit(text))
+    return text if stated else f"{text} ({unit})"
+
+
 def _name_and_unit(text: str) -> tuple[str, str]:
     """The name in a head, and its unit in brackets or after the word in."""
     if match := _BRACKETS.fullmatch(text):

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
-from disc_model.disc.files.heads import COLUMNS, Head, read_head
+from disc_model.disc.files.heads import COLUMNS, Head, read_head, with_unit
 from disc_model.disc.files.pairs import Halves, check_halves, halves_in, mean_of, origins_of
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import DiscReport, doubts_of_halves
@@ -155,7 +155,7 @@ def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
     names, *body = _without_labels(rows) or [[]]
     if body and _is_of_units(body[0], names):
-        names = _with_units(names, body.pop(0))
+        names = [*map(with_unit, names, body.pop(0))]
     heads, faults = _heads(names)
     raise_faults(faults or _faults_together(heads))
     rule = f"values: must be as many as columns, {len(names)}"
@@ -178,15 +178,6 @@ def _without_labels(rows: list[list[str]]) -> list[list[str]]:
     if rows and joined(rows[0][0]).rstrip(".") in LABELS:
         return [row[1:] for row in rows]
     return rows
-
-
-def _with_units(names: list[str], units: list[str]) -> list[str]:
-    """Heads with the units of a row of their own, in brackets where a head has none."""
-    named = []
-    for name, unit in zip(names, units, strict=True):
-        has_unit = name in COLUMNS or "(" in name or "[" in name or unit in ("", "-")
-        named.append(name if has_unit else f"{name} ({unit})")
-    return named
 
 
 def _heads(names: list[str]) -> tuple[list[Head], list[Fault]]:

@@ -348,7 +348,7 @@ class Branch:
         True
         >>> for push in (0.01, -0.01):  # on both sides of an unstable cycle
         ...     run = dm.simulate(branch.case_at(-1), 60, initial_state=branch.state(-1, push))
-        ...     print(push, run.statistics["separations"] > 0)
+        ...     print(push, run.statistics["n_separations"] > 0)
         0.01 True
         -0.01 False
         """

@@ -144,7 +144,7 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "status": run.status.value,
         "phase": taken["phase"] + 1,  # 0 is "none"
         "first_separation": run.first_separation,
-        "separations": int(run.statistics["separations"]),
+        "separations": int(run.statistics["n_separations"]),
         "transient_time": options.transient,
         "stick_fraction": run.statistics["time_stick"] / time if time else np.nan,
     }
@@ -168,7 +168,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         run = simulate(p, transient, tol=options.tol, initial_state=state)
         if np.isnan(first):
             first = run.first_separation
-        separations += int(run.statistics["separations"])
+        separations += int(run.statistics["n_separations"])
         if not run.status.complete:
             known = {
                 "status": run.status.value,

@@ -108,7 +108,7 @@ def _run(p: Parameters, rate: float, options: Ramps) -> tuple[dict[str, float], 
         run = on(run.final_state, down)
     if not run.status.complete:
         return values, run
-    values["top_separation_rate"] = run.statistics["separations"] / options.dwell
+    values["top_separation_rate"] = run.statistics["n_separations"] / options.dwell
     last = math.nan
     end = bottom + options.dwell
     while run.final_state.time < end:

@@ -101,7 +101,7 @@ def _measure(run: Result) -> dict[str, float]:
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
     from disc_model.analysis.spectra import main_vibration, share_at
 
-    count = run.statistics["separations"]
+    count = run.statistics["n_separations"]
     if not count:
         return {}
     samples = run["late"]

@@ -1,0 +1,69 @@
+"""Words in place of the numbers by which datasets of studies and of files stand for them."""
+
+from __future__ import annotations
+
+from typing import TypeVar
+
+import xarray as xr
+
+from disc_model.data.variables import flag_names
+from disc_model.errors import require
+
+Data = TypeVar("Data", xr.DataArray, xr.Dataset, xr.DataTree)
+
+CODED = "flag_meanings"
+"""Attribute of a variable of numbers that stand for words: these words."""
+OF_NUMBERS = ("units", "flag_values", CODED)
+"""Attributes that words do not have."""
+
+
+def words(data: Data) -> Data:
+    """Return data with words, such as "ok" and "separation", where numbers stand for them.
+
+    `run_study`, the files of studies and of runs, and windows of a run have numbers for the words of a `status`,
+    `outcome` or `phase`; `sweep` has the words themselves, which stay as they are.
+
+    Parameters
+    ----------
+    data : a variable, such as ``study["status"]``, or a whole dataset or tree, of which all other variables stay
+
+    Returns
+    -------
+    xarray.DataArray or xarray.Dataset or xarray.DataTree
+        Of the kind of `data`. A missing number, as after `where` of xarray, is the word "".
+
+    Raises
+    ------
+    ParameterError
+        If `data` is none of the three.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> axes = {"mu_s": [0.35, 0.4], "mu_k": [0.2]}
+    >>> study = dm.run_study({"study": "s", "quantity": "floquet", "base": {"N": 385, "Omega": 12}, "axes": axes})
+    >>> study["status"].values.tolist(), dm.words(study["status"]).values.tolist()
+    ([[0], [0]], [['ok'], ['ok']])
+    """
+    kinds = (xr.DataArray, xr.Dataset, xr.DataTree)
+    rule = "must be a DataArray, Dataset or DataTree of xarray"
+    require((isinstance(data, kinds), "data", data, rule))
+    if isinstance(data, xr.DataArray):
+        return _words_of(data)
+    if isinstance(data, xr.Dataset):
+        return _words_in(data)
+    return data.map_over_datasets(_words_in)
+
+
+def _words_in(data: xr.Dataset) -> xr.Dataset:
+    """A dataset with words in place of all numbers that stand for them."""
+    return data.assign({name: _words_of(x) for name, x in data.items() if CODED in x.attrs})
+
+
+def _words_of(variable: xr.DataArray) -> xr.DataArray:
+    """A variable with words in place of numbers that stand for them."""
+    if CODED not in variable.attrs:
+        return variable
+    worded = variable.copy(data=flag_names(variable))
+    worded.attrs = {key: x for key, x in variable.attrs.items() if key not in OF_NUMBERS}
+    return worded

@@ -1,0 +1,94 @@
+"""A dataset as one table of text, with a row for each point."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from functools import partial
+from itertools import product
+from pathlib import Path
+
+import pandas as pd
+import xarray as xr
+
+from disc_model.data.coded import words
+from disc_model.data.files import write_atomically
+from disc_model.data.tables import head_of
+from disc_model.errors import Fault, ParameterError
+
+
+def save_points(data: xr.Dataset, file: Path) -> None:
+    """Write a dataset of real numbers and words as a table with a row for each point.
+
+    Heads of columns have units, such as ``Omega (rad s-1)``, and words stand in place of their
+    numbers. A variable that has further dimensions has a column for each place along these, such as
+    ``multipliers_real[0]``.
+
+    Raises
+    ------
+    ParameterError
+        If a variable does not stand along the points.
+    WriteError
+        If the file cannot be written.
+    """
+    worded = words(data)
+    points = _dimensions_of_points(worded)
+    _check_dimensions(worded, points)
+    sizes = {dim: worded.sizes[dim] for dim in points}
+    columns = {}
+    for name in (*worded.coords, *worded.data_vars):
+        for head, column in _columns(worded, str(name), sizes):
+            columns[head] = column.set_dims(sizes).values.ravel()
+    write_atomically(file, partial(pd.DataFrame(columns).to_csv, index=False))
+
+
+def _dimensions_of_points(data: xr.Dataset) -> tuple[str, ...]:
+    """The dimensions of the points: those of their status, or else those that most variables have."""
+    dims: tuple[object, ...] = ()
+    if "status" in data:
+        dims = data["status"].dims
+    if not dims and data.data_vars:
+        counts = Counter(variable.dims for variable in data.values())
+        ((dims, _),) = counts.most_common(1)
+    return tuple(map(str, dims))
+
+
+def _check_dimensions(data: xr.Dataset, points: tuple[str, ...]) -> None:
+    """Raise `ParameterError` where variables stand neither along the points nor along some of their
+    dimensions."""
+    others = []
+    for name, variable in data.items():
+        own = {*variable.dims}
+        if not (own <= {*points} or own >= {*points}):
+            others.append(str(name))
+    if others:
+        along = ", ".join(points)
+        rule = f"has a row for each {along} as a table, in which these have no place"
+        choice = f'choose variables of one table, such as data[["{others[0]}"]]'
+        raise ParameterError(Fault(("data",), "", f"{rule}: {', '.join(others)}; {choice}"))
+
+
+def _columns(
+    data: xr.Dataset, name: str, points: Mapping[str, int]
+) -> Iterator[tuple[str, xr.Variable]]:
+    """Yield the head and the cells of each column of a variable; none of a coordinate of other
+    dimensions, of which heads have the values."""
+    variable = data[name].variable
+    own = [str(dim) for dim in variable.dims if dim not in points]
+    if name in data.coords and own:
+        return
+    for places in product(*(range(data.sizes[dim]) for dim in own)):
+        at = dict(zip(own, places, strict=True))
+        head = name
+        if own:
+            labels = [_label(data, dim, place) for dim, place in at.items()]
+            head = f"{name}[{', '.join(labels)}]"
+        yield head_of(head, variable.attrs), variable.isel(at)
+
+
+def _label(data: xr.Dataset, dim: str, place: int) -> str:
+    """The value of a coordinate at a place, or the place where there is none."""
+    if dim not in data.coords:
+        return str(place)
+    value = data[dim].values[place]
+    return value if isinstance(value, str) else f"{value:.12g}"
