@@ -351,3 +351,30 @@ def test_a_legend_of_long_names_lies_on_a_page_of_84_by_51_mm(
     assert side(ax) >= least
     assert ax.get_legend().get_texts()[0].get_size() >= 6
     pyplot.close(figure)
+
+
+def critical_values(function: str, options: str) -> xr.Dataset:
+    """Critical speeds over loads, as a function finds them with its options."""
+    name = "value" if function == "critical" else "critical_speed"
+    attrs = {"units": "rad/s", "long_name": "critical value of angular speed of the disc"}
+    speeds = xr.DataArray([13.0, 15.0], dims="N", name=name, attrs=attrs)
+    study = speeds.to_dataset().assign_coords(N=[350.0, 385.0])
+    return study.assign_attrs(function=function, options=options, base="{}")
+
+
+def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
+    """They were named by raw options, such as "max crossings 12" and "points 201"."""
+    search = critical_values("critical", '{"name": "Omega", "points": 201, "kind": "stick_slip"}')
+    scan = critical_values("critical_speed", '{"horizon": 50.0, "step": 0.5, "max_crossings": 12}')
+    longer = critical_values("critical_speed", '{"horizon": 90.0, "step": 0.1, "tol": 1e-9}')
+    _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
+    dm.plot_sweep(search, "value", ax=axes[0])
+    dm.plot_sweep(scan, "critical_speed", ax=axes[0])
+    names = ["instability of the stick-slip cycle", "separation, horizon 50 s"]
+    assert named(axes[0]) == names
+    dm.plot_sweep(scan, "critical_speed", ax=axes[1])
+    dm.plot_sweep(longer, "critical_speed", ax=axes[1])
+    both = ["horizon 50 s, steps of 0.5 rad/s, up to 12 crossings"]
+    both += ["horizon 90 s, steps of 0.1 rad/s, tolerance 1e-09"]
+    assert named(axes[1]) == both
+    pyplot.close("all")
