@@ -13,6 +13,7 @@ from matplotlib.text import Text
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.labels import break_labels, in_lines
+from disc_model.figures.legends import finds_room_inside
 from disc_model.figures.names import Names
 from disc_model.figures.rate_scale import OPEN
 from disc_model.figures.sizes import COLUMN, INCH, PAGE
@@ -377,4 +378,27 @@ def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
     both = ["horizon 50 s, steps of 0.5 rad/s, up to 12 crossings"]
     both += ["horizon 90 s, steps of 0.1 rad/s, tolerance 1e-09"]
     assert named(axes[1]) == both
+    pyplot.close("all")
+
+
+def test_a_legend_covers_no_line_of_two_points() -> None:
+    """It lay on it, as it may on a line of zero across the panel."""
+    _, ax = pyplot.subplots()
+    ax.axhline(0.5)
+    ax.legend(["zero"], loc="center")
+    assert finds_room_inside(ax)
+    ax.plot([0.0, 1.0], [0.0, 1.0])
+    assert not finds_room_inside(ax)
+    pyplot.close("all")
+
+
+def test_arrows_below_values_keep_their_room_beside_further_lines() -> None:
+    """They lay on the numbers of the axis once another line was drawn."""
+    _, ax = pyplot.subplots(figsize=(PAGE, 3.2))
+    options = '{"name": "Omega", "points": 5, "kind": "stick_slip"}'
+    study = critical_values("critical", options).assign(at_lower_bound=("N", [True, False]))
+    dm.plot_sweep(study, "value", ax=ax)
+    alone = ax.margins()
+    dm.plot_sweep(critical_values("critical_speed", "{}"), "critical_speed", ax=ax)
+    assert ax.margins() == alone
     pyplot.close("all")

@@ -222,7 +222,9 @@ def _meets_line(box: Bbox, line: Line2D) -> bool:
         size = 0.5 * line.get_markersize() * page.dpi / 72
     if box.padded(size).count_contains(points):
         return True
-    joined = line.get_linestyle() != "None" and len(points) > 2
+    assert line.axes is not None
+    of_data = all(line.get_transform().contains_branch_seperately(line.axes.transData))
+    joined = line.get_linestyle() != "None" and of_data
     return joined and bool(path.intersects_bbox(box, filled=False))
 
 
