@@ -10,7 +10,11 @@ from matplotlib import pyplot
 
 from disc_model.figures.fit import plot_fit
 from disc_model.figures.labels import without_font
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.fitting.result import Combined, Fitted
+
+FRICTION = Fitted(0.419988, 0.00055, 0.4189, 0.4211)
+STIFFNESS = Fitted(19000.7, 21.0, 18959.5, 19041.9)
 
 
 def made_up(**changes: Any) -> Any:
@@ -23,7 +27,11 @@ def made_up(**changes: Any) -> Any:
     ]
     computed = np.array([220.0, -58.0, 0.25])
     fit = {"measurements": measurements, "computed": computed, "chi_squared": 41.25}
-    return SimpleNamespace(**fit, freedom=1, deviations=np.array([5.0, -4.0, 0.5]), **changes)
+    fit |= {"parameters": {"mu_s": FRICTION, "k_p": STIFFNESS}, "limits": {}, "at_bounds": {}}
+    fit |= {"doubt": "", "gap": None, "converged": True, "misses": False, "confidence": 0.95}
+    fit |= {"indistinct": (), "determined": {}, "unpredicted": {}}
+    fit |= {"freedom": 1, "deviations": np.array([5.0, -4.0, 0.5])}
+    return SimpleNamespace(**{**fit, **changes})
 
 
 @pytest.fixture
@@ -125,4 +133,47 @@ def test_rows_name_measurements_by_words_symbols_and_units(
     fit.measurements[0] = SimpleNamespace(quantity=quantity, at=at, value=200.0, uncertainty=4.0)
     left, _ = plot_fit(fit)
     assert without_font(left.get_yticklabels()[0].get_text()) == said
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({}, "$μ_s$ = 0.41999 ± 0.00055, $k_p$ = 19.001 ± 0.021 kN/m"),
+        (
+            {"doubt": "not apart", "indistinct": ("mu_s", "k_p")},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, $μ_s$ and $k_p$ not determined apart",
+        ),
+        (
+            {"doubt": "at 0", "at_bounds": {"mu_s": 0.0}, "limits": {"mu_s": 0.45}},
+            "$μ_s$ < 0.45 at 95 % confidence, $k_p$ = 19 kN/m",
+        ),
+        (
+            {"doubt": "not converged", "converged": False, "at_bounds": {"k_p": 19000.7}},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m at its bound, the search has not converged",
+        ),
+        (
+            {"determined": {"mu_s * k_p^2": Combined(400.0, 3.0, "in SI units")}, "doubt": "doubt"},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, $μ_s$ · $k_p$² = 400 ± 3 in SI units",
+        ),
+    ],
+)
+def test_the_title_states_fitted_values_and_doubts(changes: dict[str, Any], said: str) -> None:
+    """The picture named none."""
+    left, _ = plot_fit(made_up(**changes))
+    title = without_font(left.figure.get_suptitle())
+    assert " ".join(title.split()) == said
+    pyplot.close("all")
+
+
+def test_a_legend_below_two_panels_is_below_the_labels_of_both() -> None:
+    """It lay on the label of the first panel if this had more lines than that of the last."""
+    figure, axes = pyplot.subplots(1, 2, figsize=(PAGE, 2.8), layout="constrained")
+    fit = made_up()
+    fit.measurements[0].quantity = "duration of stick, with 14.8 rad/s"
+    left, right = plot_fit(fit, ax=axes)
+    figure.draw_without_rendering()
+    assert left.get_xlabel().count("\n") > right.get_xlabel().count("\n")
+    top = right.get_legend().get_window_extent().y1
+    assert top <= left.xaxis.get_tightbbox().y0
     pyplot.close("all")

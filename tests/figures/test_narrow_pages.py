@@ -13,6 +13,7 @@ from matplotlib.text import Text
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.labels import break_labels, in_lines
+from disc_model.figures.legends import finds_room_inside
 from disc_model.figures.names import Names
 from disc_model.figures.rate_scale import OPEN
 from disc_model.figures.sizes import COLUMN, INCH, PAGE
@@ -351,3 +352,53 @@ def test_a_legend_of_long_names_lies_on_a_page_of_84_by_51_mm(
     assert side(ax) >= least
     assert ax.get_legend().get_texts()[0].get_size() >= 6
     pyplot.close(figure)
+
+
+def critical_values(function: str, options: str) -> xr.Dataset:
+    """Critical speeds over loads, as a function finds them with its options."""
+    name = "value" if function == "critical" else "critical_speed"
+    attrs = {"units": "rad/s", "long_name": "critical value of angular speed of the disc"}
+    speeds = xr.DataArray([13.0, 15.0], dims="N", name=name, attrs=attrs)
+    study = speeds.to_dataset().assign_coords(N=[350.0, 385.0])
+    return study.assign_attrs(function=function, options=options, base="{}")
+
+
+def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
+    """They were named by raw options, such as "max crossings 12" and "points 201"."""
+    search = critical_values("critical", '{"name": "Omega", "points": 201, "kind": "stick_slip"}')
+    scan = critical_values("critical_speed", '{"horizon": 50.0, "step": 0.5, "max_crossings": 12}')
+    longer = critical_values("critical_speed", '{"horizon": 90.0, "step": 0.1, "tol": 1e-9}')
+    _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
+    dm.plot_sweep(search, "value", ax=axes[0])
+    dm.plot_sweep(scan, "critical_speed", ax=axes[0])
+    names = ["instability of the stick-slip cycle", "separation, horizon 50 s"]
+    assert named(axes[0]) == names
+    dm.plot_sweep(scan, "critical_speed", ax=axes[1])
+    dm.plot_sweep(longer, "critical_speed", ax=axes[1])
+    both = ["horizon 50 s, steps of 0.5 rad/s, up to 12 crossings"]
+    both += ["horizon 90 s, steps of 0.1 rad/s, tolerance 1e-09"]
+    assert named(axes[1]) == both
+    pyplot.close("all")
+
+
+def test_a_legend_covers_no_line_of_two_points() -> None:
+    """It lay on it, as it may on a line of zero across the panel."""
+    _, ax = pyplot.subplots()
+    ax.axhline(0.5)
+    ax.legend(["zero"], loc="center")
+    assert finds_room_inside(ax)
+    ax.plot([0.0, 1.0], [0.0, 1.0])
+    assert not finds_room_inside(ax)
+    pyplot.close("all")
+
+
+def test_arrows_below_values_keep_their_room_beside_further_lines() -> None:
+    """They lay on the numbers of the axis once another line was drawn."""
+    _, ax = pyplot.subplots(figsize=(PAGE, 3.2))
+    options = '{"name": "Omega", "points": 5, "kind": "stick_slip"}'
+    study = critical_values("critical", options).assign(at_lower_bound=("N", [True, False]))
+    dm.plot_sweep(study, "value", ax=ax)
+    alone = ax.margins()
+    dm.plot_sweep(critical_values("critical_speed", "{}"), "critical_speed", ax=ax)
+    assert ax.margins() == alone
+    pyplot.close("all")

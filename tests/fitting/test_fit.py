@@ -499,6 +499,7 @@ def test_parameters_that_act_alike_are_told_apart_from_others() -> None:
     with refusal("cannot be determined") as error:
         dm.fit(DISC, ["E", "rho"], measured)
     assert "'E', 'rho'" in str(error.value)
+    assert "only E / rho" in str(error.value)
 
 
 def test_a_parameter_without_effect_is_named() -> None:
@@ -527,6 +528,38 @@ def times_at(speeds: Sequence[float], truth: dm.Parameters) -> list[dm.Measureme
     return measured
 
 
+@pytest.mark.parametrize(
+    ("names", "powers", "formula"),
+    [
+        (["m", "k_p"], [1, 2], "m * k_p^2"),
+        (["m", "k_p"], [2, -3], "m^2 / k_p^3"),
+        (["m", "k_p"], [1, 1.234], "m^0.8104 * k_p"),
+        (["m", "k_p", "k"], [1, 2, -1], "m * k_p^2 / k"),
+        (["k", "k_p"], [1, -1], "k / k_p"),
+    ],
+)
+def test_the_product_that_measurements_determine_is_found(
+    names: list[str], powers: list[float], formula: str
+) -> None:
+    """Names of parameters that are not told apart did not say what is known of them."""
+
+    def product(case: dm.Parameters) -> float:
+        values = np.array([case.numbers[name] for name in names])
+        return float(np.prod(values**powers))
+
+    def alike(number: int) -> Callable[[dm.Parameters], float]:
+        return lambda case: product(case) * (1 + 1e-4 * case.numbers[names[number]] ** 0.1)
+
+    measured = []
+    for quantity in (product, *map(alike, range(1, len(names)))):
+        value = 1.01 * quantity(DISC)
+        measured.append(dm.Measurement(quantity, value, 1e-3 * value))
+    fit = dm.fit(DISC, names, measured)
+    assert fit.indistinct == tuple(names)
+    assert [*fit.determined] == [formula]
+    assert fit.note.startswith(f"the measurements determine {formula} = ")
+
+
 @pytest.mark.compiled
 def test_parameters_that_are_hardly_told_apart_are_doubted() -> None:
     """Times depend on mu_s - mu_k. Peaks of resonances in the predictions made narrow intervals
@@ -538,6 +571,11 @@ def test_parameters_that_are_hardly_told_apart_are_doubted() -> None:
     assert fit.indistinct == ("mu_s", "mu_k")
     assert "do not determine mu_s and mu_k apart" in fit.doubt
     assert not fit.consistent
+    [(formula, known)] = fit.determined.items()
+    assert formula == "mu_s - mu_k"
+    assert known.value == pytest.approx(0.18, abs=2 * known.deviation)
+    assert "the measurements determine mu_s - mu_k = 0.18" in fit.note
+    assert dict(fit.summary())["note"] == fit.note
     assert all(math.isnan(fit.parameters[name].deviation) for name in fit.indistinct)
     assert dict(fit.summary())["intervals"].startswith("none")
     ends = [math.isfinite(end) for each in fit.parameters.values() for end in (each.low, each.high)]

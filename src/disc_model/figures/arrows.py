@@ -14,9 +14,7 @@ DIRECTIONS = {"down": (0, -1), "left": (-1, 0)}
 def draw_arrows(ax: Axes, x: Array, y: Array, colour: str, direction: str, size: float) -> None:
     """Set an arrow beside each point, at its distance and of its size in points; those of a panel
     have one entry in the legend."""
-    label = AT_BOUND.label
-    if label in ax.get_legend_handles_labels()[1]:
-        label = "_nolegend_"
+    label = "_nolegend_" if has_arrows(ax) else AT_BOUND.label
     page: Any = ax.get_figure(root=True)
     across, up = DIRECTIONS[direction]
     distance = large(size) / 72
@@ -33,3 +31,8 @@ def draw_arrows(ax: Axes, x: Array, y: Array, colour: str, direction: str, size:
         transform=ax.transData + beside,
         clip_on=False,
     )
+
+
+def has_arrows(ax: Axes) -> bool:
+    """Whether a panel has such arrows."""
+    return AT_BOUND.label in ax.get_legend_handles_labels()[1]

@@ -17,6 +17,7 @@ from disc_model.figures.curve_marks import (
     measured_along,
     open_look,
     point_down,
+    set_margins,
 )
 from disc_model.figures.drawing import (
     BLACK,
@@ -178,7 +179,7 @@ def set_scales(
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
     _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
-    ax.margins(0.03)
+    set_margins(ax)
 
 
 def dashes_of(look: Look) -> Any:

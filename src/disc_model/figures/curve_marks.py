@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
-from disc_model.figures.arrows import draw_arrows
+from disc_model.figures.arrows import draw_arrows, has_arrows
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import GREY, mark, wide
@@ -34,6 +34,7 @@ MARK = 3.0  # points, size of the marks of lines,
 WIDER = 2.5  # by so much larger for each line that others cover,
 WIDEST = 8.0  # but not beyond this
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
+MARGIN = 0.03  # share of the panel beside values
 ROOM = 0.12  # share of the panel beside its values that has room for them
 
 
@@ -121,12 +122,17 @@ def point_down(
     """Hang an arrow on each point whose value is the lower bound of its search, and may be less."""
     if not any(at_bound.any() for at_bound in bounds.values()):
         return
-    ax.margins(y=ROOM)
     for part in parts:
         here = bounds[part.name]
         if here.any():
             heights = part.data.values[here]
             draw_arrows(ax, along[here], heights, looks.colours[part.name], "down", ARROW)
+    set_margins(ax)
+
+
+def set_margins(ax: Axes) -> None:
+    """Leave room around values, and more below them if arrows hang there."""
+    ax.margins(MARGIN, ROOM if has_arrows(ax) else MARGIN)
 
 
 def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:

@@ -20,6 +20,7 @@ from disc_model.figures.drawing import (
     mark,
     wide,
 )
+from disc_model.figures.fitted_values import fitted_text
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
 from disc_model.figures.words import stated_value
@@ -60,12 +61,18 @@ def plot_fit(
     in standard deviations; two panels with a row for each measurement, the first on top."""
     wishes = Wishes(ax, legend, labels, title)
     rows = ROW * len(fit.measurements)
-    with page_for(wishes, PAGE, 1.2 + rows, 1, 2, stacked=1.9 + rows, sharey=True) as page:
+    said = fitted_text(fit)
+    page_of_two = page_for(
+        wishes, PAGE, 1.3 + rows, 1, 2, stacked=1.9 + rows, title=said, sharey=True
+    )
+    with page_of_two as page:
         page.show(Quantities(DIFFERENCE, ROWS), Quantities(DEVIATION, ROWS))
         left, right = page.axes
         _draw_differences(left, fit)
         _draw_deviations(right, fit)
         _set_rows(left, right, fit)
+        if not page.own:
+            page.note = said
         shown = [handle for ax in (left, right) for handle in ax.get_legend_handles_labels()[0]]
         page.explain(shown)
     return np.array([left, right], dtype=object)

@@ -222,7 +222,9 @@ def _meets_line(box: Bbox, line: Line2D) -> bool:
         size = 0.5 * line.get_markersize() * page.dpi / 72
     if box.padded(size).count_contains(points):
         return True
-    joined = line.get_linestyle() != "None" and len(points) > 2
+    assert line.axes is not None
+    of_data = all(line.get_transform().contains_branch_seperately(line.axes.transData))
+    joined = line.get_linestyle() != "None" and of_data
     return joined and bool(path.intersects_bbox(box, filled=False))
 
 
@@ -281,7 +283,8 @@ def legend_below(
     page: Any = ax.get_figure(root=True)
     page.draw_without_rendering()  # sets the places
     frame = ax.bbox
-    depth = frame.y0 - min(box.y0 for box in (frame, *_stands_below(ax)))
+    beside = [box for bar in bars for box in _stands_below(bar)]  # labels may have more lines there
+    depth = frame.y0 - min(box.y0 for box in (frame, *_stands_below(ax), *beside))
     free = _free_below(ax, bars)
     free = Sides(free.left, free.right - spare * page.dpi)
     own = _sides_of(ax, *bars)
@@ -292,8 +295,8 @@ def legend_below(
     widest = free.right - frame.x0
     looks: list[dict[str, Any]] = [{}, small(1.0), small(), small(STILL_SMALLER), small(0.0)]
     places = []
-    beside = [(0.0, looks[0], room), *((reach, looks[0], width) for width in (room, widest))]
-    for shift, size, width in [*beside, *((reach, each, widest) for each in looks[1:])]:
+    usual = [(0.0, looks[0], room), *((reach, looks[0], width) for width in (room, widest))]
+    for shift, size, width in [*usual, *((reach, each, widest) for each in looks[1:])]:
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
         draw = partial(

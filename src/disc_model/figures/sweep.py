@@ -21,7 +21,6 @@ from disc_model.figures.sweep_choice import (
     SHARES,
     Drawn,
     choose_drawn,
-    options_of,
     said_of,
     title_of,
     values_of,
@@ -35,6 +34,7 @@ from disc_model.figures.sweep_lines import (
     names_asked,
     quantities_of,
 )
+from disc_model.figures.sweep_options import options_of
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_in, label_of, measured
 
@@ -116,6 +116,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     options = options_of(study)
     lines = lines_of(study, drawn.variable, labels, name, {**options, **values_of(study)})
     lines.shown.said = {**options, **said_of(study)}
+    lines.options = {*options}
     quantities = quantities_of(lines, others)
     page.show(quantities)
     lines.number = len(lines_beside(page.ax))

@@ -14,6 +14,7 @@ from disc_model.data.variables import WITHOUT_EFFECT, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
+from disc_model.figures.sweep_options import option_text
 from disc_model.figures.words import known_name, symbol_of, value_text, what_case
 from disc_model.parameters import Disc
 
@@ -41,13 +42,6 @@ FIRST_OF_SEVERAL = {
     "value": "lowest natural frequency of disc and attached slider",
 }
 """Names of the first value of such variables that have several at each point."""
-OPTIONS = {
-    "stays": "stays of {}",
-    "evaluation_time": "last {} of stays",
-    "horizon": "horizon {}",
-    "t_end": "within {}",
-}
-"""What legends say of times among the options that differ between sweeps."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 COUNT = re.compile("number of the (?!.* along )")
@@ -344,23 +338,8 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
     said = {}
     for name, values in study.coords.items():
         if values.size == 1 and values.attrs.get("units", "1") != "1" and not known_name(values):
-            said[str(name)] = f"{name} = {value_text(study, str(name))}"
-    return said
-
-
-def options_of(study: xr.Dataset) -> dict[str, str]:
-    """Words for the options with which a study was computed, by their names, such as the length of
-    stays: those that are numbers or words."""
-    options = stated_in(study, "options")
-    if {"dwell", "max_dwell"} <= {*options}:
-        stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
-        options["stays"] = f"{' to '.join(stays)} s"
-    said = {}
-    for name, value in options.items():
-        if isinstance(value, str | float | int) and not isinstance(value, bool):
-            unit = " s" if name in OPTIONS else ""
-            shown = value if isinstance(value, str) else f"{value:g}{unit}"
-            said[name] = OPTIONS.get(name, f"{name.replace('_', ' ')} {{}}").format(shown)
+            stated = f"{name} = {value_text(study, str(name))}"
+            said[str(name)] = option_text(str(name), values.item()) or stated
     return said
 
 

@@ -3,7 +3,7 @@ and legend call them."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 from weakref import WeakKeyDictionary, ref
@@ -16,6 +16,7 @@ from disc_model.figures.family import Member, name_in, names_of, retitle
 from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.pages import Page
+from disc_model.figures.sweep_options import COMPARED, function_of, sought_in
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
 
@@ -36,6 +37,8 @@ class Lines:
     phrase, unit : name of the variable, and its unit
     duration : time for which motions were followed, "" if the variable does not depend on it
     shown : what tells the lines from others
+    function, sought : what computed the lines, and in words, what critical values are those of
+    options : names of the options of that function
     number : their place in the order in which lines were drawn there
     parts : name along a second dimension, "" without one, of each line, and the line
     """
@@ -46,6 +49,9 @@ class Lines:
     unit: str
     duration: str
     shown: Member
+    function: str = ""
+    sought: str = ""
+    options: Collection[str] = ()
     number: int = 0
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
@@ -90,7 +96,9 @@ def lines_of(
     """
     phrase, unit, _ = named(study[variable])
     duration = duration_of(study, variable)
-    return Lines(*labels, phrase, unit, duration, Member(name, {"variable": phrase, **case}))
+    sought = sought_in(study)
+    shown = Member(name, {"variable": phrase, "sought": sought, **case})
+    return Lines(*labels, phrase, unit, duration, shown, function_of(study), sought)
 
 
 def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:
@@ -174,6 +182,18 @@ def _distinct(names: Sequence[str], family: Sequence[Member]) -> list[str]:
     return found
 
 
+def _compare_functions(family: Sequence[Lines]) -> None:
+    """Let lines of several functions be told apart by what is sought, and by times, but not by options that
+    are settings of one of them."""
+    all_seek = all(each.sought for each in family)
+    for each in family:
+        settings = {*each.options} - {*COMPARED}
+        kept = {name: value for name, value in each.shown.values.items() if name not in settings}
+        if all_seek:  # which tells more than the name of a speed
+            kept["variable"] = kept.pop("sought")
+        each.shown.values = kept
+
+
 def join_lines(page: Page, new: Lines) -> dict[int, str]:
     """Add lines to those on their axes. Of several, the legend names each by what differs between
     their variables and cases, or as its reader does. Returns the names of several by their numbers."""
@@ -185,7 +205,9 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
     tail = common_tail([each.phrase for each in family])  # which the axis says
     for each in family:
         short = each.phrase.removesuffix(tail).rstrip(" ,")
-        each.shown.values = {**each.shown.values, "variable": short}
+        each.shown.values = {**each.shown.values, "variable": short, "sought": each.sought}
+    if len({each.function for each in family}) > 1:
+        _compare_functions(family)
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page.figure, shown)

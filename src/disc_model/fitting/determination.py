@@ -10,6 +10,7 @@ import numpy as np
 
 from disc_model.arrays import Array, Mask
 from disc_model.errors import Fault, ParameterError
+from disc_model.fitting.combinations import combinations_of
 from disc_model.fitting.problem import Problem
 
 SINGULAR = 1e-7
@@ -85,7 +86,10 @@ def indistinct_names(
     at_end = sensitivity_of(search.jac)
     if at_start.singular and at_end.singular:
         weak = _chosen(names, at_end.weakest > WEAK)
-        rule = "cannot be determined by these measurements: fewer parameters, or others"
+        spread = at_end.inverse * problem.scale[:, None]
+        known = combinations_of(names, weak, search.x * problem.scale, spread)
+        only = f", only {' and '.join(known)}" if known else ""
+        rule = f"cannot be determined by these measurements{only}: fewer parameters, or others"
         raise ParameterError(Fault.of(("vary",), list(weak), rule))
 
     # what acts alike, where deviations may be larger than the uncertainties say

@@ -38,6 +38,14 @@ class Fitted(NamedTuple):
     high: float
 
 
+class Combined(NamedTuple):
+    """A combination of parameters: its value, standard deviation and unit, or the words "in SI units"."""
+
+    value: float
+    deviation: float
+    unit: str
+
+
 class Gap(NamedTuple):
     """Where a search has stopped because measured quantities do not exist: values of the fitted
     parameters there, in their units, and names of the measurements."""
@@ -64,6 +72,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
         alike and are known to 10 % at best, or a standard deviation away chi squared does not rise as linear
         predictions would have it
+    determined : combinations of these that the measurements determine, such as "mu_s - mu_k" or "m * k_p^2": by its
+        formula, the value, standard deviation and unit of each. Products hold near the fitted values
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there
     at_bounds : by name of a parameter, the bound at which it lies, or that no case can pass, such as 0, but its
@@ -71,8 +81,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     passed_bounds : by name of a parameter that lies within its bounds, those that its interval passes; `Fitted` has nan
         at these ends. The standard deviation and the other end hold, and there is no `doubt`
     limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
-        above, with that confidence; nan if predictions are not linear up to there, or the search, chi squared or
-        another parameter is in doubt
+        above, with that confidence, while the other varied parameters are fitted again as for linear predictions; nan
+        if predictions are not linear up to there, or the search, chi squared or another parameter is in doubt
     gap : values of the parameters in front of which the search has stopped, since measured quantities do not exist
         there, as where a case has no cycle, and the names of these measurements; None where it has not
     doubt : all reasons why values and intervals mean nothing: a search that has stopped in front of a gap, which is
@@ -82,7 +92,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     consistent : whether there is no `doubt`
     unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
         0.01/s; a period, for example, cannot be measured for long there
-    note : says so; "" where all cycles are stable
+    note : says so, and what is `determined`; "" where there is neither
 
     Examples
     --------
@@ -107,6 +117,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     converged: bool
     message: str
     indistinct: tuple[str, ...] = ()
+    determined: Mapping[str, Combined] = field(default_factory=dict)
     unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     at_bounds: Mapping[str, float] = field(default_factory=dict)
     passed_bounds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
@@ -160,8 +171,21 @@ class Fit(Summarised, Drawn, EqualByValue):
 
     @property
     def note(self) -> str:
-        """Which measured cycles are unstable, with their growth rates; "" where none is. The fit may be
-        consistent all the same: the values are right if the motion was still on these cycles."""
+        """Which combinations of indistinct parameters the measurements determine, and which measured cycles
+        are unstable, with their growth rates; "" where there are none. The fit may be consistent although
+        cycles are unstable: the values are right if the motion was still on these."""
+        return "; ".join(filter(None, [*self._combination_texts(), self._instability]))
+
+    def _combination_texts(self) -> Iterator[str]:
+        """Yield in words each combination that the measurements determine."""
+        for formula, known in self.determined.items():
+            value = number_text(known.value, "")
+            text = f"the measurements determine {formula} = {value} ± {known.deviation:.2g}"
+            yield text if known.unit in ("", "1") else f"{text} {known.unit}"
+
+    @property
+    def _instability(self) -> str:
+        """Which measured cycles are unstable, in words."""
         if not self.unstable:
             return ""
         cycles = [f"{name} ({rate:.2g}/s)" for name, rate in self.unstable.items()]
@@ -296,7 +320,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         yield "intervals", f"none: {doubt}" if doubt else intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
         yield "consistent", f"no: {doubt}" if doubt else "yes"
-        if self.unstable:
+        if self.note:
             yield "note", self.note
         yield "search", self.message
 

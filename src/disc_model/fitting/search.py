@@ -7,7 +7,7 @@ where the other measurements lead, if all exist there.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -15,9 +15,10 @@ import numpy as np
 from disc_model.arrays import Array
 from disc_model.errors import ParameterError
 from disc_model.fitting.arguments import Interval
+from disc_model.fitting.combinations import combinations_of
 from disc_model.fitting.determination import indistinct_names, sensitivity_of
 from disc_model.fitting.problem import Problem
-from disc_model.fitting.result import Gap
+from disc_model.fitting.result import Combined, Gap
 
 TOLERANCE = 1e-10
 """Relative change of parameters, cost and gradient at which the search ends."""
@@ -110,8 +111,17 @@ class Search:
 
     def covariance(self, end: Any) -> Array:
         """Return the covariance of the parameters at an end, (n, n)."""
-        inverse = sensitivity_of(end.jac).inverse
-        return np.asarray(inverse @ inverse.T * np.outer(self.problem.scale, self.problem.scale))
+        spread = self._spread(end)
+        return np.asarray(spread @ spread.T)
+
+    def combinations(self, end: Any, names: Sequence[str]) -> dict[str, Combined]:
+        """Return what is known at an end of parameters that are not told apart, by its formula."""
+        values = end.x * self.problem.scale
+        return combinations_of(self.problem.names, names, values, self._spread(end))
+
+    def _spread(self, end: Any) -> Array:
+        """Return what has with its transpose the covariance of the parameters as its product, (n, n)."""
+        return np.asarray(sensitivity_of(end.jac).inverse * self.problem.scale[:, None])
 
     def gap_at(self, end: Any) -> Gap | None:
         """Return the gap in front of which a search has ended, None at a minimum."""

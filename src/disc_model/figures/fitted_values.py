@@ -1,0 +1,90 @@
+"""Fitted values with their uncertainties, and doubts, in words of figures."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+from disc_model.data.variables import presentation_of, typeset
+from disc_model.figures.words import POWERS, unit_text
+
+if TYPE_CHECKING:
+    from disc_model.fitting.result import Fit
+
+DIGITS = 2
+"""Significant digits of standard deviations."""
+WITHOUT_DEVIATION = 4
+"""Significant digits of values without one."""
+
+SIGNS = {"+": "+", "-": "−", "*": "·", "/": "/"}
+"""What figures have for the signs of a formula."""
+UNBROKEN = "\u00a0"
+"""A blank at which no line ends."""
+
+
+def fitted_text(fit: Fit) -> str:
+    """The fitted values, with standard deviations unless these mean nothing, and then why not."""
+    values = [_fitted(fit, name) for name in fit.parameters]
+    known = [_combined(formula, each) for formula, each in fit.determined.items()]
+    return ", ".join([*values, *known, *_doubts(fit)])
+
+
+def _fitted(fit: Fit, name: str) -> str:
+    """A fitted value by its symbol, in the unit of figures; an upper or lower limit if it has one."""
+    fitted = fit.parameters[name]
+    shown = presentation_of(name)
+    limit = fit.limits.get(name, math.nan)
+    if not math.isnan(limit):
+        side = "<" if limit > fitted.value else ">"
+        value = _with_deviation(limit * shown.factor, math.nan, shown.unit)
+        share = f"{100 * fit.confidence:.3g} %"
+        return f"{_symbol(name)} {side} {value} at {share} confidence"
+    deviation = math.nan if fit.doubt else fitted.deviation
+    value = _with_deviation(fitted.value * shown.factor, deviation * shown.factor, shown.unit)
+    held = " at its bound" if name in fit.at_bounds else ""
+    return f"{_symbol(name)} = {value}{held}"
+
+
+def _symbol(name: str) -> str:
+    """The symbol of a parameter; its name if it has none."""
+    shown = presentation_of(name)
+    return typeset(shown.symbol or shown.name)
+
+
+def _with_deviation(value: float, deviation: float, unit: str) -> str:
+    """A value to the digits of its standard deviation, with this and the unit."""
+    if not deviation > 0:
+        return f"{value:.{WITHOUT_DEVIATION}g} {unit}".rstrip()
+    digits = DIGITS
+    if value:
+        digits += math.floor(math.log10(abs(value))) - math.floor(math.log10(deviation))
+    return f"{value:.{max(digits, DIGITS)}g} ±{UNBROKEN}{deviation:.{DIGITS}g} {unit}".rstrip()
+
+
+def _combined(formula: str, known: Any) -> str:
+    """A combination that the measurements determine, by symbols."""
+    words = []
+    for word in formula.split(" "):
+        name, _, power = word.partition("^")
+        raised = POWERS.get(power, f"^{power}")
+        words.append(SIGNS.get(word) or f"{_symbol(name)}{raised}")
+    value = _with_deviation(known.value, known.deviation, unit_text(known.unit))
+    return f"{UNBROKEN.join(words)} = {value}"
+
+
+def _doubts(fit: Fit) -> Iterator[str]:
+    """Yield in few words the reasons why values mean nothing that are not said beside these."""
+    if fit.gap:
+        yield "the search stopped in front of a gap"
+        return
+    if not fit.converged:
+        yield "the search has not converged"
+    if fit.converged and fit.misses:
+        yield "model or uncertainties may be wrong"
+    if fit.indistinct:
+        symbols = [_symbol(name) for name in fit.indistinct]
+        apart = " apart" if len(symbols) > 1 else ""
+        yield f"{' and '.join(symbols)} not determined{apart}"
+    for name in fit.unpredicted:
+        yield f"no such motion at an end of the interval of {_symbol(name)}"

@@ -1,0 +1,127 @@
+"""Words for the options with which sweeps were computed, and for what they look for, where these tell
+lines apart."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import xarray as xr
+
+from disc_model.data.variables import stated_in
+from disc_model.parameters import Parameters
+from disc_model.units import is_number
+
+
+class Phrase(NamedTuple):
+    """What legends say of an option: words with braces for its value, and the unit of that."""
+
+    words: str
+    unit: str = ""
+
+
+PHRASES = {
+    "stays": Phrase("stays of {}", "s"),
+    "after_separation": Phrase("{} after separation", "s"),
+    "attractor_tol": Phrase("attractors within {}"),
+    "confidence": Phrase("confidence {}"),
+    "count": Phrase("{} exponents"),
+    "duration": Phrase("over {}", "s"),
+    "evaluation_time": Phrase("last {} of stays", "s"),
+    "horizon": Phrase("horizon {}", "s"),
+    "interval": Phrase("intervals of {}", "s"),
+    "max_crossings": Phrase("up to {} crossings"),
+    "n_bisection_directions": Phrase("{} bisected directions"),
+    "n_starts": Phrase("{} starts"),
+    "points": Phrase("{} points"),
+    "precision": Phrase("precision {}"),
+    "quantity": Phrase("by {}"),
+    "releases": Phrase("{} releases"),
+    "seed": Phrase("seed {}"),
+    "step": Phrase("steps of {}"),
+    "stop_at": Phrase("up to {}"),
+    "t_end": Phrase("within {}", "s"),
+    "tol": Phrase("tolerance {}"),
+}
+"""What legends say of options,"""
+OF_FUNCTIONS = {
+    "critical_speed": {
+        "precision": Phrase("precision {}", "rad/s"),
+        "step": Phrase("steps of {}", "rad/s"),
+    },
+    "hysteresis": {"step": Phrase("steps of {}", "rad/s")},
+    "outcome": {"evaluation_time": Phrase("last {} of the motion", "s")},
+}
+"""and of those that have another unit or meaning in some functions."""
+COMPARED = ("stays", "horizon", "duration", "t_end")
+"""Options that are said beside those of another function, which has settings of its own."""
+KINDS = {
+    "stick_slip": "stick-slip cycle",
+    "slipping": "cycle that never sticks",
+    "sliding": "steady sliding",
+}
+"""What options call kinds of motions."""
+SEPARATION = "separation"
+
+
+def function_of(study: xr.Dataset) -> str:
+    """The name of the function, or of the quantity of a grid study, that computed a study; "" if it is
+    not stated."""
+    return str(study.attrs.get("function", study.attrs.get("quantity", "")))
+
+
+def sought_in(study: xr.Dataset) -> str:
+    """What critical values are those of, in words: separation, or an instability; "" of all else."""
+    function = function_of(study)
+    if function == "critical_speed":
+        return SEPARATION
+    if function == "critical":
+        kind = stated_in(study, "options").get("kind", "stick_slip")
+        return f"instability of the {KINDS[kind]}".replace("the steady", "steady")
+    return ""
+
+
+def options_of(study: xr.Dataset) -> dict[str, str]:
+    """Words for the options with which a study was computed, by their names, such as the length of
+    stays: those that are numbers or words."""
+    options = stated_in(study, "options")
+    function = function_of(study)
+    if {"dwell", "max_dwell"} <= {*options}:
+        stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
+        options["stays"] = f"{' to '.join(stays)} s"
+    if function == "critical":
+        searched = options.pop("name", "")
+        options.pop("kind", None)  # which is said of what is sought
+        options = _in_unit_of(options, searched)
+    phrases = {**PHRASES, **OF_FUNCTIONS.get(function, {})}
+    said = {}
+    for name, value in options.items():
+        if isinstance(value, str) or is_number(value):
+            said[name] = _said(name, value, phrases.get(name))
+    return said
+
+
+def option_text(name: str, value: Any) -> str:
+    """What is said of the value of an option; "" of one that has no words."""
+    phrase = PHRASES.get(name)
+    return _said(name, value, phrase) if phrase else ""
+
+
+def _in_unit_of(options: dict[str, Any], searched: str) -> dict[str, Any]:
+    """The options of a search, with the precision in the unit of the parameter that is searched."""
+    precision = options.get("precision")
+    if not is_number(precision):
+        return options
+    unit = Parameters.unit(searched)
+    return {**options, "precision": f"{precision:g} {unit}".rstrip()}
+
+
+def _said(name: str, value: Any, phrase: Phrase | None) -> str:
+    """What is said of the value of an option, by a phrase if there is one."""
+    if name == "kind":
+        return KINDS.get(value, value)
+    if phrase is None:
+        phrase = Phrase(f"{name.replace('_', ' ')} = {{}}")
+    shown = value
+    if not isinstance(value, str):
+        shown = f"{value:g} {phrase.unit}".rstrip()
+    return phrase.words.format(shown)
