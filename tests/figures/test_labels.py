@@ -8,6 +8,7 @@ from matplotlib.text import Text
 import disc_model as dm
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
 from disc_model.figures.peak_names import name_lines
+from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import head_text, what_case
 from tests.figures.reading import assert_numbers_are_apart
 
@@ -219,3 +220,18 @@ def test_symbols_are_upright_in_new_figures_and_keep_their_words() -> None:
         rf"$\mathrm{{k_p}}$ = {value} kN/m" for value in (8, 9)
     ]
     pyplot.close("all")
+
+
+def test_titles_say_choices_of_the_model_before_the_size_of_the_disc() -> None:
+    """At 84 mm, friction on the surface and its coefficients were counted behind “and 6 more”."""
+    steel = {"E": 2.1e11, "rho": 7850.0, "nu": 0.3, "h": 0.02, "a": 0.05, "b": 0.15, "r_0": 0.12}
+    options = {"friction_offset": "surface", "mu_s": 0.45, "mu_k": 0.35, "c_p": 5.0}
+    said = what_case({**steel, "k": 1e6, **options, "N": 8000.0, "Omega": 50.0})
+    first = (
+        "N = 8000 N, Ω = 50 rad/s, μ_s = 0.45, μ_k = 0.35, friction on the surface, c_p = 5 N s/m, "
+    )
+    assert said.startswith(f"{first}k = 1000 kN/m, E = 210 GPa, ")
+    lines = head_text(COLUMN, "", said, 3).splitlines()
+    assert len(lines) == 3
+    assert "friction on the surface" in " ".join(lines)
+    assert lines[-1].endswith("more")

@@ -33,7 +33,7 @@ from tests.blocks import RIG
 from tests.figures.described import drawn
 from tests.figures.every_kind import flag
 from tests.figures.measured import Shown, assert_shows, drawn_values
-from tests.figures.reading import labels, lines
+from tests.figures.reading import as_map, labels, lines
 from tests.refusals import refusal
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -720,7 +720,7 @@ def test_a_map_has_the_colours_of_its_numbers_in_the_unit_of_its_bar() -> None:
         [[1e-3, 4e-3], [2e-3, 3e-3]], dims=("N", "Omega"), name="u_max", attrs={"units": "m"}
     )
     study = heights.to_dataset().assign_coords(N=[100.0, 200.0], Omega=[10.0, 20.0])
-    ax = dm.plot_sweep(study, "u_max")
+    ax = as_map(study, "u_max")
     [mesh] = [shape for shape in ax.collections if shape.get_array() is not None]
     bar = ax.figure.axes[1]
     if bar.get_ylabel().endswith("(mm)"):

@@ -2,7 +2,7 @@
 draws."""
 
 import re
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from contextvars import ContextVar
 from textwrap import fill
 from typing import Any, NamedTuple
@@ -63,6 +63,14 @@ IN_WORDS = {
     "friction_offset =": "friction above the middle plane by",
 }
 """What heads of figures say for parameters without a symbol."""
+OF_FRICTION = ("mu_s", "mu_k", "mu_k_over_mu_s", "friction_decay", "viscous_friction")
+"""Parameters of the law of friction,"""
+OF_DAMPING = ("D_star", "damping_ratio", "c", "c_p", "c_p_over_c")
+OF_CONTACT = ("friction_offset", "contact_arc", "contact_compliance")
+OF_MODEL = (*OF_DAMPING, *OF_CONTACT, "n_diameters", "n_circles", "disc")
+"""other choices of the model,"""
+OF_DISC = ("E", "nu", "rho", "a", "b", "h", "r_0", "a_over_b", "h_over_b", "r_0_over_b")
+"""and the material and the size of the disc."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
@@ -482,17 +490,29 @@ def rank_of(value: Any) -> Any:
 
 
 def what_case(values: Mapping[str, Any]) -> str:
-    """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1. Choices of the
+    model come first, and the size and the material of a disc last, as a title may have no room for
+    all."""
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
+    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION)), *words]
+    said.append(_numbers_text(numbers, OF_MODEL))
+    others = {*numbers} - {"N", "Omega", *OF_FRICTION, *OF_MODEL, *OF_DISC}
+    said += [_numbers_text(numbers, others), _numbers_text(numbers, OF_DISC)]
+    return ", ".join(filter(None, said))
+
+
+def _numbers_text(values: Mapping[str, Any], chosen: Collection[str]) -> str:
+    """The chosen ones among values of parameters, for titles."""
+    numbers = {name: value for name, value in values.items() if name in chosen}
     said = variables.values_text(numbers, UNITS.get())
     for name, phrase in IN_WORDS.items():
         said = said.replace(name, phrase)
-    return ", ".join(filter(None, [said, *words]))
+    return said
 
 
 def head_text(width: float, title: str, values: str, most: int | None = None) -> str:
