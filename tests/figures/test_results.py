@@ -354,6 +354,15 @@ def test_shares_by_speed_tell_lost_contact_apart() -> None:
     assert [bar.get_height() for bar in dm.plot_sweep(study).patches] == [1.0, 0.0, 0.0, 1.0]
 
 
+def test_undecided_starts_that_have_lost_contact_are_counted() -> None:
+    """It could not be told whether an undecided motion had separated."""
+    found = dm.basins(P.replace(Omega=14), [0.1, 1000.0], 2, horizon=0.5)
+    assert found["kind"].values.tolist() == [["undecided"] * 2] * 2
+    assert found["lost_contact"].values.tolist() == [["no"] * 2, ["yes"] * 2]
+    said = "4 of 4 starts (2 after contact was lost) undecided within the horizon: raise it"
+    assert found.attrs["message"] == said
+
+
 def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     shapes = [[0.0, 1.0], [0.0, 4.0]]
     disc = dm.Disc(

@@ -292,7 +292,8 @@ def basins(  # noqa: PLR0913
     -------
     xarray.Dataset
         `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors.
-        The attribute `message` says how many starts are undecided within the horizon
+        Of each start `kind` says what it comes to, and `lost_contact` whether contact was lost on the way, also where
+        the outcome is undecided; the attribute `message` counts the starts that are undecided within the horizon
 
     Raises
     ------
@@ -319,11 +320,22 @@ def basins(  # noqa: PLR0913
         "tol": tol,
     }
     found = _quantity("basins", case, options, start, progress=progress)
-    undecided = int((found["kind"] == "undecided").sum())
-    if undecided and not found.attrs["message"]:
-        of_all = f"{undecided} of {counted(found['kind'].size, 'start')}"
-        found.attrs["message"] = f"{of_all} undecided within the horizon: raise it"
+    if not found.attrs["message"]:
+        found.attrs["message"] = _undecided_starts(found)
     return found
+
+
+def _undecided_starts(found: xr.Dataset) -> str:
+    """How many starts are undecided, and how many of these have lost contact; "" without one."""
+    undecided = found["kind"] == "undecided"
+    count = int(undecided.sum())
+    if not count:
+        return ""
+    lost = int((undecided & (found["lost_contact"] == "yes")).sum())
+    starts = f"{count} of {counted(undecided.size, 'start')}"
+    if lost:
+        starts = f"{starts} ({lost} after contact was lost)"
+    return f"{starts} undecided within the horizon: raise it"
 
 
 @renamed(scan="bounds")
