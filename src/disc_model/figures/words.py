@@ -90,6 +90,7 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
 )  # names that are words, and no symbols such as f_ss
+STAYS = "stays"  # key of words for the time at each value of a sweep
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -482,7 +483,8 @@ def rank_of(value: Any) -> Any:
 
 
 def what_case(values: Mapping[str, Any]) -> str:
-    """Values of parameters for titles: N, Omega, and those that differ from Table 1."""
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
+    sweep, in words."""
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
@@ -492,7 +494,7 @@ def what_case(values: Mapping[str, Any]) -> str:
     said = variables.values_text(numbers, UNITS.get())
     for name, phrase in IN_WORDS.items():
         said = said.replace(name, phrase)
-    return ", ".join(filter(None, [said, *words]))
+    return ", ".join(filter(None, [said, *words, values.get(STAYS, "")]))
 
 
 def head_text(width: float, title: str, values: str, most: int | None = None) -> str:
