@@ -289,6 +289,18 @@ def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
     pyplot.close("all")
 
 
+def test_the_title_says_how_long_a_sweep_stays_at_each_value() -> None:
+    """It was said only where sweeps differ in it."""
+    attrs = {"options": '{"dwell": 20.0, "max_dwell": 160.0}', "base": '{"N": 300.0}'}
+    sweep = directions([0.0, 0.1, 1.0], [0.5, 0.7, 0.9]).assign_attrs(attrs)
+    sweep = sweep.isel(direction=0, drop=True)
+    ax = dm.plot_sweep(sweep, "range")
+    assert ax.figure.get_suptitle() == "N = 300 N, stays of 20 to 160 s"
+    dm.plot_sweep(sweep.assign_attrs(base='{"N": 320.0}'), "range", ax=ax)
+    assert ax.figure.get_suptitle() == "stays of 20 to 160 s"
+    pyplot.close("all")
+
+
 def test_errors_of_exponents_are_in_the_legend() -> None:
     """Their bars had no word."""
     _, ax = pyplot.subplots(figsize=(COLUMN, 3))

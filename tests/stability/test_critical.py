@@ -36,6 +36,13 @@ def test_a_narrow_tongue_between_two_values_is_seen() -> None:
     assert found.resolution == np.diff(found.values).max() <= 28
 
 
+@pytest.fixture
+def short_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The search from the static start does not follow motions that come slowly to a cycle."""
+    monkeypatch.setattr("disc_model.stability.cycle.NEAR_REPEAT", 0.0)
+
+
+@pytest.mark.usefixtures("short_search")
 @pytest.mark.compiled
 def test_a_stable_cycle_is_followed_to_its_fold() -> None:
     """From 26,848.9 N/m on Newton's method from the static start finds no cycle, and then the
@@ -54,6 +61,7 @@ def test_a_stable_cycle_is_followed_to_its_fold() -> None:
         assert floquet(there, guess=simulate(there, 120).final_state).stable
 
 
+@pytest.mark.usefixtures("short_search")
 @pytest.mark.compiled
 @pytest.mark.parametrize("speed", [20.15, 22.715, 28.09])
 def test_stretches_in_which_the_search_finds_nothing_are_no_tongues(speed: float) -> None:
@@ -247,6 +255,7 @@ def test_a_sweep_keeps_what_is_said_of_a_critical_value() -> None:
     assert found["at_lower_bound"].values.tolist() == [True, False]
 
 
+@pytest.mark.usefixtures("short_search")
 @pytest.mark.compiled
 def test_a_cycle_that_ends_between_two_values_is_looked_for() -> None:
     """At 207.0 to 207.5 N and 212.5 to 213.5 N the search finds none; the scan stepped over both. The

@@ -319,3 +319,26 @@ def test_times_of_stick_and_slip_are_those_that_are_fitted() -> None:
     swept = sweep(floquet, case, N=[385])
     assert swept["slip_time"].item() == cycle.slip_time
     assert swept["slip_time"].attrs["units"] == "s"
+
+
+SLOW = Parameters(
+    N=549, Omega=10.42, mu_s=0.379, mu_k=0.224, k_p=30590, k=40980, m=0.09, c_p=2, n_diameters=2
+)
+"""A case whose motion from the static start comes slowly to its cycle."""
+
+
+def test_a_motion_that_comes_slowly_to_its_cycle_is_followed_for_longer() -> None:
+    """No cycle was found 60 releases after the static start, and it was said that there is none."""
+    cycle = floquet(SLOW)
+    later = floquet(SLOW, guess=simulate(SLOW, 20).final_state)
+    assert cycle.stable
+    assert cycle.period == pytest.approx(later.period, rel=1e-9)
+
+
+def test_the_message_says_how_far_a_motion_was_followed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("disc_model.stability.cycle.newton", lambda *_, **__: None)
+    found = floquet(SLOW)
+    assert "near the static start or 300 releases later" in found.message
+    assert "as guess" in found.message
+    monkeypatch.setattr("disc_model.stability.cycle.NEAR_REPEAT", 0.0)
+    assert "or 60 releases later" in floquet(SLOW).message

@@ -14,7 +14,7 @@ from disc_model.data.variables import WITHOUT_EFFECT, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
-from disc_model.figures.sweep_options import option_text
+from disc_model.figures.sweep_options import option_text, stays_in
 from disc_model.figures.words import known_name, symbol_of, value_text, what_case
 from disc_model.parameters import Disc
 
@@ -346,7 +346,7 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
 def title_of(study: xr.Dataset, drawn: Drawn) -> str:
     """What does not vary in a study, and of paired samples, what varies beside the column over which
     they are drawn, and how many have no number there."""
-    said = [what_case(values_of(study))]
+    said = [what_case({**values_of(study), **stays_in(study)})]
     if drawn.sampled:
         said.append(_varies(_numbers_along(study, str(drawn.second))))
     else:

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from disc_model.data.variables import stated_in
+from disc_model.figures.words import STAYS
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
@@ -20,7 +21,7 @@ class Phrase(NamedTuple):
 
 
 PHRASES = {
-    "stays": Phrase("stays of {}", "s"),
+    STAYS: Phrase("stays of {}", "s"),
     "after_separation": Phrase("{} after separation", "s"),
     "attractor_tol": Phrase("attractors within {}"),
     "confidence": Phrase("confidence {}"),
@@ -52,7 +53,7 @@ OF_FUNCTIONS = {
     "outcome": {"evaluation_time": Phrase("last {} of the motion", "s")},
 }
 """and of those that have another unit or meaning in some functions."""
-COMPARED = ("stays", "horizon", "duration", "t_end")
+COMPARED = (STAYS, "horizon", "duration", "t_end")
 """Options that are said beside those of another function, which has settings of its own."""
 KINDS = {
     "stick_slip": "stick-slip cycle",
@@ -87,7 +88,7 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
     function = function_of(study)
     if {"dwell", "max_dwell"} <= {*options}:
         stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
-        options["stays"] = f"{' to '.join(stays)} s"
+        options[STAYS] = f"{' to '.join(stays)} s"
     if function == "critical":
         searched = options.pop("name", "")
         options.pop("kind", None)  # which is said of what is sought
@@ -98,6 +99,11 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
         if isinstance(value, str) or is_number(value):
             said[name] = _said(name, value, phrases.get(name))
     return said
+
+
+def stays_in(study: xr.Dataset) -> dict[str, str]:
+    """Words for the stays at each value of a sweep up and down; nothing if a study has none."""
+    return {name: text for name, text in options_of(study).items() if name == STAYS}
 
 
 def option_text(name: str, value: Any) -> str:

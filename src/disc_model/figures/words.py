@@ -98,6 +98,7 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
 )  # names that are words, and no symbols such as f_ss
+STAYS = "stays"  # key of words for the time at each value of a sweep
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -490,9 +491,9 @@ def rank_of(value: Any) -> Any:
 
 
 def what_case(values: Mapping[str, Any]) -> str:
-    """Values of parameters for titles: N, Omega, and those that differ from Table 1. Choices of the
-    model come first, and the size and the material of a disc last, as a title may have no room for
-    all."""
+    """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
+    sweep, in words. Choices of the model come first, and the size and the material of a disc last,
+    as a title may have no room for all."""
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
@@ -502,7 +503,7 @@ def what_case(values: Mapping[str, Any]) -> str:
     said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION)), *words]
     said.append(_numbers_text(numbers, OF_MODEL))
     others = {*numbers} - {"N", "Omega", *OF_FRICTION, *OF_MODEL, *OF_DISC}
-    said += [_numbers_text(numbers, others), _numbers_text(numbers, OF_DISC)]
+    said += [_numbers_text(numbers, others), values.get(STAYS, ""), _numbers_text(numbers, OF_DISC)]
     return ", ".join(filter(None, said))
 
 

@@ -60,11 +60,13 @@ class Arrival(NamedTuple):
     settling : the answer, with rates
     calm : rest or steady sliding that is reached; None if neither is proven
     near : stable cycle that the motion follows by its multipliers; None if that is not proven
+    stay : s, for which the motion was followed at a value of a sweep
     """
 
     settling: Settling
     calm: Outcome | None = None
     near: NearCycle | None = None
+    stay: float = math.nan
 
     @property
     def settled(self) -> bool:
@@ -186,7 +188,7 @@ def sweep(
         if reached.near is not None:
             state = reached.near.cycle.state
         result, segment = final_segment(case, state, late, late, tol)
-        yield step, result, segment, reached
+        yield step, result, segment, reached._replace(stay=stay)
         state = result.final_state
 
 

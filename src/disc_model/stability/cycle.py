@@ -35,6 +35,10 @@ REPEATS = (
 )
 SAME_POINT = 1e-7  # distance of two computations of one point, over its norm
 TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
+LONG_TRANSIENT = 300  # as many where none was found, but the motion nearly repeats
+NEAR_REPEAT = (
+    0.03  # distance after a return, over the static deflection, of a motion that nearly repeats
+)
 
 
 class CycleError(DiscModelError):
@@ -265,12 +269,34 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         if not orbit.returned:
             return _without_return(map_, orbit.outcome, orbit.period)
         x = orbit.end
+    solution = _repeating(map_, x)
+    followed = TRANSIENT
+    if solution is None and _nearly_repeats(map_, x):
+        later = map_.evaluate(x, releases=LONG_TRANSIENT - TRANSIENT, tangent=False)
+        if later.returned:
+            solution = _repeating(map_, later.end)
+            followed = LONG_TRANSIENT
+    if solution is not None:
+        return cycle_of(map_, run_through_once(map_, solution))
+    sought = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start"
+    remedy = "stick-slip goes on: give the last state of a longer simulation as guess"
+    tried = f"{sought} or {followed} releases later, where {remedy}"
+    return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
+
+
+def _repeating(map_: ReturnMap, x: Array) -> Orbit | None:
+    """The cycle that Newton's method finds from a point of a motion; None if it finds none."""
     for releases in RETURNS_TRIED:
         solution = newton(map_, x, releases=releases)
         if solution is not None:
-            return cycle_of(map_, run_through_once(map_, solution))
-    tried = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start, where stick-slip goes on"
-    return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
+            return solution
+    return None
+
+
+def _nearly_repeats(map_: ReturnMap, x: Array) -> bool:
+    """Whether the motion from a point comes nearly back to it at one of its next releases."""
+    points = map_.returns(x, RETURNS_TRIED[-1])
+    return any(np.linalg.norm(point - x) <= NEAR_REPEAT * map_.deflection for point in points)
 
 
 _LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")

@@ -368,8 +368,8 @@ def hysteresis(
         `onset_speed`, `offset_speed` (rad/s): the first speed with separation on the way up, and the lowest one to
         which it persists on the way down. They are nan where the bounds do not show them, such as where contact is
         still lost at the lower bound; the attribute `message` says why, and where a motion in contact had not
-        settled (`sweep_settled`): the onset may then be lower, with a longer `max_dwell`. `separation_rate` (1/s) and
-        others by direction and speed
+        settled (`sweep_settled`): the onset may then be lower, with a longer `max_dwell`. `separation_rate` (1/s),
+        `stay` (s), which is the length of the stay, and others by direction and speed
 
     Raises
     ------

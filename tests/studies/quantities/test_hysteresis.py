@@ -44,6 +44,7 @@ def test_a_stay_is_doubled_until_its_whole_record_has_settled(
         [60, 60, 120]
     ]
     assert found["sweep_settled"][0].tolist() == 2 * [3 * [0] + 4 * [2]]
+    assert found["stay"][0].tolist() == 2 * [3 * [240.0] + 4 * [60.0]]
 
 
 def test_onset_and_offset_are_speeds_at_which_it_separates(sweep: xr.Dataset) -> None:

@@ -54,6 +54,9 @@ class Hysteresis(Quantity):
         "status": STATUS,
         "sweep_status": STATUS._replace(dims=_DIMS),
         "sweep_settled": ANSWER._replace(dims=_DIMS),
+        "stay": Variable(
+            "s", "length of the stay at a speed, before its last stretch is described", dims=_DIMS
+        ),
         "separation_rate": Variable(
             "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
         ),
@@ -123,6 +126,7 @@ class Hysteresis(Quantity):
                 message = f"Omega={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
+            values["stay"][index] = reached.stay
             stretch = {**asdict(late), "range": late.range} if late else {}
             for name in values.keys() & stretch.keys():
                 values[name][index] = stretch[name]
