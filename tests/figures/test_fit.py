@@ -177,3 +177,13 @@ def test_a_legend_below_two_panels_is_below_the_labels_of_both() -> None:
     top = right.get_legend().get_window_extent().y1
     assert top <= left.xaxis.get_tightbbox().y0
     pyplot.close("all")
+
+
+def test_a_narrow_panel_has_no_title_of_many_lines() -> None:
+    """How good the fit is took six lines above a panel of a grid in a column."""
+    figure, axes = pyplot.subplots(2, 2, figsize=(COLUMN, COLUMN), layout="constrained")
+    _, right = plot_fit(made_up(), ax=axes[0])
+    assert right.get_title(loc="left") == ""
+    [legend] = [ax.get_legend() for ax in axes[0] if ax.get_legend()]
+    assert legend.get_title().get_text() == "chi squared 41.2, 1 degree of freedom"
+    pyplot.close(figure)

@@ -414,3 +414,21 @@ def test_arrows_below_values_keep_their_room_beside_further_lines() -> None:
     dm.plot_sweep(critical_values("critical_speed", "{}"), "critical_speed", ax=ax)
     assert ax.margins() == alone
     pyplot.close("all")
+
+
+def test_four_panels_on_a_square_page_keep_their_size() -> None:
+    """Labels in four lines beside low panels left these 9 mm of width and 6 mm of height."""
+    first = growth([0.01, 0.0, -0.1, np.nan, 0.6, 0.1])
+    second = growth([0.02, 0.01, -0.05, 0.0, 0.5, 0.2]).assign_attrs(base='{"N": 300}')
+    with pyplot.rc_context({"font.size": 8}):
+        figure, axes = pyplot.subplots(2, 2, figsize=(COLUMN, COLUMN), layout="constrained")
+        for ax in axes.ravel():
+            dm.plot_sweep(first, "growth_rate", ax=ax)
+            dm.plot_sweep(second, "growth_rate", ax=ax)
+        figure.draw_without_rendering()
+    sizes = np.array([[ax.bbox.width, ax.bbox.height] for ax in axes.ravel()])
+    least = 25.4 / figure.dpi * sizes.min(axis=0)  # mm
+    assert least[0] > 15
+    assert least[1] > 9
+    assert {rows.words.get_text() for rows in rows_above(axes[0, 0])} >= {"line open"}
+    pyplot.close("all")

@@ -51,6 +51,7 @@ OF_MODES = {
     r"^damping_ratio": "damping ratio",
 }
 """and those of single modes, by their nodal diameters and circles."""
+NARROW = 1.5  # inch, place of a panel in which a title would have three lines or more
 ROW = 0.18  # inch, height of a measurement
 
 
@@ -74,7 +75,12 @@ def plot_fit(
         if not page.own:
             page.note = said
         shown = [handle for ax in (left, right) for handle in ax.get_legend_handles_labels()[0]]
-        page.explain(shown)
+        said = _goodness(fit)
+        if legend is not False and _is_narrow(right):  # it would be a title of many lines
+            page.explain(shown, title=said)
+        else:
+            right.set_title(said, fontsize=large(8))
+            page.explain(shown)
     return np.array([left, right], dtype=object)
 
 
@@ -110,8 +116,18 @@ def _draw_deviations(ax: Axes, fit: Fit) -> None:
     span = max(LEAST_SPAN, 1.1 * float(np.abs(fit.deviations).max()))
     ax.set_xlabel(DEVIATION)
     ax.set_xlim(-span, span)
+
+
+def _goodness(fit: Fit) -> str:
+    """How good a fit is, in words."""
     freedom = counted(fit.freedom, "degree")
-    ax.set_title(f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom", fontsize=large(8))
+    return f"chi squared {fit.chi_squared:.3g}, {freedom} of freedom"
+
+
+def _is_narrow(ax: Axes) -> bool:
+    """Whether the place of a panel on its page is narrow."""
+    figure: Any = ax.get_figure(root=True)
+    return bool(ax.get_position(original=True).width * figure.get_figwidth() < NARROW)
 
 
 def _set_rows(left: Axes, right: Axes, fit: Fit) -> None:

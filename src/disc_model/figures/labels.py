@@ -21,7 +21,9 @@ MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
 NUMBERS_APART = 4.0  # points, least gap between these
 BEYOND = 1.15  # length of a label over that of its axis, at most,
 ROOM_BESIDE = 0.6  # or so many inches more beside panels that have none above or below,
-SHARE_BESIDE = 0.5  # or this share of the height of the page
+SHARE_BESIDE = 0.5  # or this share of the height of the page,
+SHARE_OF_ROW = 0.7  # and this share of that of a row, beside low panels
+MOST_ABOVE = 2  # lines of words above a panel that are not left out after a colon
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
 """What stays on one line: a unit, and a value with its name and unit."""
@@ -30,12 +32,17 @@ HARD = "\ue000"  # stands for a blank at which no line ends
 
 
 class Breakable(NamedTuple):
-    """A text that may be broken, and along which side of its axes it stands."""
+    """A text that may be broken, and along which side of its axes it stands.
+
+    beyond : its length over that side, at most
+    brief : whether what follows a colon may be left out
+    """
 
     text: Text
     ax: Axes
     direction: str
     beyond: float
+    brief: bool = False
 
 
 class Broken(NamedTuple):
@@ -73,8 +80,12 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
 
 def _set_in_lines(figure: Figure, label: Breakable, said: str) -> int:
     """Set a label to words, in as many lines as they need; returns how many there are beyond one."""
+    room = _room(figure, label)
     label.text.set_text(said)
-    _break(label.text, label.direction, _room(figure, label))
+    _break(label.text, label.direction, room)
+    if label.brief and label.text.get_text().count("\n") >= MOST_ABOVE:
+        label.text.set_text(said.partition(":")[0])
+        _break(label.text, label.direction, room)
     shown = label.text.get_text()
     _BROKEN[label.text] = Broken(said, shown)
     return shown.count("\n")
@@ -101,8 +112,12 @@ def _room(figure: Figure, label: Breakable) -> float:
         return room
     i = ("width", "height").index(label.direction)
     place = label.ax.get_subplotspec()
-    if i == 1 and place is not None and place.get_topmost_subplotspec().get_gridspec().nrows == 1:
-        room = max(room, box.height + ROOM_BESIDE * page.dpi, SHARE_BESIDE * page.bbox.height)
+    if i == 1 and place is not None:
+        rows = place.get_topmost_subplotspec().get_gridspec().nrows
+        share = SHARE_BESIDE if rows == 1 else SHARE_OF_ROW / rows
+        room = max(room, share * page.bbox.height)
+        if rows == 1:
+            room = max(room, box.height + ROOM_BESIDE * page.dpi)
     middle = 0.5 * (box.min[i] + box.max[i])
     return min(room, 2 * min(middle, page.bbox.max[i] - middle))
 
@@ -123,7 +138,7 @@ def _texts_of(ax: Axes) -> Iterator[Breakable]:
     for title in titles_of(ax):
         yield Breakable(title, ax, "width", 1.0)
     for rows in rows_above(ax):
-        yield Breakable(rows.words, ax, "width", 1.0)
+        yield Breakable(rows.words, ax, "width", 1.0, brief=True)
 
 
 def titles_of(ax: Axes) -> list[Text]:
