@@ -352,6 +352,24 @@ def test_units_are_those_of_the_figures() -> None:
     assert dims["Omega"]["si_unit"] == "", "a heading said Ω = 5 rad/s (5 rad/s)"
 
 
+@pytest.mark.parametrize(
+    ("quantity", "name", "unit"),
+    [
+        ("branches", "range", "mm"),
+        ("branches", "sweep_range", "mm"),
+        ("range_law", "pinned_range", "mm"),
+        ("basins", "attractor_period", "ms"),
+        ("locking", "separation_interval", "ms"),
+    ],
+)
+def test_ranges_and_periods_of_all_quantities_have_the_units_of_figures(
+    quantity: str, name: str, unit: str
+) -> None:
+    """The range of a sweep was in m beside that of a branch in mm."""
+    column = quantity_of(quantity).COLUMNS[name]
+    assert _named(name, column.attributes)["unit"] == unit
+
+
 def test_values_of_a_parameter_have_its_name_and_unit() -> None:
     """The axis of a study of branches was "Omega in the sweep, SI units"."""
     swept = {"long_name": "m in the sweep, SI units"}

@@ -92,6 +92,8 @@ def test_there_is_one_version() -> None:
     )
     assert cited
     assert cited[1] == disc_model.__version__
+    citing = (ROOT / "docs" / "citing.md").read_text(encoding="utf-8")
+    assert f"version = {{{disc_model.__version__}}}," in citing
     recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
     assert f'{{% set version = "{disc_model.__version__}" %}}' in recipe
     needs = {re.split(r"[<>=]", text)[0].lower() for text in PROJECT["project"]["dependencies"]}

@@ -175,8 +175,8 @@ WITHOUT = {
     "unless friction acts on a surface that moves": "friction acts on no surface that moves",
 }
 """What figures say for what long names say after "nan"."""
-IN_THOUSANDTHS = {"period": "ms", "range": "mm"}
-"""Units of numbers of cycles in all pictures."""
+IN_THOUSANDTHS = {"period": "ms", "interval": "ms", "range": "mm"}
+"""Units of numbers of cycles in all pictures, by the last word of their names, such as `sweep_range`."""
 RANGE_END = re.compile("_(min|max)$")
 """The end of the name of a bound of a sampled variable's range."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
@@ -236,7 +236,7 @@ def named(variable: xr.DataArray) -> Named:
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
     units = str(variable.attrs.get("units", "1"))
-    base = str(variable.name).removeprefix("attractor_")
+    base = str(variable.name).split("_")[-1]
     if IN_THOUSANDTHS.get(base) == f"m{units}":
         return Named(phrase, IN_THOUSANDTHS[base], 1e3)
     return Named(phrase, unit_text(units), 1.0)
