@@ -185,7 +185,7 @@ def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.Data
             found[reason] = points & ~doubtful
             found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
     if array.dtype.kind == "f":
-        found[INFINITE] = np.isposinf(array)
+        found[INFINITE] = array == np.inf
     return found
 
 
