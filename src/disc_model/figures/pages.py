@@ -29,6 +29,7 @@ Place = Literal["inside", "beside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
 MANY = 8  # entries of a legend of a new figure beyond which their text is smaller
+SAMPLE = 2.0  # length of their samples over this size: a whole period of dashes
 PLACED = "_disc_model_placed"
 """Attribute of a legend that was placed for its reader: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
@@ -279,7 +280,9 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if any(name in look for name in PLACING):
         page.ax.legend(handles=list(page.handles), **look)
     elif page.figure.get_gid() == OWN:
-        size = small() if len(page.handles) > MANY else {}
+        size = {}
+        if len(page.handles) > MANY:
+            size = {**small(), "handlelength": SAMPLE}
         legend = figure_legend(page.figure, page.handles, **{**size, **look})
         keep_share(page.figure, legend)
     else:
