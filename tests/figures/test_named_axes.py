@@ -167,7 +167,7 @@ def test_a_single_horizon_has_its_unit() -> None:
     ax = dm.plot_sweep(speeds(), "begin")
     within = speeds().assign_coords(horizon=((), 60.0, {"units": "s"}))
     dm.plot_sweep(within, "end", ax=ax)
-    assert legend_texts(ax)[1].endswith("horizon = 60 s")
+    assert legend_texts(ax)[1].endswith("horizon 60 s")
 
 
 def test_what_several_variables_say_alike_is_said_by_the_axis() -> None:

@@ -1282,3 +1282,84 @@ def test_samples_without_any_value_are_not_counted_as_curves() -> None:
     pairs = {"N": loads, "mu_k": np.linspace(0.2, 0.26, 10)}
     found = dm.sweep(dm.floquet, CASE, Omega=[10, 11], zip=pairs)
     assert labels(dm.plot_sweep(found, "growth_rate", x="Omega").figure)[0] == "9 of 10 samples"
+
+
+@pytest.mark.parametrize("name", ["a", "E", "Omega", "mu_k_over_mu_s"])
+def test_own_results_with_names_of_parameters_are_no_parameters(name: str) -> None:
+    """A number "a" was drawn as the inner radius, in mm."""
+    found = dm.sweep(lambda case: {name: 2 * case.N}, CASE, N=LOADS)
+    ax = dm.plot_sweep(found, name)
+    assert ax.get_ylabel() == name
+    assert ax.lines[0].get_ydata().tolist() == [600.0, 770.0]
+    pyplot.close("all")
+
+
+def test_kinds_of_cycles_are_named_by_words() -> None:
+    """They were "stick_slip" and "slipping"."""
+    rates = xr.DataArray(np.ones((2, 2)), dims=("kind", "N"), name="growth_rate")
+    study = rates.to_dataset().assign_coords(kind=["stick_slip", "slipping"], N=LOADS)
+    ax = dm.plot_sweep(study, "growth_rate")
+    assert labels(ax.figure) == ["stick-slip cycle", "cycle that never sticks"]
+    pyplot.close("all")
+
+
+def test_many_lines_leave_their_panel_room() -> None:
+    """Rows of points without a value, and the legend, left none, and the layout gave up."""
+    values = np.linspace(1.0, 2.0, 15)[:, None] * np.ones(16)
+    values[:, 8] = np.nan
+    rates = xr.DataArray(values, dims=("N", "Omega"), name="period", attrs={"units": "s"})
+    study = rates.to_dataset().assign_coords(N=np.linspace(100, 500, 15), Omega=np.arange(16.0))
+    ax = dm.plot_sweep(study, "period", x="Omega", lines="N")
+    ax.figure.draw_without_rendering()
+    assert ax.bbox.height > 0.8 * ax.figure.dpi
+    assert ax.figure.legends[0].get_window_extent().y1 < ax.bbox.y0
+    pyplot.close("all")
+
+
+def test_whole_numbers_along_the_axis_are_whole_below_lines() -> None:
+    """Gains of 1, 2 and 3 had 1.5 between them."""
+    gains = dm.sweep(lambda case, gain: case.N * gain, CASE, over={"gain": [1, 2, 3]}, N=LOADS)
+    ax = dm.plot_sweep(gains, "value", x="gain", lines="N")
+    low, high = ax.get_xlim()
+    shown = [number for number in ax.get_xticks() if low <= number <= high]
+    assert shown == [1.0, 2.0, 3.0]
+    pyplot.close("all")
+
+
+def test_numbers_beside_a_panel_are_no_sums() -> None:
+    """Above the axis stood +1, and beside it 0.0003."""
+    study = xr.Dataset({"size": ("N", [1.00025, 1.00065])}, {"N": LOADS})
+    _, ax = pyplot.subplots()
+    dm.plot_sweep(study, "size", ax=ax)
+    ax.figure.draw_without_rendering()
+    assert ax.yaxis.get_offset_text().get_text() == ""
+    pyplot.close("all")
+
+
+def test_long_words_beside_a_panel_have_several_lines() -> None:
+    """They left the panel 10 mm of 84."""
+    words = ["very quiet indeed, with a long name", "loud"]
+    study = xr.Dataset({"verdict": ("N", words)}, {"N": LOADS})
+    ax = dm.plot_sweep(study, "verdict")
+    ax.figure.draw_without_rendering()
+    assert ax.bbox.width > 0.4 * ax.figure.bbox.width
+    said = [text.get_text() for text in ax.get_yticklabels()]
+    assert "very quiet indeed,\nwith a long name" in said
+    pyplot.close("all")
+
+
+def test_infinite_values_are_marked_above_the_panel() -> None:
+    """They had no mark, and the axis ended before them."""
+    study = xr.Dataset({"size": ("N", [1.0, 2.0, np.inf])}, {"N": [*LOADS, 400.0]})
+    ax = dm.plot_sweep(study, "size")
+    [row] = rows_above(ax)
+    assert row.words.get_text() == "infinite"
+    assert row.rows[0].get_xdata().tolist() == [400.0]
+    pyplot.close("all")
+
+
+def test_tolerances_along_an_axis_are_named_in_full() -> None:
+    """The label was "Tol"."""
+    study = xr.Dataset({"size": ("tol", [1.0, 2.0])}, {"tol": [1e-10, 1e-8]})
+    assert dm.plot_sweep(study, "size").get_xlabel() == "Tolerance"
+    pyplot.close("all")

@@ -1,11 +1,12 @@
 """Curves: any variable against one dimension."""
 
 from collections.abc import Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.ticker import AutoLocator, NullLocator
+from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
 from disc_model.figures.branch_lines import THIN, Look
 from disc_model.figures.curve_marks import (
@@ -53,6 +54,7 @@ from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, 
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
+LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 LINE = 1.1  # height of a line of text over its size
 CROWDED = 30  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
@@ -212,6 +214,8 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
         _turn_words(ax, along)
         return
     ax.set_xscale(scale(values))
+    if values.dtype.kind == "i":
+        _number_whole(ax.xaxis)
     if ax.get_xscale() == "log":
         plain_decades(ax.xaxis)
 
@@ -299,11 +303,19 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
     counts; nothing where no point of any line has a value, as numbers would be made up."""
     axis: Any = ax.yaxis
     if names:
-        ax.set_yticks(range(len(names)), labels=names)
+        ax.set_yticks(range(len(names)), labels=[fill(name, LONGEST_NAME) for name in names])
     elif not shows:
         axis.set_major_locator(NoNumbers())
         axis.set_minor_locator(NullLocator())
-    elif whole and isinstance(axis.get_major_locator(), AutoLocator):
+    elif whole:
+        _number_whole(axis)
+    if isinstance(axis.get_major_formatter(), ScalarFormatter):
+        axis.get_major_formatter().set_useOffset(False)  # a sum beside the panel is overlooked
+
+
+def _number_whole(axis: Any) -> None:
+    """Write whole numbers only along an axis of counts."""
+    if isinstance(axis.get_major_locator(), AutoLocator):
         axis.get_major_locator().set_params(integer=True, min_n_ticks=1)
 
 

@@ -28,6 +28,8 @@ from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured, missin
 
 CONTACT_LOST = "contact lost at the lowest speed"
 """Said of points at which separation begins or ends below all speeds of a sweep."""
+INFINITE = "infinite"
+"""Said of points whose value is infinite."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 MARK = 3.0  # points, size of the marks of lines,
@@ -182,6 +184,8 @@ def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.Data
                 continue
             found[reason] = points & ~doubtful
             found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
+    if array.dtype.kind == "f":
+        found[INFINITE] = array == np.inf
     return found
 
 

@@ -1,7 +1,7 @@
 """Rows of marks above a panel, which stand for points of its lines without a value, and why these have
 none."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -20,6 +20,7 @@ APART = 5.0  # of a row, for marks of the usual size,
 GAP = 0.5  # between a row and words,
 BETWEEN = 2.0  # and more between these and the next row, which is nearer to its own
 STRIP = "#e6e6e6"  # behind rows, so that nobody takes their marks for values
+MOST = 0.15  # height of all rows above a panel, over that of the page: more of them are nearer
 TEXT = 7.0  # points, size of the words
 LINE = 1.25  # height of one of their lines, over this size
 TITLE = 6.0  # points, distance of a title from what stands above a panel
@@ -107,13 +108,14 @@ def stack_rows(ax: Axes) -> None:
     page: Any = ax.get_figure(root=True)
     height = mark(FIRST)
     found = rows_above(ax)
+    apart = _distance(ax, found)
     for each in found:
-        _set_strip(ax, each, height - 0.5 * mark(APART))
+        _set_strip(ax, each, height - 0.5 * mark(APART), (len(each.rows) - 1) * apart)
         for row in each.rows:
             up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
             row.set_transform(blended_transform_factory(ax.transData, up))
-            height += mark(APART)
-        height += GAP - 0.5 * mark(APART)
+            height += apart
+        height += GAP + 0.5 * mark(APART) - apart
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
         each.words.set_transform(up)
         said = each.words.get_text()
@@ -128,11 +130,19 @@ def stack_rows(ax: Axes) -> None:
         _lift_titles(each, highest)
 
 
-def _set_strip(ax: Axes, found: Rows, height: float) -> None:
-    """Lay the strip of rows behind their marks, from a height in points above the panel on."""
+def _distance(ax: Axes, found: Sequence[Rows]) -> float:
+    """The distance of rows above a panel in points, with which many of them leave it room."""
+    page: Any = ax.get_figure(root=True)
+    count = sum(len(each.rows) for each in found)
+    return min(mark(APART), MOST * 72 * page.get_figheight() / max(count, 1))
+
+
+def _set_strip(ax: Axes, found: Rows, height: float, span: float) -> None:
+    """Lay the strip of rows behind their marks, from a height in points above the panel on; the last row
+    is a span in points above the first."""
     page: Any = ax.get_figure(root=True)
     found.strip.set_y(height / 72)
-    found.strip.set_height(len(found.rows) * mark(APART) / 72)
+    found.strip.set_height((span + mark(APART)) / 72)
     axes: Any = ax.transAxes  # affine, which its type does not say
     up = page.dpi_scale_trans + ScaledTranslation(0, 1, axes)
     found.strip.set_transform(blended_transform_factory(ax.transAxes, up))

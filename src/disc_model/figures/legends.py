@@ -41,6 +41,7 @@ LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
 LEAST_HEIGHT = 0.6  # inch, that a panel keeps above its legend if a smaller one leaves it so much
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
+LEGEND_SHARE = 0.25  # of the height of a new figure, beyond which a legend makes it higher
 MOVES = 2  # of a legend below a panel after it has changed the size of the panel
 ANCHOR = "_disc_model_anchor"
 """Attribute of a legend below axes: where it hangs."""
@@ -148,6 +149,16 @@ def keep_height(figure: FigureBase, axes: Sequence[Axes], least: float = LEAST_M
     rows = {round(ax.bbox.y0) for ax in axes}
     if lowest < least:
         page.set_figheight(page.get_figheight() + len(rows) * (least - lowest))
+
+
+def keep_share(figure: FigureBase, legend: Legend) -> None:
+    """Make a figure so high that its legend takes no more than a share of it."""
+    if legend is None:
+        return
+    page: Any = figure
+    height = legend.get_window_extent().height / page.dpi
+    usual = page.get_figheight()
+    page.set_figheight(usual + max(height - LEGEND_SHARE * usual, 0.0))
 
 
 def small(share: float = SMALLER) -> dict[str, Any]:

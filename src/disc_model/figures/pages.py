@@ -15,9 +15,11 @@ from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.labels import is_square, without_font
 from disc_model.figures.legends import (
     figure_legend,
+    keep_share,
     legend_below,
     legend_beside,
     legend_inside,
+    small,
     twins_of,
 )
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
@@ -26,6 +28,8 @@ from disc_model.figures.types import Artist, Axes
 Place = Literal["inside", "beside", "below"]
 OWN = "disc_model"  # group id of figures that this package has made
 LEGEND_OPTIONS = [*signature(Legend).parameters][3:]  # after its axes, handles and labels
+MANY = 8  # entries of a legend of a new figure beyond which their text is smaller
+SAMPLE = 2.0  # length of their samples over this size: a whole period of dashes
 PLACED = "_disc_model_placed"
 """Attribute of a legend that was placed for its reader: its picture, and what was asked of it."""
 MOST_LINES = 3  # of values of a case above a picture
@@ -276,7 +280,11 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if any(name in look for name in PLACING):
         page.ax.legend(handles=list(page.handles), **look)
     elif page.figure.get_gid() == OWN:
-        figure_legend(page.figure, page.handles, **look)
+        size = {}
+        if len(page.handles) > MANY:
+            size = {**small(), "handlelength": SAMPLE}
+        legend = figure_legend(page.figure, page.handles, **{**size, **look})
+        keep_share(page.figure, legend)
     else:
         page.handles = _joined_with_twins(page)
         _place_legend(page, look)

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from disc_model.data.variables import stated_in
-from disc_model.figures.words import STAYS
+from disc_model.figures.words import KINDS, STAYS
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
@@ -55,12 +55,6 @@ OF_FUNCTIONS = {
 """and of those that have another unit or meaning in some functions."""
 COMPARED = (STAYS, "horizon", "duration", "t_end")
 """Options that are said beside those of another function, which has settings of its own."""
-KINDS = {
-    "stick_slip": "stick-slip cycle",
-    "slipping": "cycle that never sticks",
-    "sliding": "steady sliding",
-}
-"""What options call kinds of motions."""
 SEPARATION = "separation"
 
 

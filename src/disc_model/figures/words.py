@@ -40,6 +40,12 @@ WORDS = {
     "exponential": "exponential friction",
 }
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
+KINDS = {
+    "stick_slip": "stick-slip cycle",
+    "slipping": "cycle that never sticks",
+    "sliding": "steady sliding",
+}
+"""What options and a dimension of them call kinds of motions."""
 MODELS = {
     "normal": WORDS["normal"],
     "exponential": WORDS["exponential"],
@@ -83,6 +89,7 @@ SHORT = {
     "critical_speed": "critical speed",
     "horizon": "horizon",
     "mode": "mode",
+    "tol": "tolerance",
     "onset_speed": "speed at separation onset",
     "offset_speed": "speed at separation end",
 }
@@ -290,9 +297,11 @@ def known_name(variable: xr.DataArray) -> str:
 
 
 def _is_own(variable: xr.DataArray) -> bool:
-    """Whether a variable has the name of a sampled one, such as w, but is a reader's own, with
-    another unit or long name, or none."""
+    """Whether a variable has the name of a sampled one, such as w, or of a parameter, but is a reader's
+    own, with another unit or long name, or none."""
     name = str(variable.name)
+    if name in (*Parameters.model_fields, *RATIOS) and name not in variable.coords:
+        return variable.attrs.get("units") != attributes(name).get("units")
     sampled = SERIES.get(RANGE_END.sub("", name))
     if sampled is None:
         return False
@@ -435,7 +444,8 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
     """A value along a dimension with its unit, or its word."""
     value = data[by].item()
     if isinstance(value, str):
-        return WORDS.get(value, value)
+        words = KINDS if by == "kind" else WORDS
+        return words.get(value, value)
     if isinstance(value, float) and np.isnan(value):
         return "missing"
     if by in AT_ZERO and not value:

@@ -55,7 +55,7 @@ class Hysteresis(Quantity):
         "sweep_status": STATUS._replace(dims=_DIMS),
         "sweep_settled": ANSWER._replace(dims=_DIMS),
         "stay": Variable(
-            "s", "length of the stay at a speed, before its last stretch is described", dims=_DIMS
+            "s", "length of the stay at a speed; the stretch that is described follows", dims=_DIMS
         ),
         "separation_rate": Variable(
             "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
