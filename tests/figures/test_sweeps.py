@@ -160,7 +160,10 @@ def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
     ax = dm.plot_sweep(swept(function).sel(N=385))
     assert " ".join(ax.get_ylabel().split()) == UNASKED[function]
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
-    assert ax.figure.get_suptitle() == "N = 385 N, nodal diameters up to 2", "what does not vary"
+    title = "N = 385 N, nodal diameters up to 2"
+    if function is dm.hysteresis:
+        title += ", stays of 2 s"
+    assert ax.figure.get_suptitle() == title, "what does not vary"
     pyplot.close("all")
 
 
@@ -1360,6 +1363,6 @@ def test_infinite_values_are_marked_above_the_panel() -> None:
 
 def test_tolerances_along_an_axis_are_named_in_full() -> None:
     """The label was "Tol"."""
-    study = xr.Dataset({"size": ("tol", [1.0, 2.0])}, {"tol": [1e-10, 1e-8]})
-    assert dm.plot_sweep(study, "size").get_xlabel() == "Tolerance"
+    study = dm.sweep(dm.simulate, CASE, t_end=0.1, over={"tol": [1e-10, 1e-8]})
+    assert dm.plot_sweep(study, "n_events").get_xlabel() == "Tolerance of the simulation (s)"
     pyplot.close("all")

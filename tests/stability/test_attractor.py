@@ -586,7 +586,8 @@ def test_the_static_deflection_of_basins_is_that_of_the_start(
 # ------------------------------------------------------------------------ Segments
 def test_a_segment_has_heights_from_static_equilibrium_and_shares_of_its_time() -> None:
     samples = {"late": {"P": np.array([3.0, 0.0, 9.0]), "u": np.array([-0.03, -0.01, -0.02])}}
-    statistics = {"time_stick": 1.0, "time_slip": 2.5, "time_separation": 0.5, "separations": 12}
+    statistics = {"time_stick": 1.0, "time_slip": 2.5, "time_separation": 0.5}
+    statistics["n_separations"] = 12
     result: Any = SimpleNamespace(samples=samples, u_0=-0.015, statistics=statistics)
     found = segment_of(result)
     assert (found.P_min, found.P_max) == (0.0, 9.0)

@@ -13,7 +13,6 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from disc_model.data.coded import words
 from disc_model.data.dataset import read_tree, save
 from disc_model.data.files import (
     SUFFIXES,
@@ -24,7 +23,7 @@ from disc_model.data.files import (
     unreadable,
     write_atomically,
 )
-from disc_model.data.variables import COORDINATES, OF_STATES, SERIES
+from disc_model.data.variables import COORDINATES, OF_STATES, SERIES, flag_names
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 
 # columns of numbers, shape (n,), by the names of tables and their own
@@ -171,8 +170,11 @@ def save_csv(tables: Mapping[str, xr.Dataset], path: str | Path) -> None:
     for name, table in tables.items():
         columns = {}
         for key in (*table.coords, *table.data_vars):
-            variable = words(table[key])
-            columns[head_of(str(key), variable.attrs)] = ("row", variable.values)
+            variable = table[key]
+            values = variable.values
+            if "flag_meanings" in variable.attrs:
+                values = flag_names(variable)
+            columns[head_of(str(key), variable.attrs)] = ("row", values)
         frame = xr.Dataset(columns).to_dataframe()
         write_atomically(folder / f"{name}.csv", partial(frame.to_csv, index=False))
 

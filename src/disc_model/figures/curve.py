@@ -1,7 +1,6 @@
 """Curves: any variable against one dimension."""
 
 from collections.abc import Mapping, Sequence
-from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -50,11 +49,10 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Array, Axes, Figure, Mask
-from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, named
+from disc_model.figures.words import CHARACTER, as_numbers, in_lines, label_in, measured, named
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
-LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 LINE = 1.1  # height of a line of text over its size
 CROWDED = 30  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
@@ -303,7 +301,7 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
     counts; nothing where no point of any line has a value, as numbers would be made up."""
     axis: Any = ax.yaxis
     if names:
-        ax.set_yticks(range(len(names)), labels=[fill(name, LONGEST_NAME) for name in names])
+        ax.set_yticks(range(len(names)), labels=[in_lines(name) for name in names])
     elif not shows:
         axis.set_major_locator(NoNumbers())
         axis.set_minor_locator(NullLocator())

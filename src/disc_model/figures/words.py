@@ -89,7 +89,6 @@ SHORT = {
     "critical_speed": "critical speed",
     "horizon": "horizon",
     "mode": "mode",
-    "tol": "tolerance",
     "onset_speed": "speed at separation onset",
     "offset_speed": "speed at separation end",
 }
@@ -106,6 +105,7 @@ PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
 )  # names that are words, and no symbols such as f_ss
 STAYS = "stays"  # key of words for the time at each value of a sweep
+LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
@@ -495,6 +495,11 @@ def rank_of(value: Any) -> Any:
     if leading:
         number = float(leading[0])
     return known.get(value, 0), number
+
+
+def in_lines(name: str) -> str:
+    """The name of a class beside a panel, in lines that leave this its room."""
+    return fill(name, LONGEST_NAME)
 
 
 # ---- Heads of figures

@@ -12,7 +12,6 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -111,7 +110,6 @@ def fit(
         if len(indistinct) == 1 and passes_zero(problem, end, indistinct[0], confidence):
             limits = {indistinct[0]: (0.0, np.inf), **limits}
         found = _result(search, end, confidence, indistinct, limits, gap)
-        found = replace(found, determined=search.combinations(end, found.indistinct))
         found = with_limits(found, problem, end, search.deviations)
     warn_of_doubts(found.case)
     return found
@@ -195,6 +193,7 @@ def _result(
         converged=bool(end.success) and not gap,
         message=_why_ended(end, gap),
         indistinct=indistinct,
+        determined=search.combinations(end, indistinct),
         unpredicted=unpredicted,
         at_bounds=at_bounds,
         passed_bounds=passed,

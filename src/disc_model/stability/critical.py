@@ -244,7 +244,7 @@ def critical(
 
 def _rule_of_kind(kind: object) -> str:
     """The rule that an unknown kind of motion breaks, and what to call for one of `floquet`."""
-    if kind == SLIPPING:
+    if isinstance(kind, str) and kind == SLIPPING:
         return f"{RULE_OF_KIND}; cycles that never stick are followed by continue_cycle(..., kind='slipping')"
     return RULE_OF_KIND
 

@@ -111,6 +111,14 @@ class ToyMap:
             singular = math.nan
         return Orbit(outcome, *known, end, jacobian, by * singular)
 
+    def returns(self, x, most):
+        for _ in range(most):
+            orbit = self.evaluate(x, tangent=False)
+            if orbit.outcome != RETURNED:
+                return
+            x = orbit.end
+            yield x
+
     @property
     def first_release(self):
         return Passage(RETURNED, 0.0, self.static)

@@ -145,7 +145,7 @@ def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
         return SimpleNamespace(
             status=Status.OK,
             first_separation=1.0,
-            statistics={"separations": times.size},
+            statistics={"n_separations": times.size},
             event_rows=rows,
             final_state=SimpleNamespace(time=until),
         )
