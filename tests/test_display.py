@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from disc_model import Parameters, Ramp, Window, initial_state, simulate
-from disc_model.display import html_table
+from disc_model.display import html_table, rounded_text
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
 from disc_model.stability.critical import Critical
@@ -116,4 +116,14 @@ def test_windows_and_ramps_are_shown_with_their_units() -> None:
         ["to", "200.0", "N"],
         ["start", "1.0", "s"],
         ["end", "4.0", "s"],
+    ]
+
+
+def test_numbers_below_a_million_are_written_out() -> None:
+    """A standard deviation of 120 was "1.2e+02"."""
+    assert [rounded_text(each, 2) for each in (123.4, 0.0123, -98765.0, 4.5e8)] == [
+        "120",
+        "0.012",
+        "-99000",
+        "4.5e+08",
     ]

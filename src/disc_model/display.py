@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from disc_model.attached.drawing import draw  # which `disc_model.attached` puts here
 
+WRITTEN_OUT = 1e6  # numbers below it have no power of ten
+
 
 def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     """A table for notebooks."""
@@ -46,7 +48,15 @@ def number_text(value: float, unit: str = "", digits: int = 6) -> str:
     """A number with its unit; empty if there is none."""
     if math.isnan(value):
         return ""
-    return f"{value:.{digits}g} {unit}".strip()
+    return f"{rounded_text(value, digits)} {unit}".strip()
+
+
+def rounded_text(value: float, digits: int) -> str:
+    """A number rounded to significant digits, with a power of ten from `WRITTEN_OUT` on."""
+    text = f"{value:.{digits}g}"
+    if "e+" in text and abs(value) < WRITTEN_OUT:
+        return f"{float(text):.0f}"
+    return text
 
 
 def counted(number: int, noun: str) -> str:

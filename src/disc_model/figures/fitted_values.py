@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import presentation_of, typeset
+from disc_model.display import number_text, rounded_text
 from disc_model.figures.words import POWERS, unit_text
 
 if TYPE_CHECKING:
@@ -55,11 +56,12 @@ def _symbol(name: str) -> str:
 def _with_deviation(value: float, deviation: float, unit: str) -> str:
     """A value to the digits of its standard deviation, with this and the unit."""
     if not deviation > 0:
-        return f"{value:.{WITHOUT_DEVIATION}g} {unit}".rstrip()
+        return number_text(value, unit, WITHOUT_DEVIATION)
     digits = DIGITS
     if value:
         digits += math.floor(math.log10(abs(value))) - math.floor(math.log10(deviation))
-    return f"{value:.{max(digits, DIGITS)}g} ±{UNBROKEN}{deviation:.{DIGITS}g} {unit}".rstrip()
+    shown = rounded_text(value, max(digits, DIGITS))
+    return f"{shown} ±{UNBROKEN}{number_text(deviation, unit, DIGITS)}"
 
 
 def _combined(formula: str, known: Any) -> str:
@@ -70,7 +72,7 @@ def _combined(formula: str, known: Any) -> str:
         raised = POWERS.get(power, f"^{power}")
         words.append(SIGNS.get(word) or f"{_symbol(name)}{raised}")
     value = _with_deviation(known.value, known.deviation, unit_text(known.unit))
-    return f"{UNBROKEN.join(words)} = {value}"
+    return f"{' '.join(words)} = {value}"
 
 
 def _doubts(fit: Fit) -> Iterator[str]:
