@@ -93,7 +93,7 @@ def test_lines_are_open_where_those_of_figures_are(name: str) -> None:
 
 
 def test_lines_to_cycles_that_the_motion_is_not_near_are_open() -> None:
-    """Such points are marked as well, also on maps."""
+    """Such points are marked as well."""
     rate = variable(line(), "growth_rate")
     [steps] = rate["open"]
     assert np.flatnonzero(numbers(steps, "u1")).tolist() == [ENDS_AT, 5]
@@ -145,6 +145,22 @@ def test_an_open_line_is_seen_and_named(opened: Open) -> None:
     assert OPEN in legend
     assert NOT_NEAR.label in legend
     assert said.endswith(NOT_NEAR.label)
+
+
+@pytest.mark.slow
+@needs.BROWSER.mark
+def test_maps_mark_cycles_that_the_motion_is_not_near(opened: Open) -> None:
+    """They had the colours of the others, and figures a pattern."""
+    study = cycles()
+    study["near_motion"] = (study["growth_rate"] < 0.03).astype(float)
+    with opened([contents_of("map", study)]) as shown:
+        shown.choose("Up", "N")
+        shown.choose("Variable", "growth_rate")
+        legend = shown.text("legend")
+        patterned = shown.ask("coloursOf", 3, 1)
+        plain = shown.ask("coloursOf", 6, 0)
+    assert NOT_NEAR.label in legend.split("\n")
+    assert len(patterned) > len(plain) == 1
 
 
 @pytest.mark.slow

@@ -33,7 +33,7 @@ def _open_lines(part: xr.Dataset, heights: xr.DataArray, along: str) -> Mask:
     found = np.zeros(heights.shape, dtype=bool)
     at = heights.dims.index(along)
     lines = np.moveaxis(found, at, -1)[..., :-1]
-    others = [dim for dim in heights.dims if dim != along]
+    others = [str(dim) for dim in heights.dims if dim != along]
     for place in np.ndindex(lines.shape[:-1]):
         chosen = dict(zip(others, place, strict=True))
         steps = open_steps(_at(part, chosen), heights.isel(chosen), by=None, log=False)
