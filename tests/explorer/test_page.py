@@ -370,6 +370,15 @@ def test_ranges_and_periods_of_all_quantities_have_the_units_of_figures(
     assert _named(name, column.attributes)["unit"] == unit
 
 
+@pytest.mark.parametrize("quantity", quantity_names())
+def test_no_length_is_in_metres(quantity: str) -> None:
+    """Stored motions have mm beside them."""
+    of_grid = quantity_of(quantity)
+    columns = {**of_grid.COLUMNS, **of_grid.SUMMARY_COLUMNS}
+    units = {name: _named(name, column.attributes)["unit"] for name, column in columns.items()}
+    assert "m" not in units.values(), units
+
+
 def test_values_of_a_parameter_have_its_name_and_unit() -> None:
     """The axis of a study of branches was "Omega in the sweep, SI units"."""
     swept = {"long_name": "m in the sweep, SI units"}

@@ -9,9 +9,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SHOWN, attributes
+from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
-from disc_model.figures.classes import LOOKS, Look, looks_of
+from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
@@ -30,6 +31,7 @@ from disc_model.figures.words import (
 from disc_model.parameters import RATIOS, Parameters
 
 TRACES = ("P", "u", "psi")
+CONFIDENCE = 0.95  # of intervals, where a quantity has no option of it
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
 NAMED_BY: Mapping[str, Mapping[str, str]] = {
     "branches": {"value": "parameter", "sweep_value": "parameter"},
@@ -115,6 +117,7 @@ def _study_contents(
         "discs": json.loads(study.attrs.get("discs", "{}")),
         "starts": json.loads(study.attrs.get("starts", "{}")),
         "start": _start_of_all(study),
+        "confidence": _confidence(study),
         "has_figures": stated.has_figures,
         "axes": [name for name in stated.axes if name in study.sizes],
         "first": stated.variable,
@@ -152,6 +155,12 @@ def _start_of_all(study: xr.Dataset) -> dict[str, Any]:
     """The start of a study's motions in its options, to which the start of a point is added."""
     options = json.loads(study.attrs.get("options", "{}"))
     return {name: options[name] for name in ("prerun", "perturbation") if options.get(name)}
+
+
+def _confidence(study: xr.Dataset) -> float:
+    """The level of the confidence intervals of shares, of studies that have any."""
+    options = json.loads(study.attrs.get("options", "{}"))
+    return float(options.get("confidence", CONFIDENCE))
 
 
 def _fixed(name: str, value: Any) -> dict[str, Any]:
@@ -347,6 +356,8 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     meanings = variable.attrs.get("flag_meanings")
     if meanings is None:
         described["gaps"] = _gaps(study, variable)
+        described["open"] = _open(study, name)
+        described["doubts"] = _doubts(study, name)
         described["scale"] = _scale(variable)
         _, factor = _unit_of(variable)
         numbers = variable.values
@@ -419,6 +430,25 @@ def _marks(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
                 "data": packed(mark.cells, "u1"),
             }
         )
+    return found
+
+
+def _open(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
+    """The steps at which curves of a variable along each dimension are open, as bytes at the points
+    where they begin."""
+    return [
+        {"axis": axis, "data": packed(steps, "u1")}
+        for axis, steps in open_along(study, name).items()
+    ]
+
+
+def _doubts(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
+    """Points whose value may be another one, as bytes, with the looks that say why; "is_bound" is of
+    those that may lie anywhere below."""
+    found = []
+    for look, points in bounds_and_doubts(study, name).items():
+        data = packed(points, "u1")
+        found.append({"look": _look(look), "is_bound": look is AT_BOUND, "data": data})
     return found
 
 

@@ -76,7 +76,7 @@ HEADLINES: Mapping[str, Sequence[str]] = {
     "basins": ("separating_fraction",),
     "bifurcation": ("psi",),
     "branches": ("sweep_range",),
-    "campbell": ("cycle_frequency", "sliding_frequency"),
+    "campbell": ("sliding_frequency", "growth_rate"),
     "critical_speed": ("critical_speed",),
     "floquet": ("growth_rate",),
     "hysteresis": ("onset_speed", "offset_speed"),

@@ -55,7 +55,8 @@ async function unpack(study) {
   const parts = [
     ...study.variables.map((variable) => [variable, kindOf(variable)]),
     ...study.variables.filter((variable) => variable.gaps).map((variable) => [variable.gaps, Uint8Array]),
-    ...study.variables.flatMap((variable) => variable.marks.map((mark) => [mark, Uint8Array])),
+    ...study.variables.flatMap((variable) =>
+      [...variable.marks, ...variable.open, ...variable.doubts].map((one) => [one, Uint8Array])),
     ...(study.messages ? [[study.messages, Uint32Array]] : []),
     ...(study.motions ? study.motions.traces.map((trace) => [trace, Uint16Array]) : []),
   ].filter(([part]) => !part.numbers);
@@ -75,10 +76,27 @@ function gapAt(study, variable, place) {
   return code ? variable.gaps.looks[code - 1] : null;
 }
 
+/** What figures say of the value of a point that may be another one: that it is at a bound, or of what it is not shown. */
+const doubtsAt = (study, variable, place) => variable.doubts.filter((one) => value(study, one, place));
+
+const intervalName = (study) => `${number(100 * study.confidence)} % interval`;
+
+/** The variables that hold the ends of the interval of another one; null without. */
+function intervalOf(study, variable) {
+  const [low, high] = ["low", "high"].map((end) => study.variables.find((one) => one.name === `${variable.name}_${end}`));
+  const alike = (one) => one && !variable.flags && String(one.dims) === String(variable.dims);
+  return alike(low) && alike(high) ? [low, high] : null;
+}
+
 function shown(study, variable, place) {
   const found = value(study, variable, place);
   if (variable.flags) return variable.looks[found].label;
-  return gapAt(study, variable, place)?.label ?? withUnit(number(found), variable.unit);
+  const gap = gapAt(study, variable, place);
+  if (gap) return gap.label;
+  const said = [withUnit(number(found), variable.unit)];
+  const ends = intervalOf(study, variable)?.map((one) => number(value(study, one, place), 3));
+  if (ends) said.push(`${intervalName(study)} ${withUnit(ends.join(" to "), variable.unit)}`);
+  return [...said, ...doubtsAt(study, variable, place).map((one) => one.look.label)].join(", ");
 }
 
 function messageAt(study, place) {
@@ -91,5 +109,9 @@ for (const study of contents.studies) {
   study.dim = Object.fromEntries(study.dims.map((dim) => [dim.name, dim]));
   study.status = study.variables.find((variable) => variable.name === "status" && variable.flags);
   for (const dim of study.dims) dim.words = typeof dim.values[0] === "string";
-  for (const variable of study.variables) for (const mark of variable.marks) mark.dims = variable.dims;
+  for (const variable of study.variables) {
+    variable.open ??= [];
+    variable.doubts ??= [];
+    for (const one of [...variable.marks, ...variable.open, ...variable.doubts]) one.dims = variable.dims;
+  }
 }

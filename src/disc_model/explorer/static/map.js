@@ -31,7 +31,10 @@ function drawMap() {
   const curve = y === NONE;
   const cells = places();
   const numbers = cells.map((cell) => value(study, variable, cell.place));
-  const [xs, ys] = [scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, numbers) : scaleOf(study.dim[y])];
+  const intervals = curve ? intervalsOf(cells) : [];
+  const [xs, ys] = [
+    scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, [...numbers, ...intervals.flat()]) : scaleOf(study.dim[y]),
+  ];
   const colours = curve || variable.flags ? null : colouring(numbers, variable);
   const [left, right] = [widest(ink, ys.ticks()) + 14, width - 14];
   const upward = wrapped(ink, axisLabel(curve ? variable : study.dim[y]), right - left);
@@ -49,7 +52,10 @@ function drawMap() {
   const patterns = patternsOf(ink, over);
   // a curve has a gap where none of its points has a number
   const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
-  const seen = { flags: new Set(), gaps: new Set(), marks: new Set(), statuses: new Set(), hatched: false };
+  const seen = {
+    flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
+    hatched: false, open: false, intervals: false,
+  };
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
     const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
@@ -81,8 +87,11 @@ function drawMap() {
   yAxis(ink, box, ys.ticks(), vertical, upward);
   if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
   drawn = { box, horizontal, vertical, xs, ys, heights: curve ? numbers.map((one) => vertical(ys.to(one))) : [] };
-  if (curve) drawCurve(ink, cells.map(({ i, place }, n) => [horizontal(xs.at[i]), vertical(ys.to(numbers[n])), dotted(place)]));
-  else markChosen(ink);
+  if (curve) {
+    const open = isJoined() ? openSteps(cells) : [];
+    seen.open = open.includes(true);
+    drawCurve(ink, curveOf(cells, numbers, intervals, dotted, seen), open);
+  } else markChosen(ink);
   legend(seen, dots);
 }
 
@@ -90,7 +99,8 @@ function drawMap() {
 const stableDots = (variable) => marks().find((mark) => mark.key === `${variable.name}=stable`);
 
 /** The marks that lie over the cells of a map, as in the figures. */
-const marksOver = (variable, x, y) => variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y));
+const marksOver = (variable, x, y) =>
+  [...variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y)), ...variable.doubts];
 
 /** The patterns of marks in black and in white. */
 const patternsOf = (ink, over) =>
@@ -155,7 +165,11 @@ function legend(seen, dots) {
   const entries = [...seen.flags].sort((a, b) => a - b)
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
   for (const look of variable.gaps?.looks ?? []) if (seen.gaps.has(look)) entries.push([swatchOf(look), look.label]);
-  for (const mark of variable.marks) if (seen.marks.has(mark)) entries.push([swatchOf(mark.look), mark.look.label]);
+  for (const mark of [...variable.marks, ...variable.doubts])
+    if (seen.marks.has(mark)) entries.push([swatchOf(mark.look), mark.look.label]);
+  for (const doubt of variable.doubts) if (seen.doubts.has(doubt)) entries.push([bareSwatch(markOf(doubt)), doubt.look.label]);
+  if (seen.intervals) entries.push([bareSwatch((ink) => bar(ink, 8, 1, 15)), intervalName(study)]);
+  if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), contents.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   if (dots) entries.push([dotSwatch(), dots.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
@@ -205,15 +219,102 @@ const isJoined = () => {
   return !view.variable.flags && view.spread === NONE && !across.words && !counts(across);
 };
 
+/** The points of a curve as they are drawn, and what of them the legend names. */
+function curveOf(cells, numbers, intervals, dotted, seen) {
+  const { study, variable } = view;
+  const { horizontal, vertical, xs, ys } = drawn;
+  const height = (one) => vertical(ys.to(one));
+  return cells.map(({ i, place }, n) => {
+    const doubts = Number.isFinite(numbers[n]) ? doubtsAt(study, variable, place) : [];
+    const ends = (intervals[n] ?? []).filter(Number.isFinite).map(height);
+    for (const doubt of doubts) seen.doubts.add(doubt);
+    if (ends.length) seen.intervals = true;
+    return { x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, dotted: dotted(place) };
+  });
+}
+
+/** At which steps to the next point the curve is open, by the rule of the figures. */
+function openSteps(cells) {
+  const open = view.variable.open.find((one) => one.axis === view.x);
+  return cells.map(({ place }) => Boolean(open) && value(view.study, open, place) > 0);
+}
+
+/** The ends of the interval of each point of a curve; none of a variable without. */
+function intervalsOf(cells) {
+  const { study, variable } = view;
+  const ends = intervalOf(study, variable);
+  return ends ? cells.map(({ place }) => ends.map((one) => value(study, one, place))) : [];
+}
+
+const STROKE = 10; // height of a stroke, pixels
+
+/** A stroke, as figures have above an open step of a line. */
+function stroke(ink, x, top) {
+  ink.lineWidth = 2;
+  line(ink, x, top, x, top + STROKE);
+  ink.lineWidth = 1;
+}
+
+/** The bar of an interval, with its ends. */
+function bar(ink, x, low, high) {
+  line(ink, x, low, x, high);
+  for (const end of [low, high]) line(ink, x - 3, end, x + 3, end);
+}
+
+/** An arrow below a point whose value is a bound, and may be less. */
+function arrow(ink, x, y) {
+  line(ink, x, y, x, y + 12);
+  line(ink, x - 3, y + 8, x, y + 12);
+  line(ink, x + 3, y + 8, x, y + 12);
+}
+
+/** A large filled mark, of a point whose value may be another one. */
+function filledMark(ink, x, y) {
+  ink.beginPath();
+  ink.arc(x, y, 5, 0, 2 * Math.PI);
+  ink.fill();
+}
+
+/** What draws the mark of a doubt in the middle of a swatch. */
+const markOf = (doubt) => (doubt.is_bound ? (ink) => arrow(ink, 8, 2) : (ink) => filledMark(ink, 8, 8));
+
+/** A legend's swatch with a mark of a curve. */
+function bareSwatch(draw) {
+  const swatch = document.createElement("canvas");
+  swatch.width = swatch.height = 16;
+  swatch.classList.add("bare");
+  const own = swatch.getContext("2d");
+  own.fillStyle = own.strokeStyle = style("--accent");
+  draw(own);
+  return swatch;
+}
+
+/** The marks of a curve's points and open steps. */
+function markCurve(ink, points, open) {
+  points.forEach(({ x, y, ends, doubts, dotted }, n) => {
+    if (open[n]) stroke(ink, (x + points[n + 1].x) / 2, drawn.box.top + 3);
+    if (!Number.isFinite(y)) return;
+    if (ends.length === 2) bar(ink, x, ...ends);
+    for (const doubt of doubts) {
+      if (doubt.is_bound) arrow(ink, x, y);
+      else filledMark(ink, x, y);
+    }
+    if (dotted) disc(ink, x, y, MOST_RADIUS);
+    ink.fillStyle = ink.strokeStyle = style("--accent");
+  });
+}
+
 /** The curve in its frame, with its dots, and a line at the chosen point, which has a ring among others. */
-function drawCurve(ink, points) {
+function drawCurve(ink, points, open) {
   const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const zero = drawn.vertical(0);
   if (view.variable.scale && zero > box.top && zero < box.bottom) line(ink, box.left, zero, box.right, zero);
   ink.strokeStyle = ink.fillStyle = style("--accent");
-  polyline(ink, points, isJoined());
-  for (const [x, y, dotted] of points) if (dotted && Number.isFinite(y)) disc(ink, x, y, MOST_RADIUS);
+  const isAtBound = (n) => points[n].doubts.some((doubt) => doubt.is_bound);
+  const opens = (n) => open[n] || isAtBound(n) || isAtBound(n + 1); // a value at a bound may lie anywhere below
+  polyline(ink, points.map(({ x, y }) => [x, y]), isJoined(), opens);
+  markCurve(ink, points, open);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);
@@ -230,19 +331,21 @@ function drawCurve(ink, points) {
 const FEW = 200; // points of a line that have squares
 const CROWD = 2000; // points from which on their squares are small
 
-/** Points, joined where neighbours have numbers; each has a square where they are few, and where no line shows it. */
-function polyline(ink, points, joined) {
+/** Points, joined where neighbours have numbers and the step from one to the next is not open; each has a square where they
+ * are few, and where no line shows it. */
+function polyline(ink, points, joined, opens = () => false) {
   const there = (n) => n >= 0 && n < points.length && Number.isFinite(points[n][1]);
+  const joins = (n) => joined && there(n) && there(n + 1) && !opens(n);
   ink.beginPath();
   points.forEach(([x, y], n) => {
     if (!joined || !there(n)) return;
-    if (there(n - 1)) ink.lineTo(x, y);
+    if (joins(n - 1)) ink.lineTo(x, y);
     else ink.moveTo(x, y);
   });
   ink.stroke();
   const side = points.length > CROWD ? 2 : 4;
   points.forEach(([x, y], n) => {
-    const isAlone = !joined || !(there(n - 1) || there(n + 1));
+    const isAlone = !(joins(n - 1) || joins(n));
     if (there(n) && (isAlone || points.length <= FEW)) ink.fillRect(x - side / 2, y - side / 2, side, side);
   });
 }

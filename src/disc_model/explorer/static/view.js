@@ -13,7 +13,7 @@ const outcome = (variable) => variable.name === "outcome";
 const mapped = (study, ofKind) =>
   Math.max(0, ...study.variables.filter(ofKind).map((variable) => {
     const dims = gridOf(study).filter((dim) => variable.dims.includes(dim.name));
-    const numeric = dims.filter((dim) => !dim.words && !COUNTS.test(dim.label) && dim.values.length > 1);
+    const numeric = dims.filter((dim) => !dim.words && !COUNTS.test(dim.title) && dim.values.length > 1);
     return numeric.length > 1 ? dims.reduce((product, dim) => product * dim.values.length, 1) : 0;
   }));
 
@@ -31,18 +31,18 @@ const offAxes = () =>
 const selectors = () => offAxes().filter((dim) => dim.name !== view.spread);
 
 const MANY = 8; // values from which on a dimension of the quantity's own is worth the height of a map
-const COUNTS = /^number of the /i; // the label of a dimension that only counts something, such as branches
+const COUNTS = /^number of the /i; // the meaning of a dimension that only counts something, such as branches
 const ALONG = / along /; // and of one that counts points of a line, in their order
 
 /** Whether a dimension only counts, so that nothing lies between its neighbours, and their order means nothing. */
-const counts = (dim) => COUNTS.test(dim.label) && !ALONG.test(dim.label);
+const counts = (dim) => COUNTS.test(dim.title) && !ALONG.test(dim.title);
 
 /** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
  * quantity's own that is no short list and no count, as a curve shows more than a map of two rows: the longest of them. */
 function usualAxes(study, axes) {
   const grid = axes.filter((dim) => gridOf(study).includes(dim));
   const own = axes.filter((dim) => !grid.includes(dim));
-  const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.label));
+  const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.title));
   const across = grid.find((dim) => dim.name === "Omega") ?? grid[0] ?? worth[0] ?? own.at(-1);
   const others = [...grid, ...worth].filter((dim) => dim !== across);
   return [across, others.sort((a, b) => b.values.length - a.values.length)[0]];
@@ -143,7 +143,7 @@ function chooseAxes() {
   const fitting = variablesShown();
   const wanted = (one) => !one.name.endsWith("status");
   const answers = (one) => outcome(one) || one.name.endsWith("_outcome") || one.name === "kind";
-  const measures = (one) => wanted(one) && !one.flags && !COUNTS.test(one.label);
+  const measures = (one) => wanted(one) && !one.flags && !COUNTS.test(one.title);
   const ranked = [growth, answers, measures, wanted, () => true];
   const usual = ranked.map((kind) => fitting.find(kind)).find((one) => one);
   if (!fitting.includes(view.variable)) view.variable = usual;
@@ -151,16 +151,16 @@ function chooseAxes() {
   view.spread = usualSpread();
 }
 
-/** The count along which a curve shows all of a variable's numbers, as points: the first one of many. */
+/** The count along which a curve shows all of a variable's numbers, as points: the first one of several. */
 function usualSpread() {
   if (view.y !== NONE) return NONE;
   const many = manyOf(view.study, view.variable);
   return many && many.name !== view.x ? many.name : NONE;
 }
 
-/** The first count of many along which a variable has numbers. */
+/** The first count of several along which a variable has numbers. */
 const manyOf = (study, variable) =>
-  study.dims.find((dim) => variable.dims.includes(dim.name) && counts(dim) && dim.values.length >= MANY);
+  study.dims.find((dim) => variable.dims.includes(dim.name) && counts(dim) && dim.values.length > 1);
 
 /** The dimension beside that across of which all places are shown: that of the map up, or the count whose points are. */
 const second = () => (view.y === NONE ? view.spread : view.y);
