@@ -64,7 +64,7 @@ def test_two_workflows_without_lock(project: Project, finished: Project) -> None
 
 @pytest.mark.parametrize(
     ("patterns", "count"),
-    [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small/cases.nc",), 1)],
+    [(("small/cases/*.nc", "small_map/batches/*.nc"), 6), (("small_map/small_map.nc",), 1)],
 )
 def test_damaged_files(
     project: Project, finished: Project, patterns: tuple[str, ...], count: int
@@ -75,7 +75,9 @@ def test_damaged_files(
     for path in damaged:
         os.truncate(path, path.stat().st_size // 2)
     assert len(damaged) == count
-    (results / "small_map" / "small_map.nc").unlink()  # else nothing asks for the batches
+    merged = results / "small_map" / "small_map.nc"
+    if merged not in damaged:
+        merged.unlink()  # else nothing asks for the batches
     told = project.refused("-j2", "--keep-going")
     assert any(f"{path.relative_to(project.folder)}: cannot be read" in told for path in damaged)
     for path in damaged:
