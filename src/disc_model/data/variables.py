@@ -86,6 +86,7 @@ class Variable(NamedTuple):
     flags: tuple[str, ...] = ()  # the words that the values of a flag stand for
     dims: tuple[str, ...] = ()  # dimensions beyond those of the grid on which it is computed
     whole: bool = False  # whether its values are whole numbers
+    truth: bool = False  # whether they are 1 for True, 0 for False, and nan
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -97,6 +98,8 @@ class Variable(NamedTuple):
         if self.flags:
             attributes["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
             attributes["flag_meanings"] = " ".join(self.flags)
+        if self.truth:
+            attributes.update(TRUTH)
         return attributes
 
     @property
