@@ -180,12 +180,13 @@ class Point(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: unit and name in words, both of which may show options, and
-    values for given options."""
+    """A dimension of a quantity's own: unit and name in words, both of which may show options, values
+    for given options, and the option by which it has room for more."""
 
     units: str
     long_name: str
     values: Callable[[Any], Sequence[Any]]
+    room: str = ""
 
 
 DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
@@ -267,6 +268,7 @@ class Quantity(Ruled):
         Mapping[str, Coordinate]
     ] = {}  # its own dimensions, beyond those of the grid
     SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {}
+    # they number what is found, and grow with that
     SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
     scans: ClassVar[
         tuple[str, ...]
@@ -319,7 +321,7 @@ class Quantity(Ruled):
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column, flags as words, and a message. Too short lists are padded,
-        long ones cut."""
+        long ones cut, which the message then says."""
         raise NotImplementedError
 
     def state_at(self, point: Point) -> State:
