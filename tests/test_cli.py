@@ -209,7 +209,9 @@ def test_one_of_several_tables_is_chosen(command: Command, tmp_path: Path) -> No
     command.out("convert", str(file), str(target), *some)
     assert target.read_text().startswith("Omega (rad s-1),growth_rate (s-1),stick_slip_frequency")
     said = command.error("convert", str(file), str(target), "--variables", "growth_rat")
-    assert "variables='growth_rat': is no variable of the dataset, did you mean growth_rate?" in said
+    assert (
+        "variables='growth_rat': is no variable of the dataset, did you mean growth_rate?" in said
+    )
 
 
 def test_a_file_of_groups_has_no_variables_to_choose(command: Command, tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ class Outcome(enum.StrEnum):
     """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the
     criteria."""
 
-    QUIET = "quiet"  # the stable stick-slip cycle of the static start
+    QUIET = "quiet"  # the stable stick-slip cycle of the static start: within `thresholds.NEAR`, or that of `floquet`
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
     SEPARATING = "separating"  # a stable cycle that loses contact
     QUASI_PERIODIC = "quasi_periodic"  # a motion on an attractor that is regular and aperiodic

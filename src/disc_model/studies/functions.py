@@ -145,6 +145,8 @@ def outcome(
     -------
     xarray.Dataset
         `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
+        Of stable cycles in contact, "quiet" are that of `floquet`, and one whose release differs from the first release
+        of the static start by at most a tenth of the static deflection; "other_cycle" are all others
 
     Raises
     ------
