@@ -16,6 +16,7 @@ from disc_model import Parameters, cli, simulate
 from disc_model.cli import option_name
 from disc_model.stability.sliding import sliding_modes
 from disc_model.studies.study import load_study
+from tests.figures.described import campbell_study
 from tests.processes import run
 
 BASE = ("--N", "385", "--Omega", "15.1")
@@ -189,6 +190,37 @@ def test_a_grid_is_converted_to_a_table(command: Command, tmp_path: Path) -> Non
     target = tmp_path / "grid.csv"
     command.out("convert", str(file), str(target))
     assert target.read_text().startswith("N (N),status,message,")
+
+
+def test_one_of_several_tables_is_chosen(command: Command, tmp_path: Path) -> None:
+    """Such a dataset was refused, with advice that is none for a terminal."""
+    file = tmp_path / "campbell.nc"
+    disc_model.save(campbell_study(), file)
+    target = tmp_path / "crossings.csv"
+    said = command.error("convert", str(file), str(target))
+    assert "crossing_frequency" in said
+    advice = said.split("; choose one, such as ")[1].split()
+    assert advice[0] == "--variables"
+    command.out("convert", str(file), str(target), "--variables", advice[1])
+    head, *rows = target.read_text().splitlines()
+    assert "crossing_frequency" in head
+    assert len(rows) == 3
+    some = ("--variables", "growth_rate, stick_slip_frequency")
+    command.out("convert", str(file), str(target), *some)
+    assert target.read_text().startswith("Omega (rad s-1),growth_rate (s-1),stick_slip_frequency")
+    said = command.error("convert", str(file), str(target), "--variables", "growth_rat")
+    assert (
+        "variables='growth_rat': is no variable of the dataset, did you mean growth_rate?" in said
+    )
+
+
+def test_a_file_of_groups_has_no_variables_to_choose(command: Command, tmp_path: Path) -> None:
+    file = tmp_path / "run.nc"
+    command.out(*SHORT, "--save", str(file))
+    said = command.error("convert", str(file), str(tmp_path / "run.csv"))
+    assert "must be one group to be a table" in said
+    said = command.error("convert", str(file), str(tmp_path / "x.nc"), "--variables", "t_end")
+    assert "has groups" in said
 
 
 @pytest.mark.parametrize(

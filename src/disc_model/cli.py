@@ -34,7 +34,7 @@ from disc_model.disc.given import DiscReport
 from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.disc.plate import damping_ratios, mode_arrays
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
-from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
@@ -380,16 +380,58 @@ def convert(
         Path,
         typer.Argument(help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF"),
     ],
+    variables: Annotated[
+        str,
+        typer.Option(
+            "--variables",
+            metavar="A,B,...",
+            help="only these variables, such as those of one table",
+        ),
+    ] = "",
 ) -> None:
     """Write a dataset in another format, such as results/s/s.nc for MATLAB or as a table."""
-    from disc_model.data.exchange import WRITTEN, load, save
+    from disc_model.data.exchange import TABLE, WRITTEN, load, save
 
     try:
         _of_suffix(target, WRITTEN)
     except ValueError as error:
         raise ParameterError(Fault.of(("TARGET",), str(target), str(error))) from None
-    save(load(source), target)
+    data = load(source)
+    if variables:
+        data = _with_variables(data, variables)
+    if target.suffix == TABLE:
+        _refuse_several_tables(data)
+    save(data, target)
     print_rows([("saved", str(target))])
+
+
+def _with_variables(data: Any, names: str) -> Any:
+    """Some variables of a dataset, by their names between commas, with their coordinates."""
+    if getattr(data, "children", None):
+        rule = "cannot be chosen: the file has groups"
+        raise ParameterError(Fault.of(("variables",), names, rule))
+    chosen = [name.strip() for name in names.split(",")]
+    known = [str(name) for name in data.data_vars]
+    for name in chosen:
+        if name not in known:
+            rule = f"is no variable of the dataset{suggestion(name, known)}"
+            raise ParameterError(Fault.of(("variables",), name, rule))
+    return data[chosen]
+
+
+def _refuse_several_tables(data: Any) -> None:
+    """Refuse a dataset that is more than one table, and name the option that chooses one."""
+    from disc_model.data.point_table import rule_of_rows, without_place
+
+    if getattr(data, "children", None):
+        return
+    others = without_place(data)
+    if not others:
+        return
+    alike = [name for name in others if data[name].dims == data[others[0]].dims]
+    choice = f"choose one, such as --variables {','.join(alike)}"
+    rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
+    raise ParameterError(Fault(("SOURCE",), "", rule))
 
 
 # ---- Studies

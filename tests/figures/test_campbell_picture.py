@@ -8,6 +8,8 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures.campbell import ALONE, peaks
+from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.sizes import COLUMN, PAGE
 from tests.figures.described import campbell_study
 from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart, labels
@@ -66,3 +68,21 @@ def test_what_is_no_campbell_diagram_is_refused(
 ) -> None:
     with refusal(said):
         dm.plot_campbell(study, **wishes)
+
+
+def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
+    """The largest of them was called a peak of growth, and a point that finer steps would resolve."""
+    study = campbell_study()
+    away = np.full(21, np.nan)
+    away[[4, 5]] = 0.0
+    study["near_motion"] = ("Omega", away)
+    top, bottom = dm.plot_campbell(study)
+    assert NOT_NEAR.label in labels(top.figure)
+    assert ALONE not in labels(top.figure)
+    crosses = [line for line in bottom.lines if line.get_marker() == "x"]
+    assert [[*line.get_ydata()] for line in crosses] == [[0.35, 0.4]]
+    assert [peak.place for peak in peaks(study)] == [12, 11]
+    assert_fit_for_print(top.figure)
+    without = dm.plot_campbell(campbell_study())[0].figure
+    assert NOT_NEAR.label not in labels(without)
+    pyplot.close("all")

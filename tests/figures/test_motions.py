@@ -782,7 +782,7 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
     ("rates", "name"),
     [
         ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
-        ([-0.05, -0.05, -0.30, -0.05, -0.05], "not resolved by the steps"),
+        ([-0.05, -0.05, -0.30, -0.05, -0.05], campbell_diagram.ALONE),
         ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: a step of over 0.1/s"),
     ],
 )

@@ -162,3 +162,19 @@ def test_a_change_within_the_errors_of_a_simulation_is_no_departure(
     search = _OutcomeSearch(SLOW, options, None, None)
     search.result.changes = [1e-9, 5e-7]
     assert search._departs() is departs
+
+
+@pytest.mark.parametrize(("load", "word"), [(4000, Outcome.QUIET), (6000, Outcome.OTHER_CYCLE)])
+def test_a_quiet_motion_is_on_a_cycle_near_the_static_start(load: float, word: Outcome) -> None:
+    """On a steel disc `floquet` finds an unstable cycle at both loads, and the motion is near another:
+    only its distance from the static start decides, as the glossary says."""
+    steel = {"E": 210e9, "rho": 7850, "nu": 0.3, "h": 6e-3, "damping_ratio": 5e-4}
+    slider = {"m": 0.3, "k": 5e5, "k_p": 2e5, "c_p": 20, "mu_s": 0.45, "mu_k": 0.35}
+    pad = {"contact_arc": 0.4, "friction_offset": "surface", "normalization": "orthonormal"}
+    case = Parameters(N=load, Omega=10, n_diameters=6, **steel, **slider, **pad)
+    near = find_outcome(case, 100).near
+    assert near is not None
+    assert near.kind is word
+    start = near.map.first_release
+    distance = np.linalg.norm(near.x - start.x) / near.map.deflection
+    assert (distance <= thresholds.NEAR) == (word is Outcome.QUIET)

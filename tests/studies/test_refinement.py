@@ -10,10 +10,13 @@ import pytest
 
 from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.figures.classes import LOOKS
 from disc_model.parameters import Parameters
+from disc_model.stability.cycle import find_cycle
 from disc_model.stability.linear_motion import NearCycle
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
+from disc_model.studies.quantities.regions import CYCLES
 from disc_model.studies.refinement import Tile, TileOptions
 
 Index = tuple[int, int]
@@ -262,6 +265,21 @@ def test_without_a_cycle_to_follow_a_row_says_why(
 ) -> None:
     point = refinement.TilePoint(Parameters(N=1, Omega=1), start, "", OutcomeResult(outcome, 1.0))
     assert refinement._word_without_cycle(point) == word
+
+
+def test_unstable_sliding_is_no_search_that_failed() -> None:
+    """A steel disc on which stick ends for good, as sliding grows."""
+    steel = {"E": 210e9, "rho": 7850, "nu": 0.3, "h": 6e-3, "damping_ratio": 5e-4}
+    slider = {"m": 0.3, "k": 5e5, "k_p": 2e5, "c_p": 20, "mu_s": 0.45, "mu_k": 0.35}
+    pad = {"contact_arc": 0.4, "friction_offset": "surface", "normalization": "orthonormal"}
+    case = Parameters(N=3000, Omega=80, n_diameters=4, **steel, **slider, **pad)
+    search = find_cycle(case)
+    assert search.motion == "unstable_sliding"
+    for outcome in (Outcome.SEPARATION, Outcome.GROWING):
+        point = refinement.TilePoint(case, search, "", OutcomeResult(outcome, 1.0))
+        assert refinement._word_without_cycle(point) == search.motion
+        assert LOOKS[CYCLES[5]].label == "unstable steady sliding"
+    assert CYCLES[:5] == ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 def test_the_cycle_that_a_motion_comes_to_later_is_shown_unless_it_followed_one_before() -> None:

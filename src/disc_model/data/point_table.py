@@ -33,7 +33,7 @@ def save_points(data: xr.Dataset, file: Path) -> None:
     """
     worded = words(data)
     points = _dimensions_of_points(worded)
-    _check_dimensions(worded, points)
+    _check_dimensions(worded)
     sizes = {dim: worded.sizes[dim] for dim in points}
     columns = {}
     for name in (*worded.coords, *worded.data_vars):
@@ -53,19 +53,30 @@ def _dimensions_of_points(data: xr.Dataset) -> tuple[str, ...]:
     return tuple(map(str, dims))
 
 
-def _check_dimensions(data: xr.Dataset, points: tuple[str, ...]) -> None:
-    """Raise `ParameterError` where variables stand neither along the points nor along some of their
-    dimensions."""
+def without_place(data: xr.Dataset) -> list[str]:
+    """Variables that stand neither along the points of a dataset nor along some of their dimensions."""
+    points = {*_dimensions_of_points(data)}
     others = []
     for name, variable in data.items():
         own = {*variable.dims}
-        if not (own <= {*points} or own >= {*points}):
+        if not (own <= points or own >= points):
             others.append(str(name))
+    return others
+
+
+def _check_dimensions(data: xr.Dataset) -> None:
+    """Raise `ParameterError` where variables have no place in a table of the points."""
+    others = without_place(data)
     if others:
-        along = ", ".join(points)
-        rule = f"has a row for each {along} as a table, in which these have no place"
         choice = f'choose variables of one table, such as data[["{others[0]}"]]'
-        raise ParameterError(Fault(("data",), "", f"{rule}: {', '.join(others)}; {choice}"))
+        rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
+        raise ParameterError(Fault(("data",), "", rule))
+
+
+def rule_of_rows(data: xr.Dataset) -> str:
+    """What the rows of a dataset as a table are, before those variables that have no place in it."""
+    along = ", ".join(_dimensions_of_points(data))
+    return f"has a row for each {along} as a table, in which these have no place"
 
 
 def _columns(

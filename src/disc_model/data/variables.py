@@ -27,7 +27,7 @@ class Outcome(enum.StrEnum):
     """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the
     criteria."""
 
-    QUIET = "quiet"  # the stable stick-slip cycle of the static start
+    QUIET = "quiet"  # the stable stick-slip cycle of the static start: within `thresholds.NEAR`, or that of `floquet`
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
     SEPARATING = "separating"  # a stable cycle that loses contact
     QUASI_PERIODIC = "quasi_periodic"  # a motion on an attractor that is regular and aperiodic
@@ -86,6 +86,7 @@ class Variable(NamedTuple):
     flags: tuple[str, ...] = ()  # the words that the values of a flag stand for
     dims: tuple[str, ...] = ()  # dimensions beyond those of the grid on which it is computed
     whole: bool = False  # whether its values are whole numbers
+    truth: bool = False  # whether they are 1 for True, 0 for False, and nan
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -97,6 +98,8 @@ class Variable(NamedTuple):
         if self.flags:
             attributes["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
             attributes["flag_meanings"] = " ".join(self.flags)
+        if self.truth:
+            attributes.update(TRUTH)
         return attributes
 
     @property

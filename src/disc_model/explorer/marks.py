@@ -70,10 +70,13 @@ def _marks_over(study: xr.Dataset, name: str, axes: tuple[str, str]) -> Mapping[
 
 
 def _beside(study: xr.Dataset, variable: xr.DataArray) -> xr.Dataset:
-    """A variable with the classes of its points: those of its cycle, if they have its dimensions."""
+    """A variable with what is said of its points: of their cycle, if that has its dimensions, and of the
+    motion."""
     names = [str(variable.name)]
     if "cycle" in study and {*study["cycle"].dims} == {*variable.dims}:
         names.append("cycle")
+    if "near_motion" in study and {*study["near_motion"].dims} <= {*variable.dims}:
+        names.append("near_motion")
     return study[names].assign(status_words=statuses(study))
 
 

@@ -199,7 +199,8 @@ def _segments(
     state[unresolved(state)] = "unresolved"
     stable = state == "stable"
     unstable = state == "unstable"
-    ends = (flag_names(plane["cycle"]) == "no_cycle") & (flag_names(plane["outcome"]) != "quiet")
+    without = np.isin(flag_names(plane["cycle"]), ("no_cycle", "unstable_sliding"))
+    ends = without & (flag_names(plane["outcome"]) != "quiet")
 
     here: Any = np.s_[:, :-1]
     ahead: Any = np.s_[:, 1:]

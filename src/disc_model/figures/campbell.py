@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
+from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
 from disc_model.figures.drawing import (
     BLACK,
@@ -31,6 +32,7 @@ from disc_model.figures.selection import (
     NORM,
     broken,
     normalizations,
+    not_near,
     parts_along,
     spans,
     stretches,
@@ -55,6 +57,8 @@ SYMBOLS = ("$f_s$", "$f_Ω$")
 NAMES_APART = 0.035  # of the axis, least distance of the names of modes
 FREQUENCY = "Frequency in the slider's frame (Hz)"
 RATE = "Largest growth rate\nof the cycle (1/s)"
+ALONE = "by itself: another cycle, or too wide a step"
+"""What a point may be that differs from both neighbours."""
 EDGE = 1.0  # height of a mark at this edge, as a share of the panel
 
 
@@ -125,9 +129,12 @@ def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
     if above:
         handles.append(entry_of_cut(above, highest))
     handles += _entries_of_peaks([peak for study in studies for peak in peaks(study)], highest)
-    if any(unjoined(rate).any() for rate in rates):
-        handles.append(sample(label="not resolved by the steps", **_dot(alone=True)))
-    if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in rates):
+    followed = [followed_rates(study) for study in studies]
+    if any(unjoined(rate).any() for rate in followed):
+        handles.append(sample(label=ALONE, **_dot(alone=True)))
+    if any(_elsewhere(study).any() for study in studies):
+        handles.append(sample(label=NOT_NEAR.label, **_elsewhere_look()))
+    if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in followed):
         wide_step = f"line open: a step of over {LINEAR:g}/s"
         handles.append(open_line(wide_step, BLACK, wide(0.8)))
     if any(np.isnan(rate).any() for rate in rates):
@@ -169,9 +176,10 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> 
     below."""
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
-    alone = unjoined(rate)
+    elsewhere = _elsewhere(study)
     _draw_modes(top, study, highest)
-    _draw_rates(bottom, speeds, rate, alone)
+    _draw_rates(bottom, speeds, followed_rates(study))
+    bottom.plot(speeds[elsewhere], rate[elsewhere], **_elsewhere_look())
     for peak in peaks(study):
         _draw_peak(top, bottom, study, peak, highest)
     if _count_above(study, highest):
@@ -205,8 +213,20 @@ def _dot(alone: bool) -> dict[str, Any]:
     return look
 
 
-def _draw_rates(ax: Axes, speeds: Array, rate: Array, alone: Mask) -> None:
+def _elsewhere_look() -> dict[str, Any]:
+    """Look of a point of a cycle that the motion is not near."""
+    return {
+        "color": BLACK,
+        "linestyle": "",
+        "marker": "x",
+        "markersize": mark(3.5),
+        "markeredgewidth": wide(0.7),
+    }
+
+
+def _draw_rates(ax: Axes, speeds: Array, rate: Array) -> None:
     """Draw growth rates: a line where neighbours belong together, and hollow dots elsewhere."""
+    alone = unjoined(rate)
     ax.plot(*broken(speeds, rate, LINEAR), "-", color=BLACK, linewidth=wide(0.8))
     joined = _dot(alone=False)
     joined["markersize"] = mark(1.0)
@@ -218,7 +238,7 @@ def _draw_rates(ax: Axes, speeds: Array, rate: Array, alone: Mask) -> None:
 def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: float) -> None:
     """Mark a peak of the growth rate, and the crossing of a mode with a multiple of a frequency, or at
     the upper edge that it lies above the highest frequency shown (Hz)."""
-    alone = bool(unjoined(study["growth_rate"].values)[peak.place])
+    alone = bool(unjoined(followed_rates(study))[peak.place])
     speed = study["Omega"].values[peak.place]
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
@@ -274,7 +294,7 @@ def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.i
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
     above = Names(top, lines=_along_lines([(speeds, mode) for mode in modes]))
-    of_rates = _along_lines([broken(speeds, rate, LINEAR)])
+    of_rates = _along_lines([broken(speeds, followed_rates(study), LINEAR)])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
     for peak in peaks(study):
@@ -314,12 +334,25 @@ def _symbol(crossing: xr.Dataset) -> str:
 # ---- Selection
 
 
+def followed_rates(study: xr.Dataset) -> Array:
+    """Growth rates over the speed, nan also where the motion is not near the cycle."""
+    return np.where(_elsewhere(study), np.nan, study["growth_rate"].values)
+
+
+def _elsewhere(study: xr.Dataset) -> Mask:
+    """Speeds at which the motion is not near the cycle."""
+    found = not_near(study, "growth_rate")
+    if found is None:
+        return np.zeros(study["growth_rate"].shape, dtype=bool)
+    return found.values
+
+
 def peaks(study: xr.Dataset) -> Iterator[Peak]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
     crossing, of the leading mode if possible; without points by themselves beside gaps, which are
     of another cycle."""
     speeds = study["Omega"].values
-    rate = _without_lone_points(study["growth_rate"].values)
+    rate = _without_lone_points(followed_rates(study))
     extent = np.ptp(speeds)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
     highest = np.where(beside, rate, -np.inf).max(axis=1)

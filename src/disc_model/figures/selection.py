@@ -41,7 +41,18 @@ OF_STAYS = (
     "sweep_separation_rate",
 )
 """Variables that describe the motion at the end of each stay of a sweep of the speed."""
-OF_CYCLES = ("growth_rate", "period", "stick_fraction")
+OF_CYCLES = (
+    "growth_rate",
+    "period",
+    "stick_fraction",
+    "stick_time",
+    "slip_time",
+    "multiplier_re",
+    "multiplier_im",
+    "stick_slip_frequency",
+    "cycle_frequency",
+    "cycle_growth_rate",
+)
 """Variables of a cycle."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
@@ -287,7 +298,8 @@ def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     near; None of other variables and studies."""
     if variable not in OF_CYCLES or "near_motion" not in study:
         return None
-    return study["near_motion"] == 0
+    away = study["near_motion"] == 0
+    return away.broadcast_like(study[variable])
 
 
 def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:

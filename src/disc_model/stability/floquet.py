@@ -94,15 +94,16 @@ def floquet(
     if kind == SLIPPING:
         return find_slipping_cycle(case, float(tol), guess)
     cycle = find_cycle(case, float(tol), guess, releases)
-    if guess is None and cycle.releases == 1 and not cycle.stable:
-        return _beside_motion(cycle)
+    if guess is None:
+        return beside_motion(cycle)
     return cycle
 
 
-def _beside_motion(cycle: FloquetResult) -> FloquetResult:
-    """An unstable cycle that was sought near the static start; its message says so if the motion from
-    there is near another one, or cannot be near this one any more."""
-    assert cycle.state is not None
+def beside_motion(cycle: FloquetResult) -> FloquetResult:
+    """The result of the search near the static start. The message of an unstable cycle says so if the
+    motion from there is near another one, or cannot be near this one any more."""
+    if cycle.state is None or cycle.stable or cycle.releases > 1:
+        return cycle
     map_ = ReturnMap(cycle.parameters, cycle.tol)
     start = map_.first_release
     near = replace(cycle, near_motion=True)

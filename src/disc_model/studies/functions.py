@@ -26,7 +26,7 @@ from disc_model.simulation.case import Start
 from disc_model.sources import versions_text
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
-from disc_model.studies.run import POINT, coordinates_of, variables_of
+from disc_model.studies.run import POINT, coordinates_of, variables_of, with_cuts
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
@@ -74,6 +74,7 @@ def _quantity(
         quantity.report_to(bar.advance)
         row, message = quantity.compute_point(Point(case, begin))
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
+    message = with_cuts(message, row, quantity, coordinates)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})
     attrs = {
         "parameters": case.canonical_json,
@@ -144,6 +145,8 @@ def outcome(
     -------
     xarray.Dataset
         `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
+        Of stable cycles in contact, "quiet" are that of `floquet`, and one whose release differs from the first release
+        of the static start by at most a tenth of the static deflection; "other_cycle" are all others
 
     Raises
     ------

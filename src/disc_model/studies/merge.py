@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.missing import explained
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, flag_names
+from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, Variable, flag_names
 from disc_model.errors import DiscModelError, as_text
 from disc_model.parameters import RATIOS
 from disc_model.studies.batch import Batch, GridAxis
@@ -192,8 +192,22 @@ def summarised(study: xr.Dataset, quantity: Any) -> xr.Dataset:
         cell = dict(zip(others, index, strict=True))
         rows.append(quantity.summarise(study.isel(cell)))
     coords = coordinates_of(quantity.SUMMARY_COORDINATES, quantity)
+    for name, coordinate in coords.items():
+        coords[name] = _with_room(coordinate, quantity.SUMMARY_COLUMNS, rows)
     summary = variables_of(quantity.SUMMARY_COLUMNS, coords, rows, others)
     return study.assign_coords(coords).assign(summary)
+
+
+def _with_room(
+    numbers: xr.Variable, columns: Mapping[str, Variable], rows: Sequence[Mapping[str, Any]]
+) -> xr.Variable:
+    """A dimension that numbers what was found, with as many numbers as the longest row needs."""
+    found = [numbers.size]
+    for name, column in columns.items():
+        if column.dims == numbers.dims:
+            found += [len(row[name]) for row in rows if name in row]
+    first = int(numbers.values[0])
+    return xr.Variable(numbers.dims, np.arange(first, first + max(found)), numbers.attrs)
 
 
 def merge_cases(

@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
 
 from disc_model.data.variables import (
+    OF_RESULTS,
     OUTCOMES_TO_HORIZON,
     SCALARS,
     CycleStatus,
@@ -154,6 +155,11 @@ TIMED_SEPARATION = SCALARS["first_separation"]._replace(
     long_name="time of the first separation, where no departure was extrapolated"
 )
 CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
+BESIDE_MOTION = {
+    "near_motion": OF_RESULTS["FloquetResult"]["near_motion"]._replace(truth=True),
+    "other_growth_rate": OF_RESULTS["FloquetResult"]["other_growth_rate"],
+}
+"""Whether the motion from the static start may be near an unstable cycle, and the growth rate of another one."""
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
@@ -174,12 +180,13 @@ class Point(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: unit and name in words, both of which may show options, and
-    values for given options."""
+    """A dimension of a quantity's own: unit and name in words, both of which may show options, values
+    for given options, and the option by which it has room for more."""
 
     units: str
     long_name: str
     values: Callable[[Any], Sequence[Any]]
+    room: str = ""
 
 
 DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
@@ -213,6 +220,11 @@ def tried(
 def along(*dims: str) -> Callable[..., Variable]:
     """What makes variables along dimensions of a quantity's own."""
     return partial(Variable, dims=dims)
+
+
+def beside_motion_columns(cycle: FloquetResult) -> dict[str, Any]:
+    """The columns of `BESIDE_MOTION`."""
+    return {"near_motion": cycle.near_motion, "other_growth_rate": cycle.other_growth_rate}
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
@@ -256,6 +268,7 @@ class Quantity(Ruled):
         Mapping[str, Coordinate]
     ] = {}  # its own dimensions, beyond those of the grid
     SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {}
+    # they number what is found, and grow with that
     SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
     scans: ClassVar[
         tuple[str, ...]
@@ -308,7 +321,7 @@ class Quantity(Ruled):
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column, flags as words, and a message. Too short lists are padded,
-        long ones cut."""
+        long ones cut, which the message then says."""
         raise NotImplementedError
 
     def state_at(self, point: Point) -> State:

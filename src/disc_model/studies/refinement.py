@@ -346,7 +346,8 @@ def _word_without_cycle(point: TilePoint) -> str:
     result = point.result
     if isinstance(result, OutcomeResult) and result.outcome is Outcome.STEADY_SLIDING:
         return "steady_sliding"
-    if isinstance(point.start, FloquetResult) and point.start.motion in STABLE_CYCLES:
+    of_search = (*STABLE_CYCLES, "unstable_sliding")
+    if isinstance(point.start, FloquetResult) and point.start.motion in of_search:
         return point.start.motion
     return "nearby_only" if isinstance(point.start, NearCycle) else "no_cycle"
 

@@ -43,9 +43,9 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     else:
         results = _results_at_points(computed, batch)
     rows = [row for row, _ in results]
-    messages = [message for _, message in results]
-
     own_coords = coordinates_of(computed.COORDINATES, quantity)
+    messages = [with_cuts(message, row, computed, own_coords) for row, message in results]
+
     variables = variables_of(computed.COLUMNS, own_coords, rows, {POINT: len(rows)})
     text_array = np.array(messages, dtype=str)
     variables["message"] = xr.Variable(POINT, text_array, {"long_name": "what went wrong"})
@@ -149,6 +149,34 @@ def coordinates_of(
         values = np.array(coordinate.values(quantity))
         made[name] = xr.Variable(name, values, described.attributes)
     return made
+
+
+def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Variable]) -> str:
+    """A message that also says of which values a row has more than its dimensions have room for."""
+    cuts = [message] if message else []
+    for dim, coordinate in computed.COORDINATES.items():
+        room = coords[dim].size
+        found = _number_found(row, computed.COLUMNS, dim)
+        if found <= room:
+            continue
+        advice = f": raise {coordinate.room}" if coordinate.room else ""
+        cuts.append(f"{found} were found along {dim}, which has room for {room}{advice}")
+    return "; ".join(cuts)
+
+
+def _number_found(row: Row, columns: Mapping[str, Variable], dim: str) -> int:
+    """The largest number of values that a row has along a dimension, in lists."""
+    found = 0
+    for name, column in columns.items():
+        value = row.get(name)
+        if not isinstance(value, list) or dim not in column.dims:
+            continue
+        before = column.dims.index(dim)
+        lists = [value]
+        for _ in range(before):
+            lists = [inner for outer in lists for inner in outer if isinstance(inner, list)]
+        found = max([found, *map(len, lists)])
+    return found
 
 
 def variables_of(

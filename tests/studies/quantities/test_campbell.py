@@ -11,8 +11,10 @@ from scipy.optimize import brentq
 
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
+from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.frequencies import frequencies
-from disc_model.studies.quantities.campbell import KINDS, Campbell, effect_of, frequency_of
+from disc_model.studies.merge import summarised
+from disc_model.studies.quantities.campbell import KINDS, Campbell, Rates, effect_of, frequency_of
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SMALL, computed
 
@@ -63,6 +65,7 @@ def made_up(**changes: Any) -> xr.Dataset:
     rate = -0.2 + 0.1 / (1 + ((speeds - 10) / 0.02) ** 2)
     values = {
         "growth_rate": rate,
+        "near_motion": np.full(401, np.nan),
         "stick_slip_frequency": 10 * speeds,
         "rotation_frequency": speeds / (2 * np.pi),
         "diameters": np.ones((401, 1), int),
@@ -108,6 +111,8 @@ def test_a_growth_rate_that_rises_at_the_crossing_is_told_from_one_that_does_not
     lost = np.abs(speeds - 10.05) < 0.01
     broken = made_up(growth_rate=np.where(lost, np.nan, rate))
     assert effects(broken) == ["no_cycle"]
+    away = np.where(lost, 0.0, np.nan)
+    assert effects(made_up(near_motion=away)) == ["not_near"]
     unknown = np.full((401, 1), np.nan)
     without = made_up(cycle_growth_rate=unknown)
     assert effects(without) == ["unresolved"]
@@ -137,7 +142,8 @@ def test_a_rise_is_one_above_both_ends_of_the_window(
     first, last = ends
     leading = np.array([0.5, first, *[-0.2] * 2, within, *[-0.2] * 2, last, 0.5])
     growth = np.column_stack([np.full(9, -0.3), leading])
-    found = effect_of(detuning, 3, growth, leading, Campbell())
+    rates = Rates(growth, leading, np.zeros(9, dtype=bool))
+    found = effect_of(detuning, 3, rates, Campbell())
     assert found["effect"] == effect
     assert found["growth_rate"] == within
     assert found["rise"] == pytest.approx(within - max(ends), abs=1e-12)
@@ -170,11 +176,12 @@ def test_modes_cross_multiples_and_halves_of_f_s_and_turns_up_to_their_diameters
     assert third[0] == pytest.approx((100 / 3 + 0.01) / 4)
     assert second[0] == pytest.approx(10.0025)
 
-    # all are counted, although the table has the first ones only
-    short = Campbell(max_crossings=1)
-    first = short.summarise(gentle)
-    assert first["n_crossings"] == 2
-    assert len(first["crossing_Omega"]) == 1
+    # a table with room for one only has both
+    short = summarised(gentle, Campbell(max_crossings=1))
+    assert short["n_crossings"] == 2
+    assert short["crossing"].values.tolist() == [1, 2]
+    assert np.isfinite(short["crossing_Omega"]).all()
+    assert summarised(gentle, Campbell()).sizes["crossing"] == 100
 
     turning = {"rotation_frequency": 5.02 * speeds, "stick_slip_frequency": np.full(401, np.nan)}
     assert Campbell().summarise(made_up(**turning))["n_crossings"] == 0  # of l = 1 only once
@@ -214,14 +221,15 @@ def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.Mon
     )
     columns = np.arange(9.0).reshape(3, 3)
     for word, releases in (("ok", 2), ("none", 0)):
-        cycle = SimpleNamespace(
-            status=status[word], growth_rate=-0.05, releases=releases, period=0.03
+        case = Parameters(N=200, Omega=11)
+        cycle = FloquetResult(
+            case, 1e-12, status[word], "", growth_rate=-0.05, releases=releases, period=0.03
         )
         monkeypatch.setattr(
             "disc_model.stability.frequencies.frequencies",
             lambda p, tol, cycle=cycle: (cycle, modes, columns),
         )
-        values, message = Campbell().compute_point(Point(Parameters(N=200, Omega=11)))
+        values, message = Campbell().compute_point(Point(case))
         assert message == ("" if word == "ok" else CycleStatus.NO_CYCLE.advice)
         if word == "ok":
             rate = 2 / 0.03
@@ -248,3 +256,13 @@ def test_turns_count_up_to_the_greatest_number_of_diameters(diameters: int, coun
     turning = made_up(rotation_frequency=5 * speeds, stick_slip_frequency=none, diameters=numbers)
     summary = Campbell().summarise(turning)
     assert summary["n_crossings"] == count
+
+
+@pytest.mark.compiled
+def test_a_study_says_where_the_motion_is_not_near_the_cycle() -> None:
+    """Its growth rate of 0.28/s stood for that of a motion near another cycle, of 0.0004/s."""
+    axes = {"Omega": [7.3, 7.35, 7.4]}
+    found = computed(quantity="campbell", options={}, base={"N": 375}, axes=axes)
+    assert (found["near_motion"] == 0).values.tolist() == [False, True, False]
+    assert found["growth_rate"].values[1] == pytest.approx(0.2789, abs=1e-4)
+    assert found["other_growth_rate"].values[1] == pytest.approx(0.0004, abs=1e-4)

@@ -10,6 +10,7 @@ from pydantic import Field
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
+from disc_model.display import counted
 from disc_model.studies.quantity import (
     DIRECTION,
     NUMERICAL,
@@ -104,7 +105,9 @@ class Branches(Quantity):
         "sweep_value": Coordinate(
             "", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values
         ),
-        "branch": Coordinate("1", "number of the branch", lambda o: range(o.max_branches)),
+        "branch": Coordinate(
+            "1", "number of the branch", lambda o: range(o.max_branches), "max_branches"
+        ),
         "branch_point": Coordinate(
             "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
         ),
@@ -157,7 +160,7 @@ class Branches(Quantity):
         columns["n_continuation_failures"] = found.failures
         columns["status"] = "failed" if message else "ok"
         columns["sliding_growth_rate"] = sliding
-        return columns, message
+        return columns, "; ".join(filter(None, [message, found.message]))
 
 
 SAME = np.array([2e-4, 0.4])
@@ -166,13 +169,22 @@ distinguish branches; ranges between points of a steep branch are known roughly.
 
 
 class _Found:
-    """The branches found so far, as rows of columns, and the number of cycles that could not be
-    followed."""
+    """The branches found so far, as rows of columns, and the numbers of cycles that could not be
+    followed, and of those that were not, as there is no room for further branches."""
 
     def __init__(self, options: Branches) -> None:
         self.options = options
         self.rows: list[dict[str, Any]] = []
         self.failures = 0
+        self.left_out = 0
+
+    @property
+    def message(self) -> str:
+        """What was left out, in words; "" for nothing."""
+        if not self.left_out:
+            return ""
+        cycles = counted(self.left_out, "cycle")
+        return f"{cycles} of further branches, for which there is no room: raise max_branches"
 
     def follow(self, cycle: FloquetResult, *, reached: bool) -> None:
         """Continue a cycle in both directions, unless a known branch passes there: the one near the
@@ -183,14 +195,17 @@ class _Found:
         value = cycle.parameters.numbers[self.options.parameter]
         size = range_of_cycle(cycle.parameters, cycle.state, cycle.period)
         known = any(_passes(row, value, cycle.period, size) for row in self.rows)
-        if known or len(self.rows) >= self.options.max_branches:
+        if known:
+            return
+        if len(self.rows) >= self.options.max_branches:
+            self.left_out += 1
             return
         try:
             rows = _branch(cycle, reached, self.options)
         except NUMERICAL:
             self.failures += 1
             return
-        self.rows += rows[: self.options.max_branches - len(self.rows)]
+        self.rows += rows
 
 
 def _branch(cycle: FloquetResult, reached: bool, options: Branches) -> list[dict[str, Any]]:

@@ -4,12 +4,13 @@ two speeds.
 
 A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance,
 it is that of steady sliding, with the difference interpolated. The stick-slip frequency is
-interpolated over speeds without a cycle.
+interpolated over speeds without a cycle. A speed at which the motion from the static start is not near
+the cycle counts as one without: the cycle there is another.
 """
 
 import math
 from collections.abc import Iterator
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -17,6 +18,7 @@ from pydantic import Field
 from disc_model.arrays import Array
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantity import (
+    BESIDE_MOTION,
     CYCLE_STATUSES,
     Coordinate,
     Dataset,
@@ -24,6 +26,7 @@ from disc_model.studies.quantity import (
     Quantity,
     UnitCosts,
     along,
+    beside_motion_columns,
     listed,
 )
 from disc_model.units import Count, CycleTolerance, Positive, Unit
@@ -32,9 +35,21 @@ KINDS = ("none", "disc", "slider")
 _each = along("mode")
 _crossing = along("crossing")
 LINES = ("none", "stick_slip", "rotation")
-EFFECTS = ("none", "no_rise", "mode_rises", "rises", "destabilises", "no_cycle", "unresolved")
+EFFECTS = (
+    "none",
+    "no_rise",
+    "mode_rises",
+    "rises",
+    "destabilises",
+    "no_cycle",
+    "unresolved",
+    "not_near",
+)
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
-there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window."""
+there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window; or
+the motion is not near the cycle somewhere in the window."""
+OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_growth_rate")
+"""Variables of the cycle, which is another where the motion is not near it."""
 
 
 class Campbell(Quantity):
@@ -47,13 +62,14 @@ class Campbell(Quantity):
     min_rise: Annotated[Positive, Unit("1/s")] = 0.01
     """least rise of a growth rate in the window, above those at its ends, that counts"""
     max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 100
-    """room for that many crossings"""
+    """room for that many crossings, and for more where more are found"""
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+        **BESIDE_MOTION,
         "stick_slip_frequency": Variable(
             "Hz", "releases of stick per second on the stick-slip cycle, f_s"
         ),
@@ -109,9 +125,11 @@ class Campbell(Quantity):
         return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
+        from disc_model.stability.floquet import beside_motion
         from disc_model.stability.frequencies import frequencies
 
-        cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
+        found, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
+        cycle = beside_motion(found)
         values: dict[str, Any] = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
@@ -120,6 +138,7 @@ class Campbell(Quantity):
             "diameters": np.maximum(modes.diameters, 0), "forward_wave_fraction": modes.forward,
             "sliding_frequency": modes.frequency, "sliding_growth_rate": modes.growth_rate,
             "cycle_frequency": frequency, "cycle_growth_rate": growth_rate, "mac": mac,
+            **beside_motion_columns(cycle),
         }  # fmt: skip
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 
@@ -134,7 +153,7 @@ class Campbell(Quantity):
         ]
         rows = [row for axis in axes for row in crossings(axis, self)]
         rows.sort(key=lambda row: (row["Omega"], row["mode"], row["multiple"]))
-        columns = listed(rows[: self.max_crossings])
+        columns = listed(rows)
         summary: dict[str, Any] = {"n_crossings": len(rows)}
         for name, column in columns.items():
             summary[f"crossing_{name}"] = column
@@ -144,8 +163,10 @@ class Campbell(Quantity):
 def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     """All crossings over ``Omega``, mode by mode, with n f_s, (n + 1/2) f_s and l f_Omega, l up to
     that of modes."""
+    away = cell["near_motion"] == 0
+    cell = cell.assign({name: cell[name].where(~away) for name in OF_CYCLE})
     growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
-    leading = cell["growth_rate"].values
+    rates = Rates(growth, cell["growth_rate"].values, away.values)
     speeds = cell["Omega"].values
     turns = cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
@@ -173,7 +194,7 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
                     "mode": int(mode),
                     "line": line,
                     "multiple": multiple,
-                    **effect_of(detuning, int(index), growth, leading, options),
+                    **effect_of(detuning, int(index), rates, options),
                 }
 
 
@@ -195,12 +216,19 @@ def frequency_of(mode: Dataset) -> Array:
     return sliding + np.interp(speeds, speeds[known], more[known])
 
 
-def effect_of(
-    detuning: Array, index: int, growth: Array, leading: Array, options: Campbell
-) -> dict[str, Any]:
+class Rates(NamedTuple):
+    """Growth rates over the speed: of the modes, shape (speeds, modes), and of the cycle, (speeds,);
+    nan without a cycle, and where the motion is away from it."""
+
+    growth: Array
+    leading: Array
+    away: Array
+
+
+def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
-    rates of the modes, shape (speeds, modes), and of the cycle, (speeds,), in the window, compared
-    with those at its ends."""
+    rates in the window, compared with those at its ends."""
+    growth, leading, away = rates
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)
@@ -211,7 +239,8 @@ def effect_of(
     if np.isfinite(leading[within]).any():
         highest = float(np.nanmax(leading[within]))
     if not np.isfinite(leading[first : last + 1]).all():
-        return {"effect": "no_cycle", "growth_rate": highest}
+        missing = "not_near" if away[first : last + 1].any() else "no_cycle"
+        return {"effect": missing, "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():

@@ -94,7 +94,10 @@ class CriticalSpeed(Quantity):
     COORDINATES: ClassVar = {
         "horizon": Coordinate("s", "time within which separation must occur", lambda o: o.horizons),
         "crossing_number": Coordinate(
-            "1", "number of the crossing, as the speed rises", lambda o: range(o.max_crossings)
+            "1",
+            "number of the crossing, as the speed rises",
+            lambda o: range(o.max_crossings),
+            "max_crossings",
         ),
         "scan_Omega": Coordinate(
             "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values

@@ -5,7 +5,15 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable
-from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State, UnitCosts
+from disc_model.studies.quantity import (
+    BESIDE_MOTION,
+    CYCLE_STATUSES,
+    Point,
+    Quantity,
+    State,
+    UnitCosts,
+    beside_motion_columns,
+)
 from disc_model.units import CycleTolerance
 
 
@@ -19,6 +27,7 @@ class Floquet(Quantity):
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
+        **BESIDE_MOTION,
         "period": Variable("s", "period of the stick-slip cycle"),
         "stick_fraction": Variable("1", "share of the period spent sticking"),
         "multiplier_re": Variable("1", "real part of the leading multiplier"),
@@ -32,8 +41,9 @@ class Floquet(Quantity):
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import find_cycle
+        from disc_model.stability.floquet import beside_motion
 
-        cycle = find_cycle(point.parameters, self.tol)
+        cycle = beside_motion(find_cycle(point.parameters, self.tol))
         leading = (
             complex(cycle.multipliers[0])
             if cycle.status is CycleStatus.OK
@@ -42,7 +52,7 @@ class Floquet(Quantity):
         values = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate, "period": cycle.period,
             "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,
-            "sliding_growth_rate": cycle.sliding.growth_rate,
+            "sliding_growth_rate": cycle.sliding.growth_rate, **beside_motion_columns(cycle),
         }  # fmt: skip
         return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
 

@@ -23,7 +23,8 @@ from disc_model.units import Count, Seconds, Tolerance
 METHODS = ("none", "multipliers", "simulation", "inferred", "extrapolation")
 JOINED = ("no", "yes")
 _CONTINUES = "whether the cycle continues into the next point's along the plane's"
-CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
+CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest", "unstable_sliding")
+"""The last one where stick ends for good, and sliding is unstable: the search for a cycle has not failed there."""
 
 
 class Regions(Quantity):

@@ -83,7 +83,9 @@ class StabilityCurves(Quantity):
         ),
     }
     COORDINATES: ClassVar = {
-        "curve": Coordinate("1", "number of the curve", lambda o: range(o.max_curves)),
+        "curve": Coordinate(
+            "1", "number of the curve", lambda o: range(o.max_curves), "max_curves"
+        ),
         "curve_point": Coordinate(
             "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
         ),
@@ -110,7 +112,7 @@ class StabilityCurves(Quantity):
         )
         # those beside a stable cycle first, in case there are more than the array holds
         rows = [_row(curve) for curve in sorted(curves, key=_importance, reverse=True)]
-        columns: dict[str, Any] = listed(rows[: self.max_curves])
+        columns: dict[str, Any] = listed(rows)
         columns["n_curves"] = len(curves)
         columns["n_continuation_failures"] = len(curves.failures)
         columns["status"] = "ok"

@@ -1,0 +1,47 @@
+"""Cycles near the static start, and whether the motion is near them."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from disc_model.figures.classes import NOT_NEAR
+from tests.figures.reading import draw, labels
+from tests.studies.conftest import computed
+
+LOADS = [370, 375]
+SPEEDS = [7.3, 7.35, 7.4]
+
+
+@pytest.fixture(scope="module")
+def study() -> xr.Dataset:
+    """A cycle of 375 N that the motion is not near, among others."""
+    axes = {"N": LOADS, "Omega": SPEEDS}
+    return computed(quantity="floquet", options={}, base={}, axes=axes)
+
+
+@pytest.mark.compiled
+def test_a_study_says_as_a_sweep_where_the_motion_is_not_near_a_cycle(study: xr.Dataset) -> None:
+    """Studies had growth rates of such cycles alone."""
+    case = dm.Parameters(N=375, Omega=7.35)
+    swept = dm.sweep(dm.floquet, case, N=LOADS, Omega=SPEEDS)
+    assert (study["near_motion"] == 0).values.tolist() == [3 * [False], [False, True, False]]
+    for name in ("near_motion", "growth_rate", "other_growth_rate"):
+        np.testing.assert_allclose(study[name].values, swept[name].transpose("N", "Omega").values)
+        units = study[name].attrs["units"]
+        assert units == swept[name].attrs["units"]
+        assert study[name].attrs["long_name"].startswith(swept[name].attrs["long_name"][:40])
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("variable", ["growth_rate", "period", "stick_fraction", "multiplier_re"])
+@pytest.mark.parametrize("width", ["column", "page"])
+def test_figures_of_a_study_mark_such_points(study: xr.Dataset, variable: str, width: str) -> None:
+    """They looked like any other."""
+    wishes = {"variable": variable, "x": "Omega", "width": width}
+    assert NOT_NEAR.label in labels(draw("heat_map", study, y="N", **wishes))
+    assert NOT_NEAR.label in labels(draw("curve", study, **wishes))
+    without = study.sel(N=[370])
+    assert NOT_NEAR.label not in labels(draw("curve", without, **wishes))
+    pyplot.close("all")
