@@ -215,11 +215,11 @@ def shares(made: None, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     figure = draw("basins", shares, x="Omega")
-    assert labels(figure) == ["quiet", "separating"]
+    assert labels(figure) == ["quiet", "separating", "95 % interval of the share that separates"]
     shown = [
         [bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]
-    ]  # quiet, then separating
-    assert shown == [[1, 1, 1, 0, 0, 0, 0, 1], [1, 1, 0, 0, 0, 0, 1, 1], [1, 0, 0, 0, 0, 1, 1, 1]]
+    ]  # separating, then quiet
+    assert shown == [[0, 0, 0, 1, 1, 1, 1, 0], [0, 0, 1, 1, 1, 1, 0, 0], [0, 1, 1, 1, 1, 0, 0, 0]]
     starts = 12  # at three energies, each with four
     quiet = [*to_rgb(LOOKS["quiet"].face), 1.0]
     [marks] = [
@@ -243,6 +243,23 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     assert height < ax.transData.transform((15, end))[1]
     assert min([*ax.get_yticks(), *ax.get_yticks(minor=True)]) >= end
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
+
+
+def test_each_bar_has_the_interval_of_the_share_that_separates(shares: xr.Dataset) -> None:
+    """The number of starts and the interval were not told, which say what a share rests on."""
+    separating = shares.sel(energy=0.1, attractor_class="separating")
+    low = separating["basin_fraction_by_energy_low"].values
+    high = separating["basin_fraction_by_energy_high"].values
+    ax = draw("basins", shares, x="Omega").axes[1]
+    np.testing.assert_allclose(
+        [line.get_ydata() for line in ax.lines], np.column_stack([low, high])
+    )
+    assert draw("basins", shares, x="Omega").axes[0].get_ylabel() == "Share of 4 starts"
+
+    without = shares.drop_vars(["basin_fraction_by_energy_low"])
+    figure = draw("basins", without, x="Omega")
+    assert not figure.axes[1].lines
+    assert labels(figure) == ["quiet", "separating"]
 
 
 def test_panels_of_shares_in_a_column_have_numbers_below_them(shares: xr.Dataset) -> None:

@@ -145,7 +145,7 @@ UNASKED = {
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed within 3 s (rad/s)",
-    dm.basins: "Share of the starts, kicked with 0.0001, 0.1 J",
+    dm.basins: "Share of 2 starts, kicked with 0.0001, 0.1 J",
     dm.hysteresis: "Speed at separation onset (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations within 0.5 s",

@@ -8,7 +8,16 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
+from disc_model.figures.basins import (
+    draw_interval,
+    draw_shares,
+    entries_of,
+    entries_of_interval,
+    interval_of,
+    outcomes_in,
+    share_of_starts,
+    shares_of,
+)
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
 from disc_model.figures.drawing import COLUMN
@@ -145,10 +154,12 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     if drawn.across == "energy":  # equally far apart, as one may be 0
         places = np.arange(places.size)
     draw_shares(ax, shares, classes, places)
+    draw_interval(ax, interval_of(study, drawn.variable), classes, places)
     if drawn.across == "energy":
         ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label_of(study[drawn.variable])[0] + _energies_of(study, drawn))
+    ax.set_ylabel(share_of_starts(study, drawn.variable) + _energies_of(study, drawn))
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
-    return entries_of(classes, f"undecided within {within}: raise horizon")
+    handles = entries_of(classes, f"undecided within {within}: raise horizon")
+    return handles + entries_of_interval(study, drawn.variable, classes)

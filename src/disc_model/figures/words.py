@@ -498,7 +498,7 @@ def rank_of(value: Any) -> Any:
 
 
 def in_lines(name: str) -> str:
-    """The name of a class beside a panel, in lines that leave this its room."""
+    """The name of a class beside a panel, or words in it, in lines that leave this its room."""
     return fill(name, LONGEST_NAME)
 
 
