@@ -855,26 +855,73 @@ def test_names_of_steps_stay_within_the_panel() -> None:
     pyplot.close("all")
 
 
-def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A multiple was written on the line of another mode, below the one that it meets."""
-    figure, (top, bottom) = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
-    speeds = np.linspace(10.0, 20.0, 5)
-    top.set(xlim=(10, 20), ylim=(0, 700))
-    bottom.set(xlim=(10, 20), ylim=(0, 1))
-    crossing = xr.Dataset(
+def crossing_at(speed: float, frequency: float, multiple: float = 4.0) -> xr.Dataset:
+    """A crossing of a mode with a multiple of the frequency of stick-slip."""
+    return xr.Dataset(
         {
-            "crossing_Omega": 15.0,
-            "crossing_frequency": 270.0,
-            "crossing_multiple": 4.0,
+            "crossing_Omega": speed,
+            "crossing_frequency": frequency,
+            "crossing_multiple": multiple,
             "crossing_line": flag((), "stick_slip", ("none", "stick_slip")),
         }
     )
+
+
+def meetings(monkeypatch: pytest.MonkeyPatch, found: list[Peak]) -> tuple[np.ndarray, xr.Dataset]:
+    """Empty panels and a study of two modes whose peaks are those that are given."""
+    _, axes = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
+    axes[0].set(xlim=(10, 20), ylim=(0, 700))
+    axes[1].set(xlim=(10, 20), ylim=(0, 1))
     modes = np.repeat([[240.0, 270.0]], 5, axis=0)
     data = {"growth_rate": ("Omega", np.full(5, 0.3))}
-    study = xr.Dataset({**data, "sliding_frequency": (("Omega", "mode"), modes)}, {"Omega": speeds})
-    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: [Peak(2, crossing)])
+    data["sliding_frequency"] = (("Omega", "mode"), modes)
+    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: found)
+    return axes, xr.Dataset(data, {"Omega": np.linspace(10.0, 20.0, 5)})
+
+
+def test_names_of_crossings_stand_at_their_own_peak(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A name stood beside the line of another peak."""
+    found = [Peak(2, crossing_at(12.5, 270.0)), Peak(1, crossing_at(11.7, 600.0))]
+    (top, bottom), study = meetings(monkeypatch, found)
+    study = study.assign_coords(Omega=[10.0, 11.7, 12.5, 16.0, 20.0])
     campbell_diagram.name_peaks(top, bottom, study)
-    figure.draw_without_rendering()
+    top.figure.draw_without_rendering()
+    first = Text.get_window_extent(top.texts[0])
+    own, other = (top.transData.transform((speed, 0))[0] for speed in (12.5, 11.7))
+    assert top.texts[0].get_visible()
+    assert other < own < first.x0, "on the side away from the other line"
+    pyplot.close("all")
+
+
+def test_names_of_crowded_crossings_are_led_to_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of five crossings, two had no name."""
+    speeds = [14.6, 14.8, 15.0, 15.2, 15.4]
+    found = [Peak(2, crossing_at(speed, 270.0, speed)) for speed in speeds]
+    (top, bottom), study = meetings(monkeypatch, found)
+    campbell_diagram.name_peaks(top, bottom, study)
+    top.figure.draw_without_rendering()
+    assert sum(name.get_visible() for name in top.texts) >= 4
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("alone", [True, False])
+def test_a_legend_has_marks_of_peaks_as_they_are_drawn(
+    monkeypatch: pytest.MonkeyPatch, alone: bool
+) -> None:
+    """It had a filled mark where all marks were hollow."""
+    _, study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0), alone)])
+    entries = campbell_diagram.entries_of([study], 700)
+    said = [str(entry.get_label()) for entry in entries]
+    assert ("peak of growth, crossing at it" in said) is not alone
+    assert ("speed of a peak of growth, crossing at it" in said) is alone
+    pyplot.close("all")
+
+
+def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A multiple was written on the line of another mode, below the one that it meets."""
+    (top, bottom), study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0))])
+    campbell_diagram.name_peaks(top, bottom, study)
+    top.figure.draw_without_rendering()
     [name] = top.texts
     assert name.get_visible()
     box = Text.get_window_extent(name)
