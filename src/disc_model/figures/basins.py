@@ -5,11 +5,9 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.path import Path
 from matplotlib.ticker import FixedLocator
 
 from disc_model.data.variables import flag_names, stated_in
-from disc_model.display import counted
 from disc_model.figures.cells import entries
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import (
@@ -17,20 +15,24 @@ from disc_model.figures.drawing import (
     GREY,
     PAGE,
     SEPARATED,
-    halo,
     letters,
     mark,
     mark_failed,
     new_figure,
     plain_decades,
-    sample,
     wide,
 )
 from disc_model.figures.kinds.motions import BasinShares
 from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.figures.selection import failed
+from disc_model.figures.separating_share import (
+    draw_interval,
+    entries_of_interval,
+    interval_of,
+    share_text,
+)
 from disc_model.figures.types import Array, Artist, Axes, Figure
-from disc_model.figures.words import label_of, measured
+from disc_model.figures.words import measured
 
 STACKED = (
     "separating",
@@ -57,10 +59,6 @@ ZERO = 0.04  # height of the marks of critical energies of zero, as a share of t
 BELOW = 0.1  # share of the panel below the axis for them
 ROUNDING = 1e-9  # of a share
 BAR = 0.9  # width of a bar over the least distance of two
-SEPARATING = "separating"
-CORNERS = [(-0.4, -1), (0.4, -1), (0, -1), (0, 1), (-0.4, 1), (0.4, 1)]
-INTERVAL = Path(CORNERS, 3 * [Path.MOVETO, Path.LINETO])
-"""Mark of an interval in a legend: a line between two short ones."""
 
 
 def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -82,7 +80,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
     for ax in shares if plot.inches != PAGE else shares[:1]:
-        ax.set_ylabel(f"Share of {counted(study.sizes['start'], 'start')}")
+        ax.set_ylabel(share_text(study.sizes["start"]))
     _draw_attractors(attractors, study, across.values)
     _draw_kicks(kicks, study, across.values)
 
@@ -175,55 +173,6 @@ def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: A
             ec=look.ink,
         )
     ax.set_ylim((0, 1))
-
-
-def share_of_starts(study: xr.Dataset, variable: str) -> str:
-    """What the axis of shares says: of how many starts they are, if the study states it."""
-    options = stated_in(study, "options")
-    number = options.get("n_starts")
-    energies = options.get("energies")
-    if not isinstance(number, int) or not isinstance(energies, list):
-        return label_of(study[variable])[0]
-    if variable == "basin_fraction":  # of the starts of all energies
-        number *= len(energies)
-    return f"Share of {counted(number, 'start')}"
-
-
-# ---- The interval of the share that separates
-
-
-def interval_of(study: xr.Dataset, variable: str) -> xr.Dataset | None:
-    """The ends of the confidence interval of the share of the starts that separate, the lower one first;
-    None if the study does not have them."""
-    names = [f"{variable}_low", f"{variable}_high"]
-    if not {*names} <= {*study} or SEPARATING not in study["attractor_class"]:
-        return None
-    return study[names].sel(attractor_class=SEPARATING, drop=True)
-
-
-def draw_interval(
-    ax: Axes, interval: xr.Dataset | None, classes: Sequence[str], along: Array
-) -> None:
-    """Draw the interval of the share that separates on each bar, at the places `along`, if starts of any
-    bar separate."""
-    if interval is None or SEPARATING not in classes:
-        return
-    look: dict[str, Any] = {"linewidth": wide(0.9), "markersize": mark(4), "marker": "_"}
-    ends = interval.to_dataarray().transpose("variable", ...).values
-    for place, (low, high) in zip(along, ends.T, strict=True):
-        ax.plot([place, place], [low, high], color=BLACK, path_effects=halo(2.5), zorder=3, **look)
-
-
-def entries_of_interval(study: xr.Dataset, variable: str, classes: Sequence[str]) -> list[Artist]:
-    """The entry of a legend for the intervals that are drawn, with their level, if any are."""
-    if interval_of(study, variable) is None or SEPARATING not in classes:
-        return []
-    level = stated_in(study, "options").get("confidence")
-    name = "interval of the share that separates"
-    if level is not None:
-        name = f"{100 * level:g} % {name}"
-    look: dict[str, Any] = {"color": BLACK, "markersize": mark(8), "markeredgewidth": wide(0.9)}
-    return [sample(label=name, linestyle="", marker=INTERVAL, **look)]
 
 
 # ---- Attractors

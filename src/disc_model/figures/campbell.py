@@ -1,7 +1,6 @@
 """Campbell diagrams: frequencies and growth rates against the speed."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -309,7 +308,8 @@ def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.i
 def _upright_lines(ax: Axes, speeds: Sequence[float]) -> Array:
     """Points along the lines at the speeds of peaks, over the height of a panel."""
     heights = np.linspace(*ax.get_ylim(), UPRIGHT)
-    return np.array(list(product(speeds, heights))).reshape(-1, 2)
+    across, up = np.meshgrid(speeds, heights)
+    return np.column_stack([across.ravel(), up.ravel()])
 
 
 def _along_lines(lines: Sequence[Sequence[Array]]) -> Array:

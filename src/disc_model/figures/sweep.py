@@ -8,16 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.figures.basins import (
-    draw_interval,
-    draw_shares,
-    entries_of,
-    entries_of_interval,
-    interval_of,
-    outcomes_in,
-    share_of_starts,
-    shares_of,
-)
+from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
 from disc_model.figures.drawing import COLUMN
@@ -26,6 +17,12 @@ from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import set_limits
+from disc_model.figures.separating_share import (
+    draw_interval,
+    entries_of_interval,
+    interval_of,
+    share_of_starts,
+)
 from disc_model.figures.sweep_choice import (
     SHARES,
     Drawn,
