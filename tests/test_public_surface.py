@@ -14,7 +14,6 @@ import xarray as xr
 
 import disc_model as dm
 from disc_model.data import dataset
-from disc_model.stability.continuation import StepControl
 from tests.refusals import refusal
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
@@ -30,6 +29,7 @@ WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object(), "nothing": []
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
 GRID = xr.Dataset({"growth_rate": ("Omega", [0.1, 0.2])}, {"Omega": [1.0, 2.0]})
+BRANCHES = dm.sweep(dm.continue_cycle, P, name="Omega", bounds=(19.9, 20.1), N=[200])
 DISC = dm.Disc(diameters=[0], omega=[1e3], amplitude=[1.0])
 PLANE = {"case": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
 
@@ -99,6 +99,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
         {"value": "negative"},
     ),
+    (dm.plot_branches, {"swept": BRANCHES}, PICTURE),
     (
         dm.plot_sweep,
         {"study": GRID},
@@ -154,7 +155,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"guess": "None", "values": "nothing", "stop_at": "None", "progress": "True"},
     ),
     (
-        StepControl,
+        dm.StepControl,
         {},
         {
             "growth": WRONG,
@@ -235,7 +236,7 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
     assert first != 3
 
 
-MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, StepControl)
+MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, dm.StepControl)
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)

@@ -19,6 +19,7 @@ import disc_model.attached
 __version__ = "0.3.0"
 
 _NAMES = {
+    "attached.branch_pictures": "plot_branches",
     "data.coded": "words",
     "data.exchange": "load save",
     "analysis.contact_loss": "pinned_range",
@@ -42,7 +43,7 @@ _NAMES = {
     "studies.functions": "outcome critical_speed basins hysteresis",
     "studies.whole_study": "run_study",
     "studies.sweeps": "sweep",
-    "stability.continuation": "Branch continue_cycle",
+    "stability.continuation": "Branch StepControl continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
     "stability.floquet": "floquet",
@@ -56,6 +57,7 @@ __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
+    from disc_model.attached.branch_pictures import plot_branches
     from disc_model.data.coded import words
     from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
@@ -83,7 +85,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.starts import initial_state
     from disc_model.simulation.states import State, deflection
-    from disc_model.stability.continuation import Branch, continue_cycle
+    from disc_model.stability.continuation import Branch, StepControl, continue_cycle
     from disc_model.stability.critical import critical
     from disc_model.stability.curves import neutral_curves
     from disc_model.stability.floquet import floquet

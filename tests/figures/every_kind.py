@@ -290,7 +290,7 @@ def basins() -> Example:
         {"study": study},
         (
             Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
-            Shown(0, "y", "Fraction of 4 starts", shares.ravel(), "", "linear"),
+            Shown(0, "y", "Share of 4 starts", shares.ravel(), "", "linear"),
             Shown(1, "y", "Slider range", ranges, "m", "log"),
             Shown(2, "y", "Critical energy", critical, "J", "log"),
         ),

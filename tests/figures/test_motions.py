@@ -215,11 +215,11 @@ def shares(made: None, monkeypatch: pytest.MonkeyPatch) -> xr.Dataset:
 
 def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     figure = draw("basins", shares, x="Omega")
-    assert labels(figure) == ["quiet", "separating"]
+    assert labels(figure) == ["quiet", "separating", "95 % interval of the share that separates"]
     shown = [
         [bar.get_height() for bar in ax.patches] for ax in figure.axes[:3]
-    ]  # quiet, then separating
-    assert shown == [[1, 1, 1, 0, 0, 0, 0, 1], [1, 1, 0, 0, 0, 0, 1, 1], [1, 0, 0, 0, 0, 1, 1, 1]]
+    ]  # separating, then quiet
+    assert shown == [[0, 0, 0, 1, 1, 1, 1, 0], [0, 0, 1, 1, 1, 1, 0, 0], [0, 1, 1, 1, 1, 0, 0, 0]]
     starts = 12  # at three energies, each with four
     quiet = [*to_rgb(LOOKS["quiet"].face), 1.0]
     [marks] = [
@@ -243,6 +243,23 @@ def test_shares_attractors_and_kicks_are_drawn(shares: xr.Dataset) -> None:
     assert height < ax.transData.transform((15, end))[1]
     assert min([*ax.get_yticks(), *ax.get_yticks(minor=True)]) >= end
     assert crosses(draw("basins", with_failed(shares, Omega=13.0), x="Omega").axes[0]) == [[13]]
+
+
+def test_each_bar_has_the_interval_of_the_share_that_separates(shares: xr.Dataset) -> None:
+    """The number of starts and the interval were not told, which say what a share rests on."""
+    separating = shares.sel(energy=0.1, attractor_class="separating")
+    low = separating["basin_fraction_by_energy_low"].values
+    high = separating["basin_fraction_by_energy_high"].values
+    ax = draw("basins", shares, x="Omega").axes[1]
+    np.testing.assert_allclose(
+        [line.get_ydata() for line in ax.lines], np.column_stack([low, high])
+    )
+    assert draw("basins", shares, x="Omega").axes[0].get_ylabel() == "Share of 4 starts"
+
+    without = shares.drop_vars(["basin_fraction_by_energy_low"])
+    figure = draw("basins", without, x="Omega")
+    assert not figure.axes[1].lines
+    assert labels(figure) == ["quiet", "separating"]
 
 
 def test_panels_of_shares_in_a_column_have_numbers_below_them(shares: xr.Dataset) -> None:
@@ -838,26 +855,73 @@ def test_names_of_steps_stay_within_the_panel() -> None:
     pyplot.close("all")
 
 
-def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A multiple was written on the line of another mode, below the one that it meets."""
-    figure, (top, bottom) = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
-    speeds = np.linspace(10.0, 20.0, 5)
-    top.set(xlim=(10, 20), ylim=(0, 700))
-    bottom.set(xlim=(10, 20), ylim=(0, 1))
-    crossing = xr.Dataset(
+def crossing_at(speed: float, frequency: float, multiple: float = 4.0) -> xr.Dataset:
+    """A crossing of a mode with a multiple of the frequency of stick-slip."""
+    return xr.Dataset(
         {
-            "crossing_Omega": 15.0,
-            "crossing_frequency": 270.0,
-            "crossing_multiple": 4.0,
+            "crossing_Omega": speed,
+            "crossing_frequency": frequency,
+            "crossing_multiple": multiple,
             "crossing_line": flag((), "stick_slip", ("none", "stick_slip")),
         }
     )
+
+
+def meetings(monkeypatch: pytest.MonkeyPatch, found: list[Peak]) -> tuple[np.ndarray, xr.Dataset]:
+    """Empty panels and a study of two modes whose peaks are those that are given."""
+    _, axes = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
+    axes[0].set(xlim=(10, 20), ylim=(0, 700))
+    axes[1].set(xlim=(10, 20), ylim=(0, 1))
     modes = np.repeat([[240.0, 270.0]], 5, axis=0)
     data = {"growth_rate": ("Omega", np.full(5, 0.3))}
-    study = xr.Dataset({**data, "sliding_frequency": (("Omega", "mode"), modes)}, {"Omega": speeds})
-    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: [Peak(2, crossing)])
+    data["sliding_frequency"] = (("Omega", "mode"), modes)
+    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: found)
+    return axes, xr.Dataset(data, {"Omega": np.linspace(10.0, 20.0, 5)})
+
+
+def test_names_of_crossings_stand_at_their_own_peak(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A name stood beside the line of another peak."""
+    found = [Peak(2, crossing_at(12.5, 270.0)), Peak(1, crossing_at(11.7, 600.0))]
+    (top, bottom), study = meetings(monkeypatch, found)
+    study = study.assign_coords(Omega=[10.0, 11.7, 12.5, 16.0, 20.0])
     campbell_diagram.name_peaks(top, bottom, study)
-    figure.draw_without_rendering()
+    top.figure.draw_without_rendering()
+    first = Text.get_window_extent(top.texts[0])
+    own, other = (top.transData.transform((speed, 0))[0] for speed in (12.5, 11.7))
+    assert top.texts[0].get_visible()
+    assert other < own < first.x0, "on the side away from the other line"
+    pyplot.close("all")
+
+
+def test_names_of_crowded_crossings_are_led_to_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of five crossings, two had no name."""
+    speeds = [14.6, 14.8, 15.0, 15.2, 15.4]
+    found = [Peak(2, crossing_at(speed, 270.0, speed)) for speed in speeds]
+    (top, bottom), study = meetings(monkeypatch, found)
+    campbell_diagram.name_peaks(top, bottom, study)
+    top.figure.draw_without_rendering()
+    assert sum(name.get_visible() for name in top.texts) >= 4
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("alone", [True, False])
+def test_a_legend_has_marks_of_peaks_as_they_are_drawn(
+    monkeypatch: pytest.MonkeyPatch, alone: bool
+) -> None:
+    """It had a filled mark where all marks were hollow."""
+    _, study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0), alone)])
+    entries = campbell_diagram.entries_of([study], 700)
+    said = [str(entry.get_label()) for entry in entries]
+    assert ("peak of growth, crossing at it" in said) is not alone
+    assert ("speed of a peak of growth, crossing at it" in said) is alone
+    pyplot.close("all")
+
+
+def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A multiple was written on the line of another mode, below the one that it meets."""
+    (top, bottom), study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0))])
+    campbell_diagram.name_peaks(top, bottom, study)
+    top.figure.draw_without_rendering()
     [name] = top.texts
     assert name.get_visible()
     box = Text.get_window_extent(name)

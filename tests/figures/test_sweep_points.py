@@ -46,6 +46,13 @@ def points_on(ax: Axes) -> list[Any]:
     return [line for line in ax.lines if line.get_linestyle() == "None"]
 
 
+def test_a_bifurcation_is_drawn_as_its_diagram_unasked() -> None:
+    """It was what the motion has come to at switches, even of samples once a turn."""
+    study = sections().assign_attrs(quantity="bifurcation")
+    study["kind"] = ("Omega", ["undecided"] * 4, {"long_name": "what the motion has come to"})
+    assert dm.plot_sweep(study).get_ylabel() == "Angle (rad)"
+
+
 def test_samples_of_a_section_are_points_over_what_varies() -> None:
     """They were a map over the number of the sample, or a named line for each number."""
     study = sections()

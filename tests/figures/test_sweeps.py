@@ -145,7 +145,7 @@ UNASKED = {
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
     dm.outcome: "Outcome within 3 s",
     dm.critical_speed: "Critical speed within 3 s (rad/s)",
-    dm.basins: "Share of the starts, kicked with 0.0001, 0.1 J",
+    dm.basins: "Share of 2 starts, kicked with 0.0001, 0.1 J",
     dm.hysteresis: "Speed at separation onset (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations within 0.5 s",
@@ -164,6 +164,32 @@ def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
     if function is dm.hysteresis:
         title += ", stays of 2 s"
     assert ax.figure.get_suptitle() == title, "what does not vary"
+    pyplot.close("all")
+
+
+def test_a_border_of_stability_says_why_there_is_none() -> None:
+    """It had no value, under a name that was hard to read."""
+    critical = dm.critical
+    study = swept(critical).sel(N=385)
+    unit = {"units": "rad s-1"}
+    meaning = "value of speed of the drive point above which the motion stays unstable"
+    size = study.sizes["Omega"]
+    border = np.where(np.arange(size) < 2, np.nan, 12.0)
+    critical_speed = {**unit, "long_name": "critical value of speed of the drive point"}
+    crossings = np.repeat(border[:, np.newaxis], 2, axis=1)
+    study = study.drop_vars(["crossings", "value"]).assign(
+        border=("Omega", border, {**unit, "long_name": meaning}),
+        value=("Omega", np.full(size, 10.0), critical_speed),
+        crossings=(("Omega", "crossings_index"), crossings),
+        at_lower_bound=("Omega", np.arange(size) == 0),
+    )
+    ax = dm.plot_sweep(study, "border")
+    label = "Speed Ω above which the motion stays unstable (rad/s)"
+    assert " ".join(ax.get_ylabel().split()) == label
+    said = [row.reason for row in rows_above(ax)]
+    assert said == ["unstable at all values", "stable at the upper bound"]
+    both = dm.plot_sweep(study, ["value", "border"])
+    assert both.get_ylabel() == "Speed Ω (rad/s)"
     pyplot.close("all")
 
 

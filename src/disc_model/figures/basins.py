@@ -25,13 +25,19 @@ from disc_model.figures.drawing import (
 from disc_model.figures.kinds.motions import BasinShares
 from disc_model.figures.legends import figure_legend, legend_above
 from disc_model.figures.selection import failed
+from disc_model.figures.separating_share import (
+    draw_interval,
+    entries_of_interval,
+    interval_of,
+    share_text,
+)
 from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.words import measured
 
 STACKED = (
+    "separating",
     "quiet",
     "other_cycle",
-    "separating",
     "quasi_periodic",
     "irregular",
     "steady_sliding",
@@ -40,7 +46,7 @@ STACKED = (
     "undecided_lost",
     "failed",
 )
-"""Order in which shares of outcomes are stacked."""
+"""Order in which shares of outcomes are stacked; those that separate start at zero, as do their intervals."""
 LOST = "undecided_lost"
 """Class of undecided starts that have lost contact."""
 BARS = {**LOOKS, LOST: LOOKS["undecided"]._replace(hatch=3 * "-")}
@@ -69,10 +75,12 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     for ax, energy in zip(shares, energies, strict=True):
         of_energy = by_energy.sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
+        of_separating = interval_of(study.sel(energy=energy), "basin_fraction_by_energy")
+        draw_interval(ax, of_separating, classes, across.values)
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
     for ax in shares if plot.inches != PAGE else shares[:1]:
-        ax.set_ylabel(f"Fraction of {study.sizes['start']} starts")
+        ax.set_ylabel(share_text(study.sizes["start"]))
     _draw_attractors(attractors, study, across.values)
     _draw_kicks(kicks, study, across.values)
 
@@ -86,6 +94,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         ax.set_xlim(ends[0].min(), ends[1].max())
     horizon = stated_in(study, "options")["horizon"]
     handles = entries_of(classes, f"undecided after {horizon:g} s")
+    handles += entries_of_interval(study, "basin_fraction_by_energy", classes)
     figure_legend(figure, handles, loc="outside lower center")
     return figure
 

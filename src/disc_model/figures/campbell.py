@@ -48,7 +48,10 @@ BESIDE_MEETING = tuple(
     (across, up) for up in (4, 9, 14) for across, up in ((6, -up), (-6, up), (6, up), (-6, -up))
 )
 """Offsets in points of names beside crossings, best first."""
+LED_TO_MEETING = tuple((across, up) for up in (22, 32, 44, 56) for across in (-14, 14, -28, 28, 0))
+"""Further offsets, at which a line leads to the crossing."""
 BETWEEN = 20  # points of each step of a line, which no name covers
+UPRIGHT = 200  # points along the line at the speed of a peak
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10), (2, 17), (-2, 17))  # and beside peaks
 BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
 """Look of a stretch of speeds without a growth rate."""
@@ -63,10 +66,12 @@ EDGE = 1.0  # height of a mark at this edge, as a share of the panel
 
 
 class Peak(NamedTuple):
-    """A peak of the cycle's growth rate: the place of its speed, and the crossing at it, if any."""
+    """A peak of the cycle's growth rate: the place of its speed, the crossing at it, if any, and whether
+    it is a point by itself, which the steps do not resolve."""
 
     place: int
     crossing: xr.Dataset | None
+    alone: bool = False
 
 
 def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
@@ -156,8 +161,11 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
         name = "peak of growth"
         if shown or not crossings:
             name = f"{name}, crossing at it"
-        handles.append(sample(label=name, **_dot(alone=False)))
-        handles.append(sample(label="speed of a peak", **_speed_look()))
+        at_line = f"speed of a {name}"  # whose marks say that it is not resolved
+        if not all(peak.alone for peak in found):
+            handles.append(sample(label=name, **_dot(alone=False)))
+            at_line = "speed of a peak"
+        handles.append(sample(label=at_line, **_speed_look()))
     if len(shown) < len(crossings):
         label = f"crossing above {highest:g} Hz"
         handles.append(sample(label=label, **_beyond_look()))
@@ -238,12 +246,11 @@ def _draw_rates(ax: Axes, speeds: Array, rate: Array) -> None:
 def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: float) -> None:
     """Mark a peak of the growth rate, and the crossing of a mode with a multiple of a frequency, or at
     the upper edge that it lies above the highest frequency shown (Hz)."""
-    alone = bool(unjoined(followed_rates(study))[peak.place])
     speed = study["Omega"].values[peak.place]
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
         ax.axvline(speed, zorder=0, **_speed_look())
-    bottom.plot(speed, rate, **_dot(alone))
+    bottom.plot(speed, rate, **_dot(peak.alone))
     if peak.crossing is None:
         return
     place = _meeting(peak.crossing)
@@ -256,7 +263,7 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: 
     line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
     top.plot(study["Omega"], multiple * line, zorder=0, **_multiple_look())
-    top.plot(*place, **_dot(alone))
+    top.plot(*place, **_dot(peak.alone))
 
 
 def _speed_look() -> dict[str, Any]:
@@ -297,15 +304,32 @@ def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.i
     of_rates = _along_lines([broken(speeds, followed_rates(study), LINEAR)])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
-    for peak in peaks(study):
+    found = [*peaks(study)]
+    for peak in found:
         if peak.crossing is None:
             continue
         name = _multiple(peak.crossing)
         meeting = _meeting(peak.crossing)
         if meeting[1] <= highest:
-            above.add(name, meeting, BESIDE_MEETING, fontsize=large(6), path_effects=outline)
+            others = [speeds[each.place] for each in found if each.place != peak.place]
+            above.add(
+                name,
+                meeting,
+                BESIDE_MEETING,
+                LED_TO_MEETING,
+                rivals=_upright_lines(top, others),
+                fontsize=large(6),
+                path_effects=outline,
+            )
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
         below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
+
+
+def _upright_lines(ax: Axes, speeds: Sequence[float]) -> Array:
+    """Points along the lines at the speeds of peaks, over the height of a panel."""
+    heights = np.linspace(*ax.get_ylim(), UPRIGHT)
+    across, up = np.meshgrid(speeds, heights)
+    return np.column_stack([across.ravel(), up.ravel()])
 
 
 def _along_lines(lines: Sequence[Sequence[Array]]) -> Array:
@@ -352,7 +376,9 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
     crossing, of the leading mode if possible; without points by themselves beside gaps, which are
     of another cycle."""
     speeds = study["Omega"].values
-    rate = _without_lone_points(followed_rates(study))
+    followed = followed_rates(study)
+    alone = unjoined(followed)
+    rate = _without_lone_points(followed)
     extent = np.ptp(speeds)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
     highest = np.where(beside, rate, -np.inf).max(axis=1)
@@ -366,7 +392,7 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
         crossing = None
         if np.isfinite(distance).any():
             crossing = study.isel(crossing=int(distance.argmin()))
-        yield Peak(int(i), crossing)
+        yield Peak(int(i), crossing, bool(alone[i]))
 
 
 def _without_lone_points(rate: Array) -> Array:

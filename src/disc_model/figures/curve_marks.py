@@ -22,12 +22,16 @@ from disc_model.figures.selection import (
     parts_along,
     remaining,
     unsettled,
+    unstable_everywhere,
 )
 from disc_model.figures.types import Array, Axes, Mask
 from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured, missing_text
 
 CONTACT_LOST = "contact lost at the lowest speed"
 """Said of points at which separation begins or ends below all speeds of a sweep."""
+UNSTABLE = "unstable at all values"
+STABLE_ABOVE = "stable at the upper bound"
+"""Said of points at which a motion has no border of stability."""
 INFINITE = "infinite"
 """Said of points whose value is infinite."""
 MARKS = "os^Dv<>"
@@ -191,7 +195,11 @@ def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.Data
 
 def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points that were computed and have no value, by the words for them; a speed at which separation
-    begins or ends may also lie below the lowest speed of a sweep."""
+    begins or ends may also lie below the lowest speed of a sweep, and a motion without a border of
+    stability is unstable at all values, or stable at the upper bound."""
+    everywhere = unstable_everywhere(study, name)
+    if everywhere is not None:
+        return {UNSTABLE: gone & everywhere, STABLE_ABOVE: gone & ~everywhere}
     reason = missing_text(study, name)
     below = beyond_lowest_speed(study, name)
     if below is None:

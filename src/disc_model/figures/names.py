@@ -70,13 +70,15 @@ class Names(Artist):
         point: tuple[float, float],
         offsets: Iterable[tuple[float, float]],
         led: Iterable[tuple[float, float]] = (),
+        rivals: Array | None = None,
         **look: Any,
     ) -> None:
         """Add the name of a point, by the offsets in points at which it may stand, best first, and
-        those further ones at which a line leads to the point."""
+        those further ones at which a line leads to the point; it stands nearer to this than to points
+        of rival lines where there is room."""
         places = [Place(point, offset) for offset in offsets]
         places += [Place(point, offset, led=True) for offset in led]
-        self._add(text, places, **look)
+        self._add(text, places, rivals, **look)
 
     def add_along(
         self,

@@ -64,7 +64,8 @@ def plot_sweep(  # noqa: PLR0913
         several values
     variable : one, or a list of variables that are lines of one unit, such as ``["onset_speed", "offset_speed"]`` of
         `hysteresis`; if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent,
-        the number of separations of `simulate`, the lowest coupled frequency, or the first number there is
+        the number of separations of `simulate`, the lowest coupled frequency, the angle ψ of the samples of
+        `bifurcation`, or the first number there is
     x : the dimension, or the column of paired values or names, along the horizontal axis; if not given, the first of
         numbers, or the one with more values if the other has three or fewer. Over a dimension beside paired samples,
         each of these has a line: up to six are named, and more are thin

@@ -3,7 +3,6 @@ each figure."""
 
 import json
 from collections.abc import Callable, Mapping
-from textwrap import fill
 from typing import Any, NamedTuple
 
 import xarray as xr
@@ -38,7 +37,15 @@ from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, of, picked
 from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
-from disc_model.figures.words import MODES, UNITS, factors_of, head_text, named_value, what_case
+from disc_model.figures.words import (
+    MODES,
+    UNITS,
+    factors_of,
+    head_text,
+    in_lines,
+    named_value,
+    what_case,
+)
 
 Drawings = Mapping[str, Callable[..., Figure]]
 DRAWINGS: Drawings = {
@@ -133,7 +140,7 @@ def _of_cases(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Drawn:
     except Missing as reason:
         figure, [ax] = panels(COLUMN, 2)
         ax.set_axis_off()
-        text = fill(f"not shown: the case {reason}", 24)
+        text = in_lines(f"not shown: the case {reason}")
         ax.text(0.5, 0.5, text, ha="center", va="center", in_layout=False)
     values = json.loads(cases[0].attrs.get("parameters", "{}"))
     return Drawn(figure, "", with_ramps(what_case(values), values, cases[0]))

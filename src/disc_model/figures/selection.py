@@ -270,6 +270,16 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
+def unstable_everywhere(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points of a search at which the motion is unstable at all values, so that it has no border of
+    stability; None of other variables."""
+    if variable != "border" or not {"at_lower_bound", "crossings"} <= {*study}:
+        return None
+    along = [dim for dim in study["crossings"].dims if dim not in study["at_lower_bound"].dims]
+    crosses = study["crossings"].notnull().any(along)
+    return (study["at_lower_bound"] == 1) & ~crosses
+
+
 def beyond_lowest_speed(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of sweeps of the speed at which contact is lost at the lowest speed already, or still, so
     that separation begins or ends at a lower one; None of other variables."""

@@ -17,6 +17,12 @@ from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import set_limits
+from disc_model.figures.separating_share import (
+    draw_interval,
+    entries_of_interval,
+    interval_of,
+    share_of_starts,
+)
 from disc_model.figures.sweep_choice import (
     SHARES,
     Drawn,
@@ -145,10 +151,12 @@ def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     if drawn.across == "energy":  # equally far apart, as one may be 0
         places = np.arange(places.size)
     draw_shares(ax, shares, classes, places)
+    draw_interval(ax, interval_of(study, drawn.variable), classes, places)
     if drawn.across == "energy":
         ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
     ax.set_xlabel(across.label)
-    ax.set_ylabel(label_of(study[drawn.variable])[0] + _energies_of(study, drawn))
+    ax.set_ylabel(share_of_starts(study, drawn.variable) + _energies_of(study, drawn))
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
-    return entries_of(classes, f"undecided within {within}: raise horizon")
+    handles = entries_of(classes, f"undecided within {within}: raise horizon")
+    return handles + entries_of_interval(study, drawn.variable, classes)

@@ -14,7 +14,7 @@ from disc_model.data.variables import WITHOUT_EFFECT, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
-from disc_model.figures.sweep_options import option_text, stays_in
+from disc_model.figures.sweep_options import function_of, option_text, stays_in
 from disc_model.figures.words import known_name, symbol_of, value_text, what_case
 from disc_model.parameters import Disc
 
@@ -31,12 +31,13 @@ PREFERRED = (
 )
 """Variables that are drawn unless another one is asked for, the first that there is."""
 OF_FUNCTIONS = {
+    "bifurcation": "psi",
     "choose_modes": "modes",
     "coupled_natural_frequencies": "value",
     "lyapunov_exponents": "exponents",
     "simulate": "n_separations",
 }
-"""Variables that are drawn before those, of sweeps of a function."""
+"""Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
 FIRST_OF_SEVERAL = {
     "exponents": "largest Lyapunov exponent",
     "value": "lowest natural frequency of disc and attached slider",
@@ -114,7 +115,7 @@ def _refuse_branches(study: xr.Dataset) -> None:
     if not is_of_sweep(study):
         return
     branch = f"disc_model.Branch.from_dataset({selected_text(study, 'study')})"
-    rule = f"holds branches: draw each by itself, as by {branch}.plot(ax=ax)"
+    rule = f"holds branches: draw all by disc_model.plot_branches(study), or one by {branch}.plot()"
     raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 
@@ -264,7 +265,7 @@ def _drawn_dims(study: xr.Dataset) -> list[str]:
 def _usual_variable(study: xr.Dataset, choices: Sequence[str]) -> str:
     """The first of the variables preferred, or else of numbers, or of all; "" without any."""
     flat = [name for name in choices if study[name].ndim < 3]
-    of_function = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    of_function = OF_FUNCTIONS.get(function_of(study), "")
     preferred = [name for name in (of_function, *PREFERRED) if name in flat]
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
     return next(iter([*preferred, *numeric, *choices]), "")

@@ -154,15 +154,15 @@ def common_tail(phrases: Sequence[str]) -> str:
 def common_words(phrases: Sequence[str]) -> str:
     """The words in a row that all phrases have, those that come first in the first of them, without
     what they are of; "" if there are none."""
-    words = phrases[0].lower().split()
+    words = phrases[0].split()
     others = [f" {phrase.lower()} " for phrase in phrases[1:]]
     for start in range(len(words)):
         for end in range(len(words), start, -1):
             row = words[start:end]
-            if LOOSE & {*row}:
-                continue
             said = " ".join(row)
-            if all(f" {said} " in other for other in others):
+            if LOOSE & {*said.lower().split()}:
+                continue
+            if all(f" {said.lower()} " in other for other in others):
                 return said[0].upper() + said[1:]
     return ""
 

@@ -97,6 +97,8 @@ TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
 """Variables that have no value where contact is kept up to the horizon."""
 CRITICAL = "critical value of "
 """What long names of critical values say before that of the parameter."""
+BORDER = ("value of ", " above which the motion stays unstable")
+"""What those of borders of stability say before and after it."""
 PERSONS = ("Young", "Poisson")
 """Beginnings of names that are always written with a capital."""
 BELOW_ANY = "growth rate −∞"  # of a disturbance that is gone within a period, as on a rigid disc
@@ -144,6 +146,7 @@ GONE: Mapping[str, Mapping[str, str]] = {
         ),
         **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
     },
+    "critical": {"border": "stable at the upper bound, or unstable at all values"},
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
@@ -214,7 +217,10 @@ LOAD, _ = axis_of("N")
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     name, unit, factor = named(variable)
-    label = typeset(name) if known_name(variable) or parameter_searched(variable) else name
+    has_symbol = (
+        known_name(variable) or parameter_searched(variable) or parameter_bordered(variable)
+    )
+    label = typeset(name) if has_symbol else name
     if unit:
         label = f"{label} ({unit})"
     return label, factor
@@ -234,6 +240,11 @@ def named(variable: xr.DataArray) -> Named:
         shown = SHOWN[critical]
         symbol = f"Critical {_within_words(shown.name)} {shown.symbol}".strip()
         return Named(symbol, shown.unit, shown.factor)
+    border = parameter_bordered(variable)
+    if border:
+        shown = SHOWN[border]
+        symbol = f"{shown.name} {shown.symbol}".strip()
+        return Named(symbol + BORDER[1], shown.unit, shown.factor)
     phrase = words[0].upper() + words[1:]
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
@@ -255,7 +266,21 @@ def parameter_searched(variable: xr.DataArray) -> str:
     words = _words_of(variable)
     if not words.startswith(CRITICAL):
         return ""
-    meaning = words.removeprefix(CRITICAL)
+    return _parameter_of_meaning(words.removeprefix(CRITICAL))
+
+
+def parameter_bordered(variable: xr.DataArray) -> str:
+    """The parameter above whose value the motion stays unstable, as `critical` finds it; "" if a variable
+    is no such value."""
+    before, after = BORDER
+    words = _words_of(variable)
+    if not (words.startswith(before) and words.endswith(after)):
+        return ""
+    return _parameter_of_meaning(words.removeprefix(before).removesuffix(after))
+
+
+def _parameter_of_meaning(meaning: str) -> str:
+    """The parameter that has a long name; "" if there is none."""
     for name in (*Parameters.model_fields, *RATIOS):
         if name in SHOWN and attributes(name)["long_name"] == meaning:
             return name
@@ -498,7 +523,7 @@ def rank_of(value: Any) -> Any:
 
 
 def in_lines(name: str) -> str:
-    """The name of a class beside a panel, in lines that leave this its room."""
+    """The name of a class beside a panel, or words in it, in lines that leave this its room."""
     return fill(name, LONGEST_NAME)
 
 

@@ -60,6 +60,13 @@ class StepControl(Strict):
     growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
         `easy`; below `sharpest` the step is shortened
     beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=14.9)
+    >>> dm.continue_cycle(case, "Omega", (14.8, 15.2), steps=dm.StepControl(max_points=3)).ended
+    'the bound Omega = 14.8 rad/s was reached; max_points=3 were computed'
     """
 
     step: Positive = 0.02

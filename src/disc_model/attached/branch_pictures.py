@@ -1,0 +1,113 @@
+"""All branches of a sweep on the same axes."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from disc_model.data.swept_branches import OF_SWEEPS, is_of_sweep
+from disc_model.errors import Fault, ParameterError, require
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+
+
+def plot_branches(
+    swept: xr.Dataset,
+    y: str = "growth_rate",
+    *,
+    ax: Axes | None = None,
+    legend: bool | dict[str, Any] = True,
+    labels: dict[str, str] | None = None,
+    title: str | None = None,
+) -> Axes:
+    """Draw all branches of a sweep of `continue_cycle` on the same axes, as `Branch.plot` draws one.
+
+    The legend names them by what varies. Points that have failed have no branch: they are left out, and a
+    warning names them, with their messages.
+
+    Parameters
+    ----------
+    swept : what ``sweep(continue_cycle, ...)`` returns, or a selection of it
+    y : growth_rate, period, stick_fraction or range, as in `Branch.plot`
+    ax, legend, labels, title : as in `Result.plot`
+
+    Returns
+    -------
+    Axes
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or no point has a branch.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=14.9)
+    >>> swept = dm.sweep(dm.continue_cycle, case, name="Omega", bounds=(14.8, 15.2), N=[300, 385])
+    >>> dm.plot_branches(swept, "period").get_ylabel()
+    'Period of the cycle (ms)'
+    """
+    from disc_model.stability.continuation import Branch
+
+    _refuse_others(swept)
+    failed = []
+    for point in _points(swept):
+        if point["status"].item() == "failed":
+            failed.append(point)
+            continue
+        named = _with_name(point, swept, labels)
+        branch = Branch.from_dataset(point)
+        ax = branch.plot(y, ax=ax, legend=legend, labels=named, title=title)
+    if failed:
+        said = [f"{_name_of(point, swept)}: {point['message'].item()}" for point in failed]
+        warnings.warn(f"without a branch, and left out: {'; '.join(said)}", stacklevel=2)
+    assert ax is not None  # one point or more has a branch
+    return ax
+
+
+def _refuse_others(swept: Any) -> None:
+    """Raise `ParameterError` for what is no sweep of branches, or has none."""
+    has_points = hasattr(swept, "variables") and OF_SWEEPS.issubset(swept.variables)
+    if has_points and swept["status"].size and (swept["status"] == "failed").all():
+        message = swept["message"].values.flat[0]
+        rule = f"must have a branch, but all of its points failed, the first with {message}"
+        raise ParameterError(Fault(("swept",), "", rule))
+    require((is_of_sweep(swept), "swept", swept, "must be a sweep of continue_cycle"))
+
+
+def _points(swept: xr.Dataset) -> Iterator[xr.Dataset]:
+    """Yield the points of a sweep in their order."""
+    status = swept["status"]
+    for place in np.ndindex(status.shape):
+        yield swept.isel(dict(zip(status.dims, place, strict=True)))
+
+
+def _varying(swept: xr.Dataset) -> list[str]:
+    """The names of what varies between the points of a sweep."""
+    along = {*swept["status"].dims}
+    return [str(name) for name, values in swept.coords.items() if along & {*values.dims}]
+
+
+def _name_of(point: xr.Dataset, swept: xr.Dataset) -> str:
+    """What sets a point apart from others, in words."""
+    from disc_model.figures.words import stated_value
+
+    return ", ".join(stated_value(name, point[name].item()) for name in _varying(swept))
+
+
+def _with_name(
+    point: xr.Dataset, swept: xr.Dataset, labels: dict[str, str] | None
+) -> dict[str, str] | None:
+    """The labels of a branch, with its name where its case does not tell what varies."""
+    from disc_model.parameters import Parameters
+
+    told_by_case = {*_varying(swept)} <= {*Parameters.model_fields}
+    if told_by_case or not isinstance(labels or {}, dict):
+        return labels
+    return {"branch": _name_of(point, swept), **(labels or {})}

@@ -1,0 +1,69 @@
+"""How many starts a share is of, and the confidence interval of the share that separates."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import xarray as xr
+from matplotlib.path import Path
+
+from disc_model.data.variables import stated_in
+from disc_model.display import counted
+from disc_model.figures.drawing import BLACK, halo, mark, sample, wide
+from disc_model.figures.types import Array, Artist, Axes
+from disc_model.figures.words import label_of
+
+SEPARATING = "separating"
+CORNERS = [(-0.4, -1), (0.4, -1), (0, -1), (0, 1), (-0.4, 1), (0.4, 1)]
+INTERVAL = Path(CORNERS, 3 * [Path.MOVETO, Path.LINETO])
+"""Mark of an interval in a legend: a line between two short ones."""
+
+
+def share_of_starts(study: xr.Dataset, variable: str) -> str:
+    """What the axis of shares says: of how many starts they are, if the study states it."""
+    options = stated_in(study, "options")
+    number = options.get("n_starts")
+    energies = options.get("energies")
+    if not isinstance(number, int) or not isinstance(energies, list):
+        return label_of(study[variable])[0]
+    if variable == "basin_fraction":  # of the starts of all energies
+        number *= len(energies)
+    return share_text(number)
+
+
+def share_text(number: int) -> str:
+    """The name of shares of a number of starts."""
+    return f"Share of {counted(number, 'start')}"
+
+
+def interval_of(study: xr.Dataset, variable: str) -> xr.Dataset | None:
+    """The ends of the confidence interval of the share of the starts that separate, the lower one first;
+    None if the study does not have them."""
+    names = [f"{variable}_low", f"{variable}_high"]
+    if not {*names} <= {*study} or SEPARATING not in study["attractor_class"]:
+        return None
+    return study[names].sel(attractor_class=SEPARATING, drop=True)
+
+
+def draw_interval(
+    ax: Axes, interval: xr.Dataset | None, classes: Sequence[str], along: Array
+) -> None:
+    """Draw the interval of the share that separates on each bar, at the places `along`, if starts of any
+    bar separate."""
+    if interval is None or SEPARATING not in classes:
+        return
+    look: dict[str, Any] = {"linewidth": wide(0.9), "markersize": mark(4), "marker": "_"}
+    ends = interval.to_dataarray().transpose("variable", ...).values
+    for place, (low, high) in zip(along, ends.T, strict=True):
+        ax.plot([place, place], [low, high], color=BLACK, path_effects=halo(2.5), zorder=3, **look)
+
+
+def entries_of_interval(study: xr.Dataset, variable: str, classes: Sequence[str]) -> list[Artist]:
+    """The entry of a legend for the intervals that are drawn, with their level, if any are."""
+    if interval_of(study, variable) is None or SEPARATING not in classes:
+        return []
+    level = stated_in(study, "options").get("confidence")
+    name = "interval of the share that separates"
+    if level is not None:
+        name = f"{100 * level:g} % {name}"
+    look: dict[str, Any] = {"color": BLACK, "markersize": mark(8), "markeredgewidth": wide(0.9)}
+    return [sample(label=name, linestyle="", marker=INTERVAL, **look)]
