@@ -8,7 +8,6 @@ import xarray as xr
 from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
 from disc_model.figures.drawing import (
     BLACK,
@@ -31,8 +30,8 @@ from disc_model.figures.rate_scale import LINEAR, scale_rates
 from disc_model.figures.selection import (
     NORM,
     broken,
+    doubts,
     normalizations,
-    not_near,
     parts_along,
     spans,
     stretches,
@@ -137,8 +136,8 @@ def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
     followed = [followed_rates(study) for study in studies]
     if any(unjoined(rate).any() for rate in followed):
         handles.append(sample(label=ALONE, **_dot(alone=True)))
-    if any(_elsewhere(study).any() for study in studies):
-        handles.append(sample(label=NOT_NEAR.label, **_elsewhere_look()))
+    for name in {look.label for study in studies for look in doubts(study, "growth_rate")}:
+        handles.append(sample(label=name, **_elsewhere_look()))
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in followed):
         wide_step = f"line open: a step of over {LINEAR:g}/s"
         handles.append(open_line(wide_step, BLACK, wide(0.8)))
@@ -365,10 +364,10 @@ def followed_rates(study: xr.Dataset) -> Array:
 
 def _elsewhere(study: xr.Dataset) -> Mask:
     """Speeds at which the motion is not near the cycle."""
-    found = not_near(study, "growth_rate")
-    if found is None:
-        return np.zeros(study["growth_rate"].shape, dtype=bool)
-    return found.values
+    away = np.zeros(study["growth_rate"].shape, dtype=bool)
+    for mask in doubts(study, "growth_rate").values():
+        away |= mask.values
+    return away
 
 
 def peaks(study: xr.Dataset) -> Iterator[Peak]:

@@ -99,6 +99,11 @@ def floquet(
     return cycle
 
 
+def cycle_near_start(case: Parameters, tol: float) -> FloquetResult:
+    """The cycle near the static start, and whether the motion from there is near it."""
+    return beside_motion(find_cycle(case, tol))
+
+
 def beside_motion(cycle: FloquetResult) -> FloquetResult:
     """The result of the search near the static start. The message of an unstable cycle says so if the
     motion from there is near another one, or cannot be near this one any more."""

@@ -22,7 +22,6 @@ from disc_model.errors import (
     with_known_names,
 )
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.simulation.case import Start
 from disc_model.sources import versions_text
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
@@ -61,7 +60,7 @@ def _quantity(
     """
     faults = foreign_case(case)
     try:
-        begin = Start.model_validate({} if start is None else {"perturbation": start})
+        point = Point.perturbed(case, start)
         quantity = quantity_of(name).model_validate(options)
     except ParameterError as error:
         faults += [_fault_of_argument(fault, options) for fault in error.faults]
@@ -72,7 +71,7 @@ def _quantity(
 
     with progress_bar(name, quantity.starts, progress) as bar:
         quantity.report_to(bar.advance)
-        row, message = quantity.compute_point(Point(case, begin))
+        row, message = quantity.compute_point(point)
     coordinates = coordinates_of(quantity.COORDINATES, quantity)
     message = with_cuts(message, row, quantity, coordinates)
     columns = variables_of(quantity.COLUMNS, coordinates, [row], {POINT: 1})

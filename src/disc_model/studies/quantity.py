@@ -178,6 +178,12 @@ class Point(NamedTuple):
     start: Start = Start()
     sample: int = 0
 
+    @classmethod
+    def perturbed(cls, case: Parameters, perturbation: Mapping[str, float] | None) -> Self:
+        """The point of a case whose static start is perturbed, by name."""
+        given = {} if perturbation is None else {"perturbation": perturbation}
+        return cls(case, Start.model_validate(given))
+
 
 class Coordinate(NamedTuple):
     """A dimension of a quantity's own: unit and name in words, both of which may show options, values

@@ -40,10 +40,9 @@ class Floquet(Quantity):
         return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.cycle import find_cycle
-        from disc_model.stability.floquet import beside_motion
+        from disc_model.stability.floquet import cycle_near_start
 
-        cycle = beside_motion(find_cycle(point.parameters, self.tol))
+        cycle = cycle_near_start(point.parameters, self.tol)
         leading = (
             complex(cycle.multipliers[0])
             if cycle.status is CycleStatus.OK

@@ -241,10 +241,9 @@ def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    from disc_model.stability.cycle import find_cycle
-    from disc_model.stability.floquet import beside_motion
+    from disc_model.stability.floquet import cycle_near_start
 
-    cycle = beside_motion(find_cycle(p, tol))
+    cycle = cycle_near_start(p, tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
     row.update(beside_motion_columns(cycle))
     if cycle.motion in SAMPLE_CYCLES:
