@@ -179,7 +179,7 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     (fold,) = [special for special in branch.special if special.kind == "fold"]
     (ax,) = figure_of(branch.plot(y)).axes
     shown = lines(ax)
-    mark = shown["fold at 15.095"]
+    mark = shown["fold at 15.095 rad/s"]
     speed = fold.values[0]
     height = factor * getattr(fold, y)
     # the same numbers, but for the factor's rounding
@@ -221,7 +221,7 @@ def test_several_special_points_of_a_kind_are_counted() -> None:
     _, ax = pyplot.subplots()
     handles = _mark_special_points(ax, made, "period", (1.0, 1e3))
     names = [str(handle.get_label()) for handle in handles]
-    assert names == ["2 folds", "period doubling at 16"]
+    assert names == ["2 folds", "period doubling at 16 rad/s"]
     shown = lines(ax)
     folds = shown["2 folds"]
     assert folds.get_xdata().tolist() == [15.0, 15.5]
@@ -235,7 +235,7 @@ def test_a_branch_of_both_stabilities_names_them_on_a_linear_axis() -> None:
     figure = figure_of(both.plot("range"))
     (ax,) = figure.axes
     assert ax.get_yscale() == "linear"
-    assert labels(figure) == ["stable", "unstable", "fold at 15.095"]
+    assert labels(figure) == ["stable", "unstable", "fold at 15.095 rad/s"]
     whole = figure_of(branch().plot("range"))
     assert labels(whole) == ["stable"]
 
@@ -244,7 +244,7 @@ def test_a_special_point_of_a_stiffness_is_marked_in_kilonewtons() -> None:
     branch = dm.continue_cycle(P.replace(Omega=15), "k_p", (1.9e4, 2.1e4))
     (fold,) = [special for special in branch.special if special.kind == "fold"]
     (ax,) = figure_of(branch.plot("growth_rate")).axes
-    mark = lines(ax)["fold at 20.027"]
+    mark = lines(ax)["fold at 20.027 kN/m"]
     assert mark.get_xdata() == pytest.approx([fold.values[0] / 1e3], rel=1e-12)
     assert "kN/m" in ax.get_xlabel()
 
@@ -314,7 +314,7 @@ def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
 
 
 def test_branches_on_the_same_axes_share_a_legend() -> None:
-    """All were black, with "fold at 15.095" and "2 folds" beside each other."""
+    """All were black, with "fold at 15.095 rad/s" and "2 folds" beside each other."""
     bounds = (14.8, 15.2)
     folded = dm.continue_cycle(QUIET, "Omega", bounds)
     ax = branch().plot("period")
@@ -511,7 +511,7 @@ def test_a_special_point_of_minus_infinity_stands_at_the_lower_edge_too() -> Non
     made: Any = SimpleNamespace(special=[grazing], parameters=("Omega",))
     _, ax = pyplot.subplots()
     [entry] = _mark_special_points(ax, made, "growth_rate", (1.0, 1.0))
-    assert entry.get_label() == "grazing at 2"
+    assert entry.get_label() == "grazing at 2 rad/s"
     [mark] = [line for line in ax.lines if line.get_transform() != ax.transData]
     assert (mark.get_marker(), mark.get_xdata().tolist()) == (entry.get_marker(), [2.0])
     place = mark.get_transform().transform((2.0, *mark.get_ydata()))

@@ -207,7 +207,7 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     expected = [f"{x:.0f} Hz" for x in frequencies]
     assert named[:count] == expected
     branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
-    assert "fold at 15.095" in labels(branch.plot().figure)
+    assert "fold at 15.095 rad/s" in labels(branch.plot().figure)
     for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (P, "15.1")):
         assert text in shown._repr_html_()
 

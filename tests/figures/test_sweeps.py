@@ -837,6 +837,30 @@ def test_a_point_of_a_sample_that_no_line_joins_is_a_dot() -> None:
     pyplot.close("all")
 
 
+def test_samples_with_names_are_listed_as_in_their_table() -> None:
+    """They were in the order of their preloads."""
+    case = dm.Parameters(N=385, Omega=15, n_diameters=2)
+    table = {"sample": ["A", "B", "C"], "N": [390.0, 300.0, 350.0], "k": [11e3, 12e3, 13e3]}
+    study = dm.sweep(lambda case: case.N, case, zip=table, Omega=[12, 13])
+    ax = dm.plot_sweep(study, "value", x="Omega")
+    said = labels(ax.figure)
+    assert [text.rpartition(" ")[2] for text in said] == ["A", "B", "C"]
+    pyplot.close("all")
+
+
+def test_samples_that_are_nearly_alike_keep_their_digits() -> None:
+    """Lines are known by their names."""
+    case = dm.Parameters(N=385, Omega=15, n_diameters=2)
+    for springs, digits in (
+        ([11892.137, 11922.137], ["11.89", "11.92"]),
+        ([11892.137, 11892.237], ["11.8921", "11.8922"]),
+    ):
+        study = dm.sweep(lambda case: case.N, case, k=springs, Omega=[12, 13])
+        ax = dm.plot_sweep(study, "value", x="Omega", lines="k")
+        assert [text.split()[-2] for text in labels(ax.figure)] == digits
+        pyplot.close("all")
+
+
 def test_samples_with_names_of_their_own_are_curves_too() -> None:
     names = [f"sample {number}" for number in range(8)]
     found = samples(8, sample=names)

@@ -16,6 +16,14 @@ def along(name: str, value: float) -> xr.DataArray:
 
 
 @pytest.mark.parametrize(
+    ("value", "text"), [(11892.137, "11.89 kN/m"), (11892.1, "11.8921 kN/m"), (12e3, "12 kN/m")]
+)
+def test_numbers_that_six_digits_do_not_give_have_four(value: float, text: str) -> None:
+    """Names of samples were as long as "11.8921 kN/m", which was rounded all the same."""
+    assert value_text(xr.Dataset(coords={"k": value}), "k", short=True) == text
+
+
+@pytest.mark.parametrize(
     ("name", "value", "text"),
     [
         ("contact_compliance", 0.0, "rigid contact"),

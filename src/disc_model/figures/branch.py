@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import axis_of
+from disc_model.data.variables import axis_of, presentation_of
 from disc_model.errors import require
 from disc_model.figures.branch_family import NAME, SPECIAL_MARKS, join_family, next_look
 from disc_model.figures.branch_lines import (
@@ -119,6 +119,7 @@ def _mark_special_points(
     kind that is there once, or else how many there are. The factors are those from SI to the units
     of both axes."""
     across, upward = factors
+    unit = presentation_of(branch.parameters[0]).unit
     handles: list[Any] = []
     for kind, (sign, colour, name) in SPECIAL_MARKS.items():
         special = [each for each in branch.special if each.kind == kind]
@@ -128,7 +129,7 @@ def _mark_special_points(
         heights = np.array([_upward(each, branch, y) * upward for each in special], float)
         text = f"{len(special)} {name}s"
         if len(special) == 1:
-            text = f"{name} at {places[0]:.5g}"
+            text = f"{name} at {places[0]:.5g} {unit}".rstrip()
         look: dict[str, Any] = {"color": colour, "markersize": mark(4), "markeredgewidth": 0.5}
         handles += ax.plot(places, above_floor(heights), sign, label=text, **look)
         lowest = places[np.isneginf(heights)]

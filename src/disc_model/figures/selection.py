@@ -12,7 +12,7 @@ from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
 from disc_model.figures.kinds.base import NORM
 from disc_model.figures.types import Array, Mask, Words
-from disc_model.figures.words import NO_VALUE, named_value, rank_of, value_text
+from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
 
 WITHOUT_CYCLE = (
     "no_cycle",
@@ -110,7 +110,8 @@ def parts_along(
     study: Data, by: str | None, words: Mapping[str, str] | None = None
 ) -> list[Part[Data]]:
     """The parts of a study, or of a variable, along a dimension, in order: words as in `WORDS`, or
-    by the number that they begin with. The whole without a dimension.
+    by the number that they begin with; samples with names as they stand in their table. The whole
+    without a dimension.
 
     words : other words for values along the dimension
     """
@@ -119,15 +120,30 @@ def parts_along(
     # a zip has several coordinates
     names = [str(name) for name, values in study.coords.items() if values.dims == (by,)]
     slices = [study.isel({by: i}) for i in range(study.sizes[by])]
-    parts = [_part(data, by, names, words or {}) for data in slices]
+    parts = [_part(data, by, names, words or {}, short=True) for data in slices]
+    if len({part.name for part in parts}) < len(parts):  # lines are known by their names
+        parts = [_part(data, by, names, words or {}) for data in slices]
+    if len(names) > 1 and any(_are_labels(study[name]) for name in names):
+        return parts
     return sorted(parts, key=lambda part: _rank(part.data, by, names, words or {}))
 
 
-def _part(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> Part[Data]:
+def _are_labels(values: xr.DataArray) -> bool:
+    """Whether values are words that a reader gives samples, and none of parameters."""
+    return values.dtype.kind in "UO" and not {*map(str, values.values)} <= {*WORDS}
+
+
+def _part(
+    data: Data, by: str, names: Sequence[str], words: Mapping[str, str], *, short: bool = False
+) -> Part[Data]:
     """A part with its names, by its values along some coordinates; words stand for themselves."""
-    name = ", ".join(_word(data, one, by, words) or named_value(data, one) for one in names)
-    value = ", ".join(_word(data, one, by, words) or value_text(data, one) for one in names)
-    return Part(name, value, data)
+    named = []
+    values = []
+    for one in names:
+        word = _word(data, one, by, words)
+        named.append(word or named_value(data, one, short=short))
+        values.append(word or value_text(data, one, short=short))
+    return Part(", ".join(named), ", ".join(values), data)
 
 
 def _rank(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -> list[Any]:

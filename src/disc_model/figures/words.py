@@ -106,6 +106,7 @@ NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
 )  # names that are words, and no symbols such as f_ss
+ROUNDING = 1e-9  # relative, of a number in another unit
 STAYS = "stays"  # key of words for the time at each value of a sweep
 LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
@@ -465,8 +466,9 @@ def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
 # ---- Names of values
 
 
-def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
-    """A value along a dimension with its unit, or its word."""
+def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False) -> str:
+    """A value along a dimension with its unit, or its word; a short one has four digits if six do not give
+    it exactly, as that of a sample."""
     value = data[by].item()
     if isinstance(value, str):
         words = KINDS if by == "kind" else WORDS
@@ -483,12 +485,21 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str) -> str:
         return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
     _, unit, factor = named(data[by])
     unit, factor = UNITS.get().get(by, (unit, factor))
-    return f"{value * factor:g} {unit}".strip()
+    number = _short_number(value * factor) if short else f"{value * factor:g}"
+    return f"{number} {unit}".strip()
 
 
-def named_value(data: xr.DataArray | xr.Dataset, by: str) -> str:
+def _short_number(value: float) -> str:
+    """A number with up to six digits, or with four if six do not give it exactly."""
+    text = f"{value:g}"
+    short = f"{value:.4g}"
+    is_exact = np.isclose(float(text), value, rtol=ROUNDING, atol=0)
+    return text if is_exact or "e" in short else short
+
+
+def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False) -> str:
     """The name of a dimension, and a value along it; a word stands for itself."""
-    text = value_text(data, by)
+    text = value_text(data, by, short=short)
     value = data[by].item()
     if isinstance(value, str) or by in AT_ZERO:
         return text
