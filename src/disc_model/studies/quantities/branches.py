@@ -114,9 +114,10 @@ class Branches(Quantity):
     }
 
     def cost(self, unit: UnitCosts) -> float:
-        """The sweep, whose stays are doubled once or twice, and some ten branches."""
-        sweep = 6 * unit.second * (self.scan.intervals + 1) * self.dwell
-        return sweep + 10 * unit.cycle * self.max_points
+        """The sweep up and down, whose stays last ten times as long as the shortest on average, and
+        three branches of the greatest length."""
+        sweep = 20 * unit.second * (self.scan.intervals + 1) * self.dwell
+        return sweep + 3 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep
