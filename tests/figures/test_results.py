@@ -318,8 +318,9 @@ def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
         (sweep, [0.5, 0.5], [0.5, 0.5]),
     ):
         ax = dm.plot_sweep(study)
-        assert labels(ax.figure) == ["quiet", "separating"]
-        assert [bar.get_height() for bar in ax.patches] == low + high
+        interval = "95 % interval of the share that separates"
+        assert labels(ax.figure) == ["quiet", "separating", interval]
+        assert [bar.get_height() for bar in ax.patches] == high + low  # those that separate first
 
 
 def test_shares_of_undecided_starts_say_what_decides_them() -> None:

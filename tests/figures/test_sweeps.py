@@ -32,6 +32,7 @@ SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
 KNOWN["value"] = "Critical static friction μ_s"
+KNOWN["border"] = "Static friction μ_s above which the motion stays unstable"
 KNOWN |= {"onset_speed": "Speed at separation onset"}
 KNOWN |= {"offset_speed": "Speed at separation end"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
