@@ -7,7 +7,8 @@ import xarray as xr
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.multipliers import period_text
 from disc_model.figures.names import name_of
-from disc_model.figures.words import missing_text, named_value, value_text
+from disc_model.figures.words import missing_text, named, named_value, value_text
+from disc_model.studies.registry import quantity_names, quantity_of
 
 
 def along(name: str, value: float) -> xr.DataArray:
@@ -180,3 +181,18 @@ def test_periods_of_more_than_a_second_are_in_seconds(period: float, text: str) 
 )
 def test_modes_are_named_by_their_nodal_diameters(diameters: tuple[int, ...], name: str) -> None:
     assert name_of(*diameters) == name
+
+
+def test_no_two_variables_of_a_quantity_have_one_name() -> None:
+    """Dots of the explorer were "What became of the computation: ok" twice."""
+    for quantity in quantity_names():
+        flags = {
+            name: column
+            for name, column in quantity_of(quantity).COLUMNS.items()
+            if "flag_meanings" in column.attributes
+        }
+        variables = [
+            xr.DataArray(0, name=name, attrs=column.attributes) for name, column in flags.items()
+        ]
+        labels = [named(variable).name for variable in variables]
+        assert len(set(labels)) == len(labels), quantity

@@ -91,6 +91,9 @@ SHORT = {
     "mode": "mode",
     "onset_speed": "speed at separation onset",
     "offset_speed": "speed at separation end",
+    "scan_status": "what became of the computation at a speed of the scan",
+    "sweep_status": "what became of the computation at a speed of the sweep",
+    "rate_status": "what became of the computation at a rate of the ramp",
 }
 """What labels call variables whose long names explain them."""
 TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
