@@ -23,6 +23,7 @@ SPEEDS = np.linspace(12, 15, 10)
 LOADS = [100.0, 200, 400]
 NEUTRAL = Curve(SPEEDS, np.linspace(300, 100, 10), "neutral")
 FOLD = Curve(SPEEDS, SPEEDS * 20, "fold", "2 f_s = 135.42 Hz")
+NEVER = "none found from 12 to 15 rad/s\nin steps of 0.1 rad/s within 900 s"
 PAPER_POINTS = {"paper": (200, 12.6)}
 
 
@@ -46,10 +47,41 @@ def chart(fake_motions: None, monkeypatch: pytest.MonkeyPatch) -> Callable[..., 
 def test_curves_crossings_and_what_the_paper_says_are_named(chart: Callable[..., Figure]) -> None:
     figure = chart()
     named = {"cycle loses stability", "stable cycle ends (fold)", "separation begins, within 900 s"}
-    named |= {"paper", "2 $f_s$ = 135.42 Hz"}
+    named |= {"paper", "2 $f_s$ = 135.42 Hz", NEVER}
     assert set(labels(figure)) == named
     (ax,) = figure.axes
     assert {text.get_text() for text in ax.texts} == {"1"}
+
+
+@pytest.mark.parametrize("loads", [[260.0], LOADS])
+def test_loads_without_a_critical_speed_stand_beside_the_panel(loads: list[float]) -> None:
+    """They were left out, and nothing said so."""
+    lowest = xr.DataArray([[12.5]], dims=("N", "horizon"), coords={"N": [180.0]})
+    study = _scanned(lowest.reindex(N=[180.0, *loads]).sortby("N"))
+    (ax,) = draw("critical_speed", study).axes
+    beside = lines(ax)["none found from 8 to 10 rad/s\nin steps of 1 rad/s within 60 s"]
+    assert beside.get_ydata().tolist() == loads
+
+
+def test_a_chart_without_any_critical_speed_is_drawn() -> None:
+    lowest = xr.DataArray([[np.nan]], dims=("N", "horizon"), coords={"N": [180.0]})
+    (ax,) = draw("critical_speed", _scanned(lowest)).axes
+    beside = lines(ax)["none found from 8 to 10 rad/s\nin steps of 1 rad/s within 60 s"]
+    assert beside.get_ydata().tolist() == [180.0]
+
+
+def _scanned(lowest: xr.DataArray) -> xr.Dataset:
+    """Critical speeds of several loads, which have no further crossings."""
+    dims = ("N", "horizon", "crossing_number")
+    count = lowest.sizes["N"]
+    data = {
+        "critical_speed": lowest,
+        "crossing": (dims, np.full((count, 1, 1), np.nan)),
+        "crossing_kind": flag(dims, np.full((count, 1, 1), "none"), ("none", "begins", "ends")),
+        "status": status(("N",), ["ok"] * count),
+    }
+    coords = {"horizon": [60.0], "crossing_number": [0], "scan_Omega": [8.0, 9.0, 10.0]}
+    return xr.Dataset(data, coords, {"base": '{"normalization": "as_published"}'})
 
 
 def test_a_line_does_not_jump_to_another_branch() -> None:
@@ -268,5 +300,5 @@ def test_curves_are_numbered_within_the_panel_where_they_are_seen() -> None:
 
 
 def test_a_mark_at_the_lowest_speed_is_whole(chart: Callable[..., Figure]) -> None:
-    [onsets] = [line for line in chart().axes[0].lines if line.get_marker() == "o"]
+    onsets = lines(chart().axes[0])["separation begins, within 900 s"]
     assert not onsets.get_clip_on()

@@ -25,10 +25,10 @@ def study_of(function: str, name: str, options: str, **attrs: str) -> xr.Dataset
 @pytest.mark.parametrize(
     ("horizon", "said"),
     [
-        ("50", "none from 8 to 22 rad/s within 50 s"),
-        ('"2 min"', "none from 8 to 22 rad/s within 2 min"),
-        ("[50]", "none from 8 to 22 rad/s within 50 s"),
-        ("[50, 100]", "none from 8 to 22 rad/s"),
+        ("50", "none found from 8 to 22 rad/s in steps of 14 rad/s within 50 s"),
+        ('"2 min"', "none found from 8 to 22 rad/s in steps of 14 rad/s within 2 min"),
+        ("[50]", "none found from 8 to 22 rad/s in steps of 14 rad/s within 50 s"),
+        ("[50, 100]", "none found from 8 to 22 rad/s in steps of 14 rad/s"),
     ],
 )
 def test_a_critical_speed_that_was_not_found_has_its_horizon(horizon: str, said: str) -> None:
@@ -39,7 +39,10 @@ def test_a_critical_speed_that_was_not_found_has_its_horizon(horizon: str, said:
 
 def test_a_critical_speed_names_the_horizon_that_was_not_given() -> None:
     study = dm.sweep(dm.critical_speed, CASE, N=LOADS, bounds=(8, 9))
-    assert missing_text(study, "critical_speed") == "none from 8 to 9 rad/s within 1000 s"
+    assert (
+        missing_text(study, "critical_speed")
+        == "none found from 8 to 9 rad/s in steps of 1 rad/s within 1000 s"
+    )
     ax = dm.plot_sweep(study)
     assert " ".join(ax.get_ylabel().split()) == "Critical speed within 1000 s (rad/s)"
     pyplot.close("all")
@@ -69,7 +72,7 @@ def test_a_horizon_that_varies_is_an_axis_and_is_named_once_it_is_selected() -> 
 
 def test_a_critical_value_of_multipliers_has_no_horizon() -> None:
     study = study_of("critical", "value", '{"bounds": [8, 22]}', units="rad s-1")
-    assert missing_text(study, "value") == "none up to 22 rad/s"
+    assert missing_text(study, "value") == "none found up to 22 rad/s"
     assert label_in(study, "value") == "Value (rad/s)"
 
 

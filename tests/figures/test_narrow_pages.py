@@ -165,7 +165,7 @@ def test_speeds_of_a_hysteresis_that_were_not_found_fit_a_low_page(
     dm.plot_sweep(study, ["onset_speed", "offset_speed"], ax=ax)
     assert_on_page(figure)
     [row] = rows_above(ax)
-    assert row.words.get_text() == "none within the bounds"
+    assert row.words.get_text() == "none found within the bounds"
     pyplot.close(figure)
 
 
@@ -261,7 +261,7 @@ def test_no_line_leads_to_a_value_at_the_bound_of_its_search() -> None:
     alone = [line for line in ax.lines if line.get_linestyle() == "None"]
     assert any([*line.get_xdata()] == [280.0, 300.0] for line in alone)
     [row] = rows_above(ax)
-    assert row.words.get_text() == "none up to 14.5 rad/s"
+    assert row.words.get_text() == "none found up to 14.5 rad/s"
     pyplot.close("all")
 
 

@@ -7,7 +7,8 @@ import xarray as xr
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.multipliers import period_text
 from disc_model.figures.names import name_of
-from disc_model.figures.words import missing_text, named_value, value_text
+from disc_model.figures.words import missing_text, named, named_value, value_text
+from disc_model.studies.registry import quantity_names, quantity_of
 
 
 def along(name: str, value: float) -> xr.DataArray:
@@ -94,7 +95,13 @@ def test_points_without_a_separation_are_called_so(name: str, options: str, text
 @pytest.mark.parametrize(
     ("quantity", "name", "dims", "long_name", "text"),
     [
-        ("critical_speed", "critical_speed", "N", "lowest speed", "none from 5 to 24 rad/s"),
+        (
+            "critical_speed",
+            "critical_speed",
+            "N",
+            "lowest speed",
+            "none found from 5 to 24 rad/s in steps of 19 rad/s",
+        ),
         ("critical_speed", "crossing", "crossing_number", "a speed", "no further crossing"),
         ("branches", "period", "branch_point", "period", "no branch, or one of fewer points"),
         (
@@ -102,7 +109,7 @@ def test_points_without_a_separation_are_called_so(name: str, options: str, text
             "onset_speed",
             "N",
             "speed, nan if at none or at the lowest",
-            "none within the bounds",
+            "none found within the bounds",
         ),
         ("regions", "period", "N", "period of the cycle", "no cycle is followed"),
         ("floquet", "period", "N", "period of the cycle", "no value"),
@@ -115,6 +122,44 @@ def test_a_missing_value_has_its_reason(
     variable = xr.DataArray([1.0, np.nan], dims=dims, attrs={"long_name": long_name})
     study = xr.Dataset({name: variable}, {"scan_Omega": [5.0, 24.0]}, {"quantity": quantity})
     assert missing_text(study, name) == text
+
+
+@pytest.mark.parametrize(
+    ("speeds", "text"),
+    [
+        ([8.0, 9.0, 10.0], "none found from 8 to 10 rad/s in steps of 1 rad/s"),
+        ([8.0, 8.5, 10.0], "none found from 8 to 10 rad/s"),
+        ([8.0], "none found from 8 to 8 rad/s"),
+    ],
+)
+def test_a_critical_speed_may_lie_between_the_speeds_of_the_scan(
+    speeds: list[float], text: str
+) -> None:
+    """Pictures said that there is none, of a range that was only sampled."""
+    study = xr.Dataset(coords={"scan_Omega": speeds})
+    assert missing_text(study, "critical_speed") == text
+
+
+def test_several_steps_of_scans_are_not_named() -> None:
+    study = xr.Dataset(coords={"scan_Omega": [8.0, 9.0, 10.0], "step": [1.0, 2.0]})
+    study["critical_speed"] = ("step", [np.nan, np.nan])
+    assert missing_text(study, "critical_speed") == "none found from 8 to 10 rad/s"
+
+
+def test_a_sweep_that_found_no_separation_names_its_steps() -> None:
+    attributes = {"long_name": "speed, nan if at none or at the lowest"}
+    onset = xr.DataArray([np.nan], dims="N", attrs=attributes)
+    study = xr.Dataset({"onset_speed": onset}, {"sweep_Omega": [8.0, 8.5, 9.0]})
+    text = "none found within the bounds in steps of 0.5 rad/s"
+    assert missing_text(study, "onset_speed") == text
+
+
+def test_a_search_without_a_critical_value_names_its_largest_step() -> None:
+    value = xr.DataArray([np.nan, np.nan], dims="N", attrs={"units": "rad s-1"})
+    attributes = {"function": "critical", "options": '{"bounds": [8, 22]}'}
+    study = xr.Dataset({"value": value, "resolution": ("N", [0.25, 0.5])}, attrs=attributes)
+    text = "none found up to 22 rad/s in steps of at most 0.5 rad/s"
+    assert missing_text(study, "value") == text
 
 
 @pytest.mark.parametrize(
@@ -136,3 +181,18 @@ def test_periods_of_more_than_a_second_are_in_seconds(period: float, text: str) 
 )
 def test_modes_are_named_by_their_nodal_diameters(diameters: tuple[int, ...], name: str) -> None:
     assert name_of(*diameters) == name
+
+
+def test_no_two_variables_of_a_quantity_have_one_name() -> None:
+    """Dots of the explorer were "What became of the computation: ok" twice."""
+    for quantity in quantity_names():
+        flags = {
+            name: column
+            for name, column in quantity_of(quantity).COLUMNS.items()
+            if "flag_meanings" in column.attributes
+        }
+        variables = [
+            xr.DataArray(0, name=name, attrs=column.attributes) for name, column in flags.items()
+        ]
+        labels = [named(variable).name for variable in variables]
+        assert len(set(labels)) == len(labels), quantity

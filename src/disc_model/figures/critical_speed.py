@@ -10,13 +10,15 @@ from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, PAPER, halo, letters, mark, mark_failed, row_of_panels
+from disc_model.figures.durations import duration_of
+from disc_model.figures.gap_rows import add_column
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.onsets import branches, speeds_of
 from disc_model.figures.selection import failed
 from disc_model.figures.swept_speeds import draw_sweeps
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import LOAD, SPEED
+from disc_model.figures.words import LOAD, SPEED, missing_text
 
 CONTACT = LOOKS["growing"]._replace(
     label="oscillations grow, or another\ncycle is reached, in contact"
@@ -51,6 +53,7 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
         handles += _curves(axes[0], overlays["curves"], cycle)
     horizon = float(study["horizon"].max())
     _onsets(axes[0], study, horizon, f"separation begins, within {horizon:g} s")
+    _without_onset(axes[0], study, horizon)
     _paper_points(axes[0], plot.paper_points)
 
     # in sweeps
@@ -131,6 +134,19 @@ def _paper_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
 
 
 # ---- Onsets
+
+
+def _without_onset(ax: Axes, study: xr.Dataset, horizon: float) -> None:
+    """Mark loads at which no speed of the scan separates, beside the panel."""
+    found = speeds_of(study, horizon)
+    without = np.array([row.size == 0 for row in found], dtype=bool)
+    if not without.any():
+        return
+    reason = missing_text(study, "critical_speed").replace(" in steps", "\nin steps")
+    if not duration_of(study, "critical_speed"):
+        reason += f" within {horizon:g} s"
+    look = {"marker": "o", "ms": mark(2.4), "mec": BLACK, "mew": 0.5, "c": "white"}
+    add_column(ax, study["N"].values[without], label=reason, **look)
 
 
 def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:

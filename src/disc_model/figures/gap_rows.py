@@ -1,5 +1,5 @@
-"""Rows of marks above a panel, which stand for points of its lines without a value, and why these have
-none."""
+"""Rows of marks above a panel, and columns beside one, which stand for points of its lines without a
+value, and why these have none."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -74,6 +74,22 @@ def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **lo
     )
     reasons[key].rows.append(row)
     stack_rows(ax)
+
+
+def add_column(ax: Axes, heights: Array, **look: Any) -> None:
+    """Mark points to the right of a panel on a strip, of values along its vertical axis at which there is
+    none along the horizontal one; the look has the label of a legend."""
+    right: Any = ax.transAxes
+    page: Any = ax.get_figure(root=True)
+    beside = right + ScaledTranslation(mark(FIRST) / 72, 0, page.dpi_scale_trans)
+    begin = (mark(FIRST) - 0.5 * mark(APART)) / 72
+    wide_strip = page.dpi_scale_trans + ScaledTranslation(1, 0, right)
+    place = blended_transform_factory(wide_strip, right)
+    strip = {"color": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
+    ax.add_artist(Rectangle((begin, 0), mark(APART) / 72, 1, transform=place, **strip))
+    transform = blended_transform_factory(beside, ax.transData)
+    ones = [1.0] * len(heights)
+    ax.plot(ones, heights, transform=transform, clip_on=False, linestyle="", **look)
 
 
 def silence_rows(ax: Axes) -> None:

@@ -91,6 +91,9 @@ SHORT = {
     "mode": "mode",
     "onset_speed": "speed at separation onset",
     "offset_speed": "speed at separation end",
+    "scan_status": "what became of the computation at a speed of the scan",
+    "sweep_status": "what became of the computation at a speed of the sweep",
+    "rate_status": "what became of the computation at a rate of the ramp",
 }
 """What labels call variables whose long names explain them."""
 TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
@@ -173,12 +176,14 @@ GONE: Mapping[str, Mapping[str, str]] = {
     },
 }
 """Why points that were computed have no value of some variables, by quantity."""
+NOT_SWEPT_OVER = "none found within the bounds"
+"""Said where no speed of a sweep is one at which separation begins or ends."""
 WITHOUT = {
     "if contact is not lost": "contact is not lost",
     "without one": "no cycle",
     "if there is none": "none found",
-    "if at none or at the lowest": "none within the bounds",
-    "if it still does at the lowest": "none within the bounds",
+    "if at none or at the lowest": NOT_SWEPT_OVER,
+    "if it still does at the lowest": NOT_SWEPT_OVER,
     "if there is none, or it continues": "none, or it continues",
     "if it was not": "it was not left",
     "if no step is audited": "no step is audited",
@@ -382,7 +387,8 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
     long name say; "" if they do not."""
     if name == "critical_speed" and "scan_Omega" in study.coords:
         speeds = study["scan_Omega"].values
-        return f"none from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+        found = f"none found from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+        return found + _steps_of(study, "scan_Omega")
     if name == "value" and study.attrs.get("function") == "critical":
         return _none_up_to_bound(study)
     if name not in study:
@@ -395,18 +401,42 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
     for dim, reason in BEYOND.items():
         if dim in dims:
             return reason
-    return WITHOUT.get(str(study[name].attrs.get("long_name", "")).partition(", nan ")[2], "")
+    reason = WITHOUT.get(str(study[name].attrs.get("long_name", "")).partition(", nan ")[2], "")
+    if reason == NOT_SWEPT_OVER:
+        return reason + _steps_of(study, "sweep_Omega")
+    return reason
+
+
+def _steps_of(study: xr.Dataset, scanned: str) -> str:
+    """In which steps the speed was scanned or swept, between which anything may be overlooked; "" if
+    these are not known, or not even."""
+    if scanned not in study.coords or "step" in study.dims or study[scanned].size < 2:
+        return ""
+    steps = np.diff(study[scanned].values)
+    if not np.allclose(steps, steps[0], rtol=1e-3):
+        return ""
+    return f" in steps of {abs(steps[0]):.3g} rad/s"
 
 
 def _none_up_to_bound(study: xr.Dataset) -> str:
     """What is said of a search that has found no critical value: the motion is stable at all values
-    up to the upper bound, which is in the unit of the value; "" of a bound that is a text."""
+    computed up to the upper bound, in the unit of the value, with their largest step if it is known;
+    "" of a bound that is a text."""
     highest = stated_in(study, "options").get("bounds", ["", ""])[1]
     if isinstance(highest, str):
-        return f"none up to {highest}" if highest else ""
-    shown = measured(study["value"].copy(data=np.full(study["value"].shape, float(highest))))
+        return f"none found up to {highest}" if highest else ""
+    found = f"none found up to {_as_value(study, float(highest)):.6g}"
     unit = unit_text(study["value"].attrs.get("units", "1"))
-    return f"none up to {shown.values.flat[0]:.6g} {unit}".rstrip()
+    if "resolution" in study and study["resolution"].notnull().any():
+        step = _as_value(study, float(study["resolution"].max()))
+        return f"{found} {unit}".rstrip() + f" in steps of at most {step:.2g} {unit}".rstrip()
+    return f"{found} {unit}".rstrip()
+
+
+def _as_value(study: xr.Dataset, number: float) -> float:
+    """A number in SI, in the unit that figures have for the critical value."""
+    values = study["value"].copy(data=np.full(study["value"].shape, number))
+    return float(measured(values).values.flat[0])
 
 
 def unit_text(units: str) -> str:

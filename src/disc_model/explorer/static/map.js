@@ -98,9 +98,12 @@ function drawMap() {
 /** The dots of a curve of growth rates, those of its stable points, unless others are chosen; they stand for the map's marks. */
 const stableDots = (variable) => marks().find((mark) => mark.key === `${variable.name}=stable`);
 
-/** The marks that lie over the cells of a map, as in the figures. */
-const marksOver = (variable, x, y) =>
-  [...variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y)), ...variable.doubts];
+/** The marks that lie over the cells of a map, as in the figures: a doubt that is one of them already is not drawn twice. */
+function marksOver(variable, x, y) {
+  const marks = variable.marks.filter((mark) => mark.axes.includes(x) && mark.axes.includes(y));
+  const names = marks.map((mark) => mark.look.label);
+  return [...marks, ...variable.doubts.filter((doubt) => !names.includes(doubt.look.label))];
+}
 
 /** The patterns of marks in black and in white. */
 const patternsOf = (ink, over) =>
