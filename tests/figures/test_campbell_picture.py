@@ -81,8 +81,33 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     assert ALONE not in labels(top.figure)
     crosses = [line for line in bottom.lines if line.get_marker() == "x"]
     assert [[*line.get_ydata()] for line in crosses] == [[0.35, 0.4]]
-    assert [peak.place for peak in peaks(study)] == [12, 11]
+    assert [peak.place for peak in peaks(study)] == [12]
     assert_fit_for_print(top.figure)
     without = dm.plot_campbell(campbell_study())[0].figure
     assert NOT_NEAR.label not in labels(without)
     pyplot.close("all")
+
+
+GAP = np.nan
+
+
+@pytest.mark.parametrize(
+    ("rates", "places"),
+    [
+        ([GAP, 0.74, 0.53, 0.45, 0.40, 0.36], []),
+        ([0.74, 0.70, 0.45, 0.40, 0.36, 0.33], []),
+        ([0.10, 0.20, 0.30, GAP, 0.20, 0.10], []),
+        ([0.10, 0.20, 0.30, 0.40, 0.50, 0.60], []),
+        ([0.10, 0.20, 0.30, 0.28, 0.20, 0.10], [12]),
+        ([0.00, 0.00, 0.30, 0.00, 0.00, 0.00], [12]),
+    ],
+    ids=["falls from a gap", "falls", "ends at a gap", "rises", "smooth peak", "by itself"],
+)
+def test_a_peak_is_above_both_its_neighbours(rates: list[float], places: list[int]) -> None:
+    """Points along a flank that falls from the end of a branch were peaks of growth, each with a line."""
+    study = campbell_study()
+    study["growth_rate"][:] = -0.05
+    study["growth_rate"][10:16] = rates
+    study["growth_rate"][:10] = rates[0]
+    study["growth_rate"][16:] = rates[-1]
+    assert [peak.place for peak in peaks(study)] == places

@@ -372,8 +372,8 @@ def _elsewhere(study: xr.Dataset) -> Mask:
 
 def peaks(study: xr.Dataset) -> Iterator[Peak]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
-    crossing, of the leading mode if possible; without points by themselves beside gaps, which are
-    of another cycle."""
+    crossing, of the leading mode if possible; without ends of lines, beyond which the rate may rise, and
+    points by themselves beside gaps, which are of another cycle."""
     speeds = study["Omega"].values
     followed = followed_rates(study)
     alone = unjoined(followed)
@@ -381,7 +381,8 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
     extent = np.ptp(speeds)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
     highest = np.where(beside, rate, -np.inf).max(axis=1)
-    tops = np.flatnonzero((rate >= LINEAR) & (rate == highest))
+    largest = (rate >= LINEAR) & (rate == highest)
+    tops = np.flatnonzero(largest & _above_neighbours(followed))
     for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
         leading = int(np.nanargmax(study["cycle_growth_rate"].values[i]))
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
@@ -392,6 +393,15 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
         if np.isfinite(distance).any():
             crossing = study.isel(crossing=int(distance.argmin()))
         yield Peak(int(i), crossing, bool(alone[i]))
+
+
+def _above_neighbours(rate: Array) -> Mask:
+    """Points whose growth rate is higher than those of both neighbours; none beside a gap or at an end
+    of the range."""
+    extended = np.concatenate([[np.nan], rate, [np.nan]])
+    before = extended[:-2]
+    after = extended[2:]
+    return (rate > before) & (rate > after)
 
 
 def _without_lone_points(rate: Array) -> Array:
