@@ -19,7 +19,7 @@ from disc_model.figures.classes import name_of
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
-from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
 from disc_model.studies.run import describe
 from tests.blocks import RIG
@@ -191,6 +191,24 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     assert said == ["unstable at all values", "stable at the upper bound"]
     both = dm.plot_sweep(study, ["value", "border"])
     assert both.get_ylabel() == "Speed Ω (rad/s)"
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
+    """One line joined them, with a greatest value at 0.24 that there is not."""
+    study = xr.Dataset(
+        {"value": ("mu_k", [9.14, 12.61, 9.48]), "border": ("mu_k", [15.74, 12.61, 9.48])},
+        {"mu_k": [0.20, 0.24, 0.28]},
+    )
+    _, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(study, "value", ax=ax)
+    heights = ax.lines[0].get_ydata()
+    assert np.flatnonzero(np.isnan(heights)).tolist() == [1]
+    assert said_above(ax) == [ANOTHER_BORDER]
+    [row] = rows_above(ax)[0].rows
+    assert row.get_xdata() == pytest.approx([0.22])
+    assert said_above(dm.plot_sweep(study, "border")) == []
     pyplot.close("all")
 
 

@@ -13,7 +13,7 @@ from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
-from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.selection import (
     Part,
     beyond_lowest_speed,
@@ -207,9 +207,16 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
     return {reason: gone & ~below, CONTACT_LOST: gone & below}
 
 
-def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks) -> None:
-    """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
-    between their points, in the colours of the lines: no points lie there."""
+def reason_of_open_steps(variable: str) -> str:
+    """The words that say why lines of a variable are open at some steps."""
+    return ANOTHER_BORDER if variable == "value" else OPEN
+
+
+def mark_open_steps(
+    ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks, reason: str
+) -> None:
+    """Mark the steps at which lines are open above the panel by strokes halfway between their points,
+    in the colours of the lines: no points lie there."""
     if not steps:  # as along words
         return
     middle = 0.5 * (along[:-1] + along[1:])
@@ -218,4 +225,4 @@ def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Lo
     for name, is_gap in steps.items():
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
-            add_row(ax, OPEN, middle[is_gap], looks.sweep, **look)
+            add_row(ax, reason, middle[is_gap], looks.sweep, **look)
