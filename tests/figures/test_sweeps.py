@@ -739,6 +739,27 @@ def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int)
     assert top.x1 <= figure.bbox.x1
 
 
+def test_filled_marks_and_open_ones_of_other_lines_are_both_seen() -> None:
+    """A filled mark was larger than the open ones, and covered them or filled those around it."""
+    flags = {
+        "flag_values": np.arange(3, dtype=np.int8),
+        "flag_meanings": "undecided changing settled",
+    }
+    settled = np.array([[0, 2, 0], [2, 0, 0]], np.int8)
+    dims = ("direction", "sweep_Omega")
+    study = xr.Dataset(
+        {"separation_rate": (dims, np.zeros((2, 3))), "sweep_settled": (dims, settled, flags)},
+        {"direction": ["up", "down"], "sweep_Omega": [4.0, 6.0, 8.0]},
+    )
+    ax = dm.plot_sweep(study, "separation_rate")
+    up, down, _, *filled = ax.lines
+    assert [[*line.get_xdata()] for line in filled] == [[4, 8], [6, 8]]
+    for line, mark in zip((up, down), filled, strict=True):
+        assert mark.get_markersize() == line.get_markersize()
+        assert mark.get_zorder() < down.get_zorder()
+    assert up.get_markersize() > down.get_markersize()
+
+
 def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     """They stood on the line as any other."""
     speeds = [7.3, 7.35, 7.4]

@@ -40,6 +40,7 @@ MARK = 3.0  # points, size of the marks of lines,
 WIDER = 2.5  # by so much larger for each line that others cover,
 WIDEST = 8.0  # but not beyond this
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
+FILLED = 1.9  # order of filled marks, just below that of lines
 MARGIN = 0.03  # share of the panel beside values
 ROOM = 0.12  # share of the panel beside its values that has room for them
 
@@ -142,8 +143,8 @@ def set_margins(ax: Axes) -> None:
 
 
 def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:
-    """Fill the marks of points whose value may be another than that of a settled motion; those of a
-    panel have one entry in the legend."""
+    """Fill the marks of points whose value may be another than that of a settled motion, below the open
+    ones of other lines, so that both are seen; those of a panel have one entry in the legend."""
     by = remaining(array, [x])
     along = measured_along(array[x]).values
     for reason, doubtful in doubts(study, str(array.name)).items():
@@ -156,7 +157,7 @@ def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, look
             here = chosen.data.values & np.isfinite(part.data.values)
             if here.any():
                 look |= {**looks.of(part.name), "label": "_nolegend_"}
-                look["markersize"] += mark(1)
+                look["zorder"] = FILLED
                 ax.plot(along[here], part.data.values[here], **look)
 
 
