@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.disc.given import DiscReport, ModeOrigin
 from disc_model.disc import plausibility
+from disc_model.disc.given import DiscReport, ModeOrigin
 from tests.refusals import refusal
 
 DIAMETERS = (1, 0, 2)
