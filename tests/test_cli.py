@@ -413,7 +413,7 @@ def test_the_exit_code_of_snakemake_is_passed_on(
         (0, ["--target", "explorer"], True),
         (1, ["--target", "explorer"], False),
         (0, ["--target", "explorer", "--unlock"], False),
-        (0, [], False),
+        (0, ["--target", "gc"], False),
     ],
 )
 def test_the_page_of_all_points_is_named_where_it_was_made(
@@ -433,6 +433,26 @@ def test_the_page_of_all_points_is_named_where_it_was_made(
     found = command.run("study", str(mine), "-d", str(mine.parent), *options)
     page = mine.parent / "results" / mine.stem / "explorer.html"
     assert found[:2] == (code, f"explorer: {page}\n" if says else "")
+
+
+@pytest.mark.parametrize("code", [0, 1])
+def test_a_study_that_was_made_says_where_its_results_are(
+    command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path, code: int
+) -> None:
+    """The last words were those of Snakemake, on its log and the time."""
+    folder = mine.parent / "results" / mine.stem
+    (folder / "figures").mkdir(parents=True)
+    (folder / f"{mine.stem}.nc").touch()
+    for name in ("growth.png", "growth.pdf"):
+        (folder / "figures" / name).touch()
+
+    def ends(arguments: list[str]) -> None:
+        sys.exit(code)
+
+    monkeypatch.setattr("snakemake.cli.main", ends)
+    found = command.run("study", str(mine), "-d", str(mine.parent))
+    says = f"results: {folder} ({mine.stem}.nc, figures/growth.png)\n"
+    assert found[:2] == (code, "" if code else says)
 
 
 def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> None:

@@ -447,6 +447,7 @@ DRY = (
 CORES = os.cpu_count() or 1
 if hasattr(os, "sched_getaffinity"):
     CORES = len(os.sched_getaffinity(0))
+MOST_FILES = 5  # of a study that are named when it is made
 EXPLORER = "explorer"  # the target that makes a page of all points
 Files = Annotated[list[Path], typer.Argument(help="study files, later ones laid over earlier ones")]
 
@@ -493,10 +494,24 @@ def study(
     try:
         snakemake.cli.main(options)  # ends with an exit code
     except SystemExit as ended:
-        made = not (ended.code or dry_run or unlock)
-        if made and EXPLORER in (target or []):
-            typer.echo(f"explorer: {directory / 'results' / chosen.name / 'explorer.html'}")
+        if not (ended.code or dry_run or unlock):
+            _say_where(directory / "results" / chosen.name, target or [])
         raise
+
+
+def _say_where(folder: Path, targets: Sequence[str]) -> None:
+    """Print where the results of a study are, or the page of all points: not of other targets, which
+    the reader has named."""
+    if EXPLORER in targets:
+        typer.echo(f"explorer: {folder / 'explorer.html'}")
+    if targets:
+        return
+    found = [*sorted(folder.glob("*.nc")), *sorted(folder.glob("figures/*.png"))]
+    names = [file.relative_to(folder).as_posix() for file in found]
+    if len(names) > MOST_FILES:
+        names = [*names[:MOST_FILES], "..."]
+    listed = f" ({', '.join(names)})" if names else ""
+    typer.echo(f"results: {folder}{listed}")
 
 
 def _command_of(files: Sequence[Path], directory: Path) -> str:

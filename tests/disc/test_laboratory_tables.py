@@ -9,6 +9,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.disc import plausibility
+from disc_model.disc.given import DiscReport, ModeOrigin
 from tests.refusals import refusal
 
 DIAMETERS = (1, 0, 2)
@@ -207,6 +208,15 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     assert row["amplitude split (%)"] == pytest.approx(2 / 0.54)
     assert row["damping split (%)"] == pytest.approx(40)
     assert "1209        1215    0.49505" in str(disc.report)
+
+
+def test_halves_that_differ_by_rounding_are_alike() -> None:
+    """A report said "amplitude split 2.2204e-14 %"."""
+    origin = ModeOrigin(2, 7600.0, 7600.0 * (1 + 1e-15), 2, 1.0, 1.0, 2.2e-16, 1e-15)
+    report = DiscReport("disc.unv", (origin,))
+    row = report.table.loc[0]
+    assert (row["split (%)"], row["amplitude split (%)"], row["damping split (%)"]) == (0, 0, 0)
+    assert "e-1" not in str(report)
 
 
 def test_a_table_with_circles_has_its_pairs_by_them(tmp_path: Path) -> None:

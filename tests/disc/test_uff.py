@@ -137,7 +137,8 @@ def test_a_code_of_units_stands_for_its_factors(tmp_path: Path) -> None:
 def test_units_may_be_stated_where_the_file_has_none(tmp_path: Path) -> None:
     dialect = Dialect(length=1e3, force=1.0)
     assert_right(read(tmp_path, dialect, units=("mm", "N")))
-    with refusal(r"nodes at 80, 100, 130 m"):
+    hint = r'nodes at 80, 100, 130 m.*; give units=\("mm", "N"\) if the file is in mm$'
+    with refusal(hint):
         read(tmp_path, dialect)
     rule = "units=.*: must be left out: the file states its units in dataset 164"
     with refusal(rule):

@@ -11,7 +11,7 @@ from disc_model.explorer import Stated
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import AT_BOUND, NOT_NEAR, UNSETTLED
 from disc_model.figures.curve import heights_of, open_steps
-from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.studies.point_calls import HEADLINES
 from disc_model.studies.run import describe
 from tests import needs
@@ -96,10 +96,31 @@ def test_lines_to_cycles_that_the_motion_is_not_near_are_open() -> None:
     """Such points are marked as well."""
     rate = variable(line(), "growth_rate")
     [steps] = rate["open"]
+    assert steps["reason"] == OPEN
     assert np.flatnonzero(numbers(steps, "u1")).tolist() == [ENDS_AT, 5]
     [doubt] = rate["doubts"]
     assert doubt["look"]["label"] == NOT_NEAR.label
     assert np.flatnonzero(numbers(doubt, "u1")).tolist() == [6, 7]
+
+
+def borders() -> xr.Dataset:
+    """Critical speeds over friction: the first two begin a tongue, the last but one is at the lower
+    bound of the search."""
+    data = {
+        "value": ("mu_k", [9.1, 9.2, 12.6, 9.5, 9.0, 9.7, np.nan]),
+        "border": ("mu_k", [15.7, np.nan, 12.6, 9.5, 9.0, 9.7, np.nan]),
+        "at_lower_bound": ("mu_k", np.arange(7) == 4),
+    }
+    coords = {"mu_k": ("mu_k", np.linspace(0.2, 0.32, 7), describe("mu_k"))}
+    return xr.Dataset(data, coords, {"title": "Borders"})
+
+
+def test_lines_between_a_tongue_and_the_main_border_are_open() -> None:
+    """A line joined them, with a greatest value that there is not."""
+    [steps] = variable(borders(), "value")["open"]
+    assert steps["reason"] == ANOTHER_BORDER
+    assert np.flatnonzero(numbers(steps, "u1")).tolist() == [1]
+    assert variable(borders(), "border")["open"] == []
 
 
 def test_other_variables_have_no_open_steps() -> None:

@@ -19,7 +19,7 @@ from disc_model.figures.classes import name_of
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
-from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
 from disc_model.studies.run import describe
 from tests.blocks import RIG
@@ -191,6 +191,24 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     assert said == ["unstable at all values", "stable at the upper bound"]
     both = dm.plot_sweep(study, ["value", "border"])
     assert both.get_ylabel() == "Speed Ω (rad/s)"
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
+    """One line joined them, with a greatest value at 0.24 that there is not."""
+    study = xr.Dataset(
+        {"value": ("mu_k", [9.14, 12.61, 9.48]), "border": ("mu_k", [15.74, 12.61, 9.48])},
+        {"mu_k": [0.20, 0.24, 0.28]},
+    )
+    _, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(study, "value", ax=ax)
+    heights = ax.lines[0].get_ydata()
+    assert np.flatnonzero(np.isnan(heights)).tolist() == [1]
+    assert said_above(ax) == [ANOTHER_BORDER]
+    [row] = rows_above(ax)[0].rows
+    assert row.get_xdata() == pytest.approx([0.22])
+    assert said_above(dm.plot_sweep(study, "border")) == []
     pyplot.close("all")
 
 
@@ -719,6 +737,27 @@ def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int)
     top = rows_above(ax)[1].words.get_window_extent()
     assert top.y1 <= figure.bbox.y1
     assert top.x1 <= figure.bbox.x1
+
+
+def test_filled_marks_and_open_ones_of_other_lines_are_both_seen() -> None:
+    """A filled mark was larger than the open ones, and covered them or filled those around it."""
+    flags = {
+        "flag_values": np.arange(3, dtype=np.int8),
+        "flag_meanings": "undecided changing settled",
+    }
+    settled = np.array([[0, 2, 0], [2, 0, 0]], np.int8)
+    dims = ("direction", "sweep_Omega")
+    study = xr.Dataset(
+        {"separation_rate": (dims, np.zeros((2, 3))), "sweep_settled": (dims, settled, flags)},
+        {"direction": ["up", "down"], "sweep_Omega": [4.0, 6.0, 8.0]},
+    )
+    ax = dm.plot_sweep(study, "separation_rate")
+    up, down, _, *filled = ax.lines
+    assert [[*line.get_xdata()] for line in filled] == [[4, 8], [6, 8]]
+    for line, mark in zip((up, down), filled, strict=True):
+        assert mark.get_markersize() == line.get_markersize()
+        assert mark.get_zorder() < down.get_zorder()
+    assert up.get_markersize() > down.get_markersize()
 
 
 def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:

@@ -22,6 +22,7 @@ SAME_PAIR = 0.05  # greatest relative difference of the frequencies of the two h
 # one of 2. A test knows amplitudes to 20 % and damping ratios to 30 %, and halves of a disc are alike but for that.
 DOUBTED_AMPLITUDES = 0.4
 DOUBTED_DAMPING = 0.7
+ROUNDING = 1e-6  # %, difference of halves below which they are alike
 
 
 @dataclass(frozen=True)
@@ -119,9 +120,9 @@ class DiscReport(Summarised):
             "diameters": [mode.diameters for mode in self.modes],
             "lower (Hz)": [mode.lower / math.tau for mode in self.modes],
             "upper (Hz)": [mode.upper / math.tau for mode in self.modes],
-            "split (%)": [100 * mode.split for mode in self.modes],
-            "amplitude split (%)": [100 * mode.amplitude_split for mode in self.modes],
-            "damping split (%)": [100 * mode.damping_split for mode in self.modes],
+            "split (%)": [_percent(mode.split) for mode in self.modes],
+            "amplitude split (%)": [_percent(mode.amplitude_split) for mode in self.modes],
+            "damping split (%)": [_percent(mode.damping_split) for mode in self.modes],
             "shapes": [mode.shapes for mode in self.modes],
             "followed (%)": [100 * mode.followed for mode in self.modes],
             "in phase (%)": [100 * mode.in_phase for mode in self.modes],
@@ -144,6 +145,12 @@ class DiscReport(Summarised):
             texts += self.table.to_string(index=False, float_format="{:.5g}".format).splitlines()
         texts += [f"{name}: {text}" for name, text in lines]
         return "\n".join(text.rstrip() for text in texts)
+
+
+def _percent(difference: float) -> float:
+    """A relative difference in %, 0 if it is one of rounding."""
+    percent = 100 * difference
+    return 0.0 if percent < ROUNDING else percent
 
 
 def relative_difference(values: Sequence[float]) -> float:

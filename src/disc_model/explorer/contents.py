@@ -14,6 +14,7 @@ from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
+from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
 from disc_model.figures.selection import classes_of_gaps, statuses
@@ -435,9 +436,10 @@ def _marks(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
 
 def _open(study: xr.Dataset, name: str) -> list[dict[str, Any]]:
     """The steps at which curves of a variable along each dimension are open, as bytes at the points
-    where they begin."""
+    where they begin, and the words that say why."""
+    reason = reason_of_open_steps(name)
     return [
-        {"axis": axis, "data": packed(steps, "u1")}
+        {"axis": axis, "reason": reason, "data": packed(steps, "u1")}
         for axis, steps in open_along(study, name).items()
     ]
 

@@ -7,7 +7,7 @@ import xarray as xr
 from disc_model.figures.classes import AT_BOUND, Look
 from disc_model.figures.curve import heights_of, open_steps
 from disc_model.figures.rate_scale import RATE
-from disc_model.figures.selection import OF_CYCLES, at_lower_bound, doubts
+from disc_model.figures.selection import OF_CYCLES, at_lower_bound, border_alone, doubts
 from disc_model.figures.types import Mask
 
 
@@ -15,9 +15,10 @@ def open_along(study: xr.Dataset, name: str) -> dict[str, Mask]:
     """The steps at which curves of a variable along each of its dimensions are open, in the shape of
     the variable: at the points where they begin. Only dimensions with such steps, and those of
     numbers, as points along words are not joined."""
-    if name not in OF_CYCLES:
+    if name not in OF_CYCLES and border_alone(study, name) is None:
         return {}
-    part = study[[other for other in (name, RATE, "near_motion") if other in study]]
+    needed = (name, RATE, "near_motion", "border", "at_lower_bound")
+    part = study[[other for other in needed if other in study]]
     _, heights = heights_of(part, name)
     found = {}
     for dim in map(str, heights.dims):

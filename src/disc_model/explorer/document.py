@@ -14,7 +14,6 @@ from matplotlib.colors import Colormap, to_hex
 from disc_model.explorer.embedding import embedded
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import PHASE_COLOURS
-from disc_model.figures.rate_scale import OPEN
 from disc_model.figures.selection import WITHOUT_CYCLE
 from disc_model.parameters import RATIOS, Parameters
 
@@ -44,7 +43,6 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "maps": {"sequential": _colours(cm.batlow), "diverging": _colours(cm.vik)},
         "phases": PHASE_COLOURS,
         "weights": WEIGHTS,
-        "open": OPEN,
         "computed": ["ok", *WITHOUT_CYCLE],
         "parameters": [*Parameters.model_fields, *RATIOS],
     }

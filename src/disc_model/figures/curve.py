@@ -17,6 +17,7 @@ from disc_model.figures.curve_marks import (
     measured_along,
     open_look,
     point_down,
+    reason_of_open_steps,
     set_margins,
 )
 from disc_model.figures.drawing import (
@@ -41,6 +42,7 @@ from disc_model.figures.rate_scale import (
 from disc_model.figures.selection import (
     Part,
     at_lower_bound,
+    border_alone,
     not_near,
     opened,
     parts_along,
@@ -150,7 +152,7 @@ def draw_lines(  # noqa: PLR0913
     point_down(ax, parts, along, bounds, looks)
     fill_doubtful(ax, study, array, x, looks)
     mark_gaps(ax, study, array, x, looks)
-    mark_open_steps(ax, steps, along, looks)
+    mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
 
 
@@ -235,9 +237,14 @@ def _turn_words(ax: Axes, words: np.ndarray) -> None:
 def open_steps(
     study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
 ) -> dict[str, Mask]:
-    """The steps at which each line of a variable of cycles is open: those at which the growth rate says
-    that they may lead to another cycle, and those to or from a cycle that the motion is not near;
-    none of other variables."""
+    """The steps at which each line of a variable is open: of critical values, those to or from the main
+    border of stability; of a variable of cycles, those at which the growth rate says that they may
+    lead to another cycle, and those to or from a cycle that the motion is not near; none of other
+    variables."""
+    on_border = border_alone(study, str(array.name))
+    if on_border is not None:
+        parts = parts_along(on_border, by)
+        return {part.name: np.abs(np.diff(part.data.values)) > 0 for part in parts}
     rates = array if array.name == RATE else study.get(RATE, array)
     if not are_of_cycles(array, rates) or (array.name == RATE and not are_rates(array, log)):
         return {}

@@ -13,7 +13,7 @@ from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
-from disc_model.figures.rate_scale import OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.selection import (
     Part,
     beyond_lowest_speed,
@@ -40,6 +40,7 @@ MARK = 3.0  # points, size of the marks of lines,
 WIDER = 2.5  # by so much larger for each line that others cover,
 WIDEST = 8.0  # but not beyond this
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
+FILLED = 1.9  # order of filled marks, just below that of lines
 MARGIN = 0.03  # share of the panel beside values
 ROOM = 0.12  # share of the panel beside its values that has room for them
 
@@ -142,8 +143,8 @@ def set_margins(ax: Axes) -> None:
 
 
 def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:
-    """Fill the marks of points whose value may be another than that of a settled motion; those of a
-    panel have one entry in the legend."""
+    """Fill the marks of points whose value may be another than that of a settled motion, below the open
+    ones of other lines, so that both are seen; those of a panel have one entry in the legend."""
     by = remaining(array, [x])
     along = measured_along(array[x]).values
     for reason, doubtful in doubts(study, str(array.name)).items():
@@ -156,7 +157,7 @@ def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, look
             here = chosen.data.values & np.isfinite(part.data.values)
             if here.any():
                 look |= {**looks.of(part.name), "label": "_nolegend_"}
-                look["markersize"] += mark(1)
+                look["zorder"] = FILLED
                 ax.plot(along[here], part.data.values[here], **look)
 
 
@@ -207,9 +208,16 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
     return {reason: gone & ~below, CONTACT_LOST: gone & below}
 
 
-def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks) -> None:
-    """Mark the steps at which lines of growth rates are open above the panel by strokes halfway
-    between their points, in the colours of the lines: no points lie there."""
+def reason_of_open_steps(variable: str) -> str:
+    """The words that say why lines of a variable are open at some steps."""
+    return ANOTHER_BORDER if variable == "value" else OPEN
+
+
+def mark_open_steps(
+    ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Looks, reason: str
+) -> None:
+    """Mark the steps at which lines are open above the panel by strokes halfway between their points,
+    in the colours of the lines: no points lie there."""
     if not steps:  # as along words
         return
     middle = 0.5 * (along[:-1] + along[1:])
@@ -218,4 +226,4 @@ def mark_open_steps(ax: Axes, steps: Mapping[str, Mask], along: Array, looks: Lo
     for name, is_gap in steps.items():
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
-            add_row(ax, OPEN, middle[is_gap], looks.sweep, **look)
+            add_row(ax, reason, middle[is_gap], looks.sweep, **look)

@@ -25,6 +25,8 @@ ALIKE = 2.0
 """Ratio of rates of one sign up to which zero is not drawn: most of the panel would be empty."""
 OPEN = "line open: another cycle, or too wide a step"
 """What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
+ANOTHER_BORDER = "line open: another border"
+"""Said of steps between critical values that lie on different borders of stability."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 

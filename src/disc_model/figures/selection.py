@@ -286,6 +286,18 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
+def border_alone(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """1 at points whose critical value is the border of stability, as there is no unstable range before
+    it, 0 at others, nan at those without a critical value or with one that may lie below; None of
+    other variables and studies."""
+    if variable != "value" or "border" not in study:
+        return None
+    value = study[variable]
+    alone = (value == study["border"]).where(value.notnull())
+    at_bound = at_lower_bound(study, variable)
+    return alone if at_bound is None else alone.where(~at_bound)
+
+
 def unstable_everywhere(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of a search at which the motion is unstable at all values, so that it has no border of
     stability; None of other variables."""

@@ -92,6 +92,7 @@ def placed_modes(
     moving = np.isin(nodes.labels, np.concatenate([shape.nodes for shape in shapes]))
     nodes = _chosen(nodes, moving)
     contents = contents_of(sets)
+    hint = _hint_of_units(sets, length)
     if len(nodes.labels) < 3:
         rule = "must give coordinates of the nodes that move, datasets 15 or 2411. "
         raise ParameterError(Fault((), "", rule + contents))
@@ -102,7 +103,7 @@ def placed_modes(
     for reading in readings:
         places = reading.places * length
         try:
-            circle = find_circle(places, r_0, axis, centre, contents)
+            circle = find_circle(places, r_0, axis, centre, contents + hint)
         except ParameterError as error:
             fault = fault or error
             continue
@@ -117,6 +118,14 @@ def placed_modes(
     if len(readings) == 1:  # all coordinate systems are the global one
         return best._replace(systems="")
     return best
+
+
+def _hint_of_units(sets: Iterable[DataSet], length: float) -> str:
+    """What to do if a file without units, whose coordinates count as m, has others."""
+    states_units = any(data.number == 164 for data in sets)
+    if states_units or length != 1.0:
+        return ""
+    return '; give units=("mm", "N") if the file is in mm'
 
 
 def _chosen(nodes: Nodes, chosen: NDArray[np.bool_]) -> Nodes:

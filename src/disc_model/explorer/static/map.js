@@ -89,7 +89,7 @@ function drawMap() {
   drawn = { box, horizontal, vertical, xs, ys, heights: curve ? numbers.map((one) => vertical(ys.to(one))) : [] };
   if (curve) {
     const open = isJoined() ? openSteps(cells) : [];
-    seen.open = open.includes(true);
+    if (open.includes(true)) seen.open = openAlong().reason;
     drawCurve(ink, curveOf(cells, numbers, intervals, dotted, seen), open);
   } else markChosen(ink);
   legend(seen, dots);
@@ -172,7 +172,7 @@ function legend(seen, dots) {
     if (seen.marks.has(mark)) entries.push([swatchOf(mark.look), mark.look.label]);
   for (const doubt of variable.doubts) if (seen.doubts.has(doubt)) entries.push([bareSwatch(markOf(doubt)), doubt.look.label]);
   if (seen.intervals) entries.push([bareSwatch((ink) => bar(ink, 8, 1, 15)), intervalName(study)]);
-  if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), contents.open]);
+  if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), seen.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   if (dots) entries.push([dotSwatch(), dots.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
@@ -236,9 +236,14 @@ function curveOf(cells, numbers, intervals, dotted, seen) {
   });
 }
 
+/** The open steps of curves along the horizontal axis; undefined without. */
+function openAlong() {
+  return view.variable.open.find((one) => one.axis === view.x);
+}
+
 /** At which steps to the next point the curve is open, by the rule of the figures. */
 function openSteps(cells) {
-  const open = view.variable.open.find((one) => one.axis === view.x);
+  const open = openAlong();
   return cells.map(({ place }) => Boolean(open) && value(view.study, open, place) > 0);
 }
 
