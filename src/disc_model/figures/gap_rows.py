@@ -85,7 +85,7 @@ def add_column(ax: Axes, heights: Array, **look: Any) -> None:
     begin = (mark(FIRST) - 0.5 * mark(APART)) / 72
     wide_strip = page.dpi_scale_trans + ScaledTranslation(1, 0, right)
     place = blended_transform_factory(wide_strip, right)
-    strip = {"color": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
+    strip: dict[str, Any] = {"color": STRIP, "linewidth": 0, "zorder": 0, "clip_on": False}
     ax.add_artist(Rectangle((begin, 0), mark(APART) / 72, 1, transform=place, **strip))
     transform = blended_transform_factory(beside, ax.transData)
     ones = [1.0] * len(heights)

@@ -206,10 +206,10 @@ def critical_speed(  # noqa: PLR0913
     Returns
     -------
     xarray.Dataset
-        `critical_speed` (rad/s, nan if none was found in the steps of the scan) and crossings by horizon; outcomes and
-        first separations along the scan. Contact was lost at the critical speed, and kept at the next lower one computed, which is lower by
-        `precision`. The attribute `options` states precision, scan and horizons, and `message` which horizons have
-        no critical speed.
+        `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings by horizon; outcomes and
+        first separations along the scan. Contact was lost at the critical speed, and kept at the next lower one
+        computed, which is lower by `precision`. The attribute `options` states precision, scan and horizons,
+        and `message` which horizons have no critical speed.
 
     Raises
     ------
