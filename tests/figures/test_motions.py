@@ -32,6 +32,7 @@ from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
+from tests.figures.described import bifurcation as bifurcation_of_motions
 from tests.figures.described import (
     branches,
     campbell,
@@ -48,6 +49,16 @@ from tests.studies.quantities.test_basins import Made, made
 __all__ = ["made"]
 
 # ---- bifurcation diagrams
+
+
+@pytest.mark.parametrize(
+    ("section", "label"),
+    [("stroboscopic", "Angle ψ once per turn of the drive (mrad)"), ("event", "Angle ψ (mrad)")],
+)
+def test_diagrams_say_that_samples_are_once_per_turn(section: str, label: str) -> None:
+    """The figure of samples at events names these by its marks."""
+    upper = bifurcation_of_motions(section).axes[0]
+    assert " ".join(upper.get_ylabel().split()) == label
 
 
 def test_diagrams_mark_points_that_failed_and_not_those_that_slide() -> None:

@@ -1,6 +1,7 @@
 """Sweeps with several values at each point are points over what varies, and two dimensions of which one
 has few values are lines."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from matplotlib.axes import Axes
 
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
+from disc_model.figures.labels import words_of
 from tests.figures.reading import as_map, labels
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -62,6 +64,51 @@ def test_samples_of_a_section_are_points_over_what_varies() -> None:
     np.testing.assert_array_equal(dots.get_xdata(), np.repeat(SPEEDS[:3], SAMPLES))
     np.testing.assert_allclose(dots.get_ydata(), study["psi"][:3].values.ravel())
     np.testing.assert_array_equal(rings.get_xdata(), np.repeat(SPEEDS[3:], SAMPLES))
+    assert labels(ax.figure) == ["not settled, or undecided"]
+
+
+def sampled(section: str) -> xr.Dataset:
+    """A study of bifurcations, whose motions at the two highest speeds lose contact; the last had not
+    settled."""
+    study = sections().assign_attrs(quantity="bifurcation")
+    study.attrs["options"] = json.dumps({"section": section})
+    study.attrs["base"] = json.dumps({"N": 385.0})
+    phases = np.array(["stick", "stick", "separation", "separation"])
+    study["phase"] = (("Omega", "sample"), np.repeat(phases[:, None], SAMPLES, axis=1))
+    return study
+
+
+def test_samples_at_releases_and_at_separations_have_marks_and_names_of_their_own() -> None:
+    """They had one mark and no legend, although they are of two sections."""
+    ax = dm.plot_sweep(sampled("event"), "psi")
+    releases, separations, _ = points_on(ax)
+    assert {*releases.get_xdata()} == {*SPEEDS[:2]}
+    assert {*separations.get_xdata()} == {SPEEDS[2]}
+    assert releases.get_marker() != separations.get_marker()
+    events = ["at release of stick", "at loss of contact"]
+    assert labels(ax.figure) == [*events, "not settled, or undecided"]
+    assert ax.get_ylabel() == "Angle (rad)"
+
+
+def test_events_of_two_sweeps_have_names_with_their_cases() -> None:
+    other = sampled("event")
+    other.attrs["base"] = json.dumps({"N": 400.0})
+    ax = dm.plot_sweep(sampled("event"), "psi")
+    dm.plot_sweep(other, "psi", ax=ax)
+    assert {
+        "at release of stick, N = 385 N",
+        "at loss of contact, N = 385 N",
+        "at release of stick, N = 400 N",
+        "at loss of contact, N = 400 N",
+    } <= {*labels(ax.figure)}
+    looks = {(line.get_marker(), line.get_markerfacecolor()) for line in points_on(ax)}
+    assert len(looks) == 5, "two of each sweep, and rings"
+
+
+def test_samples_once_per_turn_say_so_along_their_axis() -> None:
+    """Motions of one period looked like bands of chaos without a word on the section."""
+    ax = dm.plot_sweep(sampled("stroboscopic"), "psi")
+    assert words_of(ax.yaxis.label) == "Angle once per turn of the drive (rad)"
     assert labels(ax.figure) == ["not settled, or undecided"]
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.ticker import NullLocator
 
-from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.data.variables import axis_of, flag_names
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -25,6 +25,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
+from disc_model.figures.sections import names_of_events, with_section
 from disc_model.figures.selection import failed, opened
 from disc_model.figures.types import Array, Axes, Figure, Mask, Words
 
@@ -50,8 +51,6 @@ ERRORS = 4  # half-width of the band about an exponent, in standard errors
 ANOTHER = 0.05  # 1/s, step of an exponent beyond which another motion begins
 SAME_PLACE = 1e-6  # of a step of the parameter, within which points of two studies are one
 LONE_BAND = 3.0  # points, width of the band about a point that is joined to none
-EVENTS = {"stick": "at release of stick", "separation": "at loss of contact"}
-"""Names of the phases at whose beginning or end samples are taken."""
 IDLE = 0.02  # height of the marks of motions without samples, as a share of the panel
 
 
@@ -101,7 +100,7 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
     position = np.broadcast_to(along[:, None], values.shape)
     phase = phases_of(study)
     settled = (flag_names(study["settled"]) == "settled")[:, None]
-    names = EVENTS if stated_in(study, "options")["section"] == "event" else {}
+    names = names_of_events(study)
     rings = apart(values, ~settled & (phase != "none"))
     dots = [(UNDECIDED_NAME, rings, UNDECIDED)]
     for name, colour in PHASE_COLOURS.items():
@@ -112,7 +111,8 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
             sized = {**look, "markersize": mark(look["markersize"])}
             ax.plot(position[mask], values[mask], linestyle="", label=name, **sized)
     mark_failed(ax, along[failed(study).values])
-    ax.set_ylabel(axis_of("psi")[0].replace("rad", "mrad"))
+    label = axis_of("psi", with_section(study, "psi", "", "\n"))[0]
+    ax.set_ylabel(label.replace("rad", "mrad"))
 
 
 def apart(values: Array, chosen: Mask) -> Mask:

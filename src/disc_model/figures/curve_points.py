@@ -1,29 +1,38 @@
 """Curves of a variable that has several values at each point, such as a bifurcation diagram: all are
 drawn as points."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.bifurcation import UNDECIDED, UNDECIDED_NAME, apart
+from disc_model.figures.bifurcation import MARKS, UNDECIDED, UNDECIDED_NAME, apart
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.curve import DOT, heights_of, set_scales
 from disc_model.figures.curve_marks import MARK, measured_along, open_look, reasons_of_gaps
 from disc_model.figures.drawing import mark
 from disc_model.figures.gap_rows import add_row
+from disc_model.figures.sections import names_of_events
 from disc_model.figures.types import Axes, Mask
 
 MANY = 300  # points, which are small marks
+
+
+class Points(NamedTuple):
+    """Points of one look: their name, "" without one, and which values they are."""
+
+    name: str
+    mask: Mask
+    look: dict[str, Any]
 
 
 def draw_points(
     ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool, look: Look, marker: str
 ) -> list[tuple[str, Any]]:
     """Draw all values of a variable at each place along a dimension; rings are of motions that had not
-    settled, and marks above the panel of places without any value. Returns the points, which have
-    no name."""
+    settled, and marks above the panel of places without any value. Returns the points with the names of
+    the events at which they were sampled, or all of them, which have no name."""
     names, array = heights_of(study, variable)
     array = array.transpose(x, ...)
     along = measured_along(array[x]).values
@@ -31,11 +40,12 @@ def draw_points(
     heights = array.values.astype(float)
 
     doubtful = _not_settled(study, array)
-    size = DOT if heights.size > MANY else MARK
-    dots: dict[str, Any] = {"color": look.colour, "marker": marker, "markersize": mark(size)}
-    if marker != ".":
-        dots |= {"markerfacecolor": "none", "markersize": mark(MARK)}
-    [points] = ax.plot(places[~doubtful], heights[~doubtful], linestyle="", **dots)
+    drawn = []
+    for part in _parts_of(study, array, ~doubtful, look, marker):
+        named = {"label": part.name} if part.name else {}
+        dots = {"linestyle": "", **part.look, **named}
+        [points] = ax.plot(places[part.mask], heights[part.mask], **dots)
+        drawn.append((part.name, points))
     rings = apart(heights, doubtful & np.isfinite(heights))
     if rings.any():
         sized = {**UNDECIDED, "markersize": mark(UNDECIDED["markersize"])}
@@ -47,7 +57,40 @@ def draw_points(
         here = gone.transpose(x, ...).values.all(axis=1)
         if here.any():
             add_row(ax, reason, along[here], **open_look(), **row)
-    return [("", points)]
+    return drawn
+
+
+def _parts_of(
+    study: xr.Dataset, array: xr.DataArray, shown: Mask, look: Look, marker: str
+) -> list[Points]:
+    """The points that are shown of each event at which values were sampled, with its name and look; all
+    without a name if they were not sampled at events."""
+    size = DOT if array.size > MANY else MARK
+    dots: dict[str, Any] = {"color": look.colour, "marker": marker, "markersize": mark(size)}
+    if marker != ".":
+        dots |= {"markerfacecolor": "none", "markersize": mark(MARK)}
+    parts = []
+    for phase, name in names_of_events(study).items():
+        mask = _in_phase(study, array, phase) & shown
+        if mask.any():
+            parts.append(Points(name, mask, {**dots, **_look_at(phase, look, marker)}))
+    return parts or [Points("", shown, dots)]
+
+
+def _look_at(phase: str, look: Look, marker: str) -> dict[str, Any]:
+    """What tells samples in a phase from others of a sweep, whose colour they have: the marks of a bifurcation
+    diagram, or beside other sweeps full marks of releases, and open ones of separations."""
+    if marker == ".":
+        return {"marker": MARKS[phase]["marker"]}
+    return {"markerfacecolor": look.colour} if phase == "stick" else {}
+
+
+def _in_phase(study: xr.Dataset, array: xr.DataArray, phase: str) -> Mask:
+    """Values that were sampled in a phase of the motion."""
+    phases = study.get("phase")
+    if phases is None or {*phases.dims} != {*array.dims}:
+        return np.zeros(array.shape, dtype=bool)
+    return np.asarray(flag_names(phases.transpose(*array.dims)) == phase)
 
 
 def _not_settled(study: xr.Dataset, array: xr.DataArray) -> Mask:

@@ -37,6 +37,7 @@ PHRASES = {
     "precision": Phrase("precision {}"),
     "quantity": Phrase("by {}"),
     "releases": Phrase("{} releases"),
+    "section": Phrase("{} section"),
     "seed": Phrase("seed {}"),
     "step": Phrase("steps of {}"),
     "stop_at": Phrase("up to {}"),

@@ -24,6 +24,7 @@ from disc_model.data.variables import (
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
 from disc_model.figures.kinds.base import si_unit
+from disc_model.figures.sections import with_section
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.units import in_si
 
@@ -344,11 +345,12 @@ def _is_own(variable: xr.DataArray) -> bool:
 
 def label_in(study: xr.Dataset, name: str) -> str:
     """Axis label of a variable of a study; of one that depends on the time for which motions were
-    followed, with this time."""
+    followed, with this time, and of samples once per turn with these words."""
     label = label_of(study[name])[0]
     unit = named(study[name]).unit
     ending = f" ({unit})" if unit else ""
     words = label.removesuffix(ending)
+    words = with_section(study, name, words)
     return with_duration(study, name, words) + ending
 
 
