@@ -236,10 +236,18 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
     assert first != 3
 
 
-MODELS = (dm.Parameters, dm.Disc, dm.Window, dm.Poincare, dm.Ramp, dm.Execution, dm.StepControl)
+CLASSES_OF_ARGUMENTS = (
+    dm.Parameters,
+    dm.Disc,
+    dm.Window,
+    dm.Poincare,
+    dm.Ramp,
+    dm.Execution,
+    dm.StepControl,
+)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
+@pytest.mark.parametrize("model", CLASSES_OF_ARGUMENTS, ids=lambda model: model.__name__)
 def test_help_shows_what_a_reader_knows(model: type) -> None:
     """It had 500 lines of pydantic, and a function's address in the type of a number."""
     signature = str(inspect.signature(model))

@@ -322,7 +322,16 @@ def test_times_of_stick_and_slip_are_those_that_are_fitted() -> None:
 
 
 SLOW = Parameters(
-    N=549, Omega=10.42, mu_s=0.379, mu_k=0.224, k_p=30590, k=40980, m=0.09, c_p=2, n_diameters=2
+    N=549,
+    Omega=10.42,
+    mu_s=0.379,
+    mu_k=0.224,
+    k_p=30590,
+    k=40980,
+    m=0.09,
+    c_p=2,
+    n_diameters=2,
+    normalization="as_published",
 )
 """A case whose motion from the static start comes slowly to its cycle."""
 
