@@ -11,6 +11,7 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
+from disc_model.figures.labels import words_of
 from disc_model.figures.sweep_lines import common_words
 from tests.figures.reading import as_map
 from tests.figures.test_wishes import CASE, DRAWN, branch, legend_texts, run
@@ -83,6 +84,32 @@ def test_another_parameter_is_refused_on_axes_beside_it_and_on_its_twin() -> Non
     below = pyplot.figure().subplots(2, 1, sharex=True)
     branch().plot("range", ax=below[0])
     by_load().plot("range", ax=below[1])
+
+
+@pytest.mark.parametrize("width", [84, 174])
+def test_a_shared_axis_has_its_label_beside_its_numbers_alone(width: int) -> None:
+    """The upper panel repeated "Speed Ω (rad/s)" where no numbers stand."""
+    size = (width / 25.4, 120 / 25.4)
+    _, panels = pyplot.subplots(2, 2, figsize=size, sharex=True, sharey="row", layout="constrained")
+    for top, bottom in panels.T:
+        branch().plot("range", ax=top, legend=False)
+        branch().plot("growth_rate", ax=bottom, legend=False)
+    speed = "Speed Ω (rad/s)"
+    for ax in panels[0]:
+        assert not ax.get_xlabel()
+    for ax in panels[1]:
+        assert words_of(ax.xaxis.label) == speed
+    assert all(left.get_ylabel() and not right.get_ylabel() for left, right in panels)
+
+
+def test_labels_of_a_shared_axis_stay_that_differ_or_are_those_of_a_reader() -> None:
+    _, (top, middle, bottom) = pyplot.subplots(3, 1, sharex=True)
+    middle.set_xlabel("Speed Ω (rad/s)")
+    branch().plot("range", ax=top, labels={"x": "Speed of the slider (rad/s)"})
+    branch().plot("range", ax=middle)
+    branch().plot("range", ax=bottom)
+    assert top.get_xlabel() == "Speed of the slider (rad/s)"
+    assert middle.get_xlabel() == bottom.get_xlabel() == "Speed Ω (rad/s)"
 
 
 def test_a_reader_answers_for_own_labels() -> None:

@@ -17,6 +17,7 @@ from disc_model.figures.pages import Page as Page  # a page is asked for with wi
 from disc_model.figures.pages import Wishes as Wishes
 from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
+from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.style import readers_style
 from disc_model.figures.words import head_text
 
@@ -58,6 +59,7 @@ def page_for(
                 page.keep_labels()
                 _finish(page, wishes)
             page.remember()
+            clear_repeated(page.axes)
             if figure.get_gid() == OWN:
                 set_upright(figure.findobj(Text))
             else:
