@@ -1,6 +1,7 @@
 """Bifurcation diagrams: samples once a turn or at events, periods, and exponents."""
 
 from collections.abc import Mapping
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -51,6 +52,7 @@ ERRORS = 4  # half-width of the band about an exponent, in standard errors
 ANOTHER = 0.05  # 1/s, step of an exponent beyond which another motion begins
 SAME_PLACE = 1e-6  # of a step of the parameter, within which points of two studies are one
 LONE_BAND = 3.0  # points, width of the band about a point that is joined to none
+NARROW = 21  # characters of a line beside the samples, which also a low panel has room for
 IDLE = 0.02  # height of the marks of motions without samples, as a share of the panel
 
 
@@ -111,8 +113,10 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
             sized = {**look, "markersize": mark(look["markersize"])}
             ax.plot(position[mask], values[mask], linestyle="", label=name, **sized)
     mark_failed(ax, along[failed(study).values])
-    label = axis_of("psi", with_section(study, "psi", "", "\n"))[0]
-    ax.set_ylabel(label.replace("rad", "mrad"))
+    label, _ = axis_of("psi")
+    words, unit = label.replace("rad", "mrad").rsplit(" ", 1)
+    said = with_section(study, "psi", words)
+    ax.set_ylabel(fill(f"{said} {unit}", NARROW))
 
 
 def apart(values: Array, chosen: Mask) -> Mask:

@@ -15,15 +15,12 @@ def names_of_events(study: xr.Dataset) -> dict[str, str]:
     return EVENTS if _section(study) == "event" else {}
 
 
-def with_section(study: xr.Dataset, name: str, words: str, between: str = " ") -> str:
+def with_section(study: xr.Dataset, name: str, words: str) -> str:
     """The words for a variable of a study, with when it was sampled if that is once per turn; events are
-    named by the marks of their samples.
-
-    between : the words and those of the turn
-    """
+    named by the marks of their samples."""
     sampled = name in study and "sample" in study[name].dims
     if sampled and _section(study) == "stroboscopic":
-        return f"{words}{between}{ONCE_A_TURN}"
+        return f"{words} {ONCE_A_TURN}"
     return words
 
 
