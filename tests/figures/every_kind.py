@@ -495,7 +495,7 @@ def bifurcation() -> Example:
         {"x": "Omega", "overlays": {"lyapunov": "l"}},
         {"study": study, "lyapunov": exponent_study},
         (
-            Shown(0, "y", "Angle ψ", psi, "rad", "linear"),
+            Shown(0, "y", "Angle ψ once per turn of the drive", psi, "rad", "linear"),
             Shown(1, "y", "Events in a period", [1, 2, 5], "", "log"),
             Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
             Shown(

@@ -316,7 +316,9 @@ def test_a_long_reason_leaves_panels_their_width(layout: Any) -> None:
         dm.plot_sweep(study, "end", ax=ax)
     figure.draw_without_rendering()
     for ax in axes.flat:
-        [note] = [text for text in ax.texts if "none within" in text.get_text().replace("\n", " ")]
+        [note] = [
+            text for text in ax.texts if "none found within" in text.get_text().replace("\n", " ")
+        ]
         assert note.get_window_extent().width <= ax.bbox.width + 1
         assert ax.bbox.width > 0.25 * figure.bbox.width
     [title] = [text for text in axes[0, 0].get_children() if text is axes[0, 0].title]
