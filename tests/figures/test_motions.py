@@ -820,6 +820,7 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
     for column in (CALM, rates):
         rate = ("Omega", np.array(column))
         study = xr.Dataset({"growth_rate": rate}, {"Omega": speeds})
+        study["sliding_frequency"] = 10 * study["Omega"]
         studies.append(study)
     figure = Figure(figsize=(7, 4))
     campbell_diagram._legend(figure, studies)

@@ -287,7 +287,7 @@ def axis_of(name: str, where: str = "") -> tuple[str, float]:
 
 
 def stated_in(study: Any, what: str) -> dict[str, Any]:
-    """The "base" or the "options" that the dataset of a grid study or of a sweep states; empty
+    """What the dataset of a grid study or of a sweep states, such as its "base" or "options"; empty
     without."""
     return json.loads(study.attrs.get(what, "{}"))
 

@@ -1,6 +1,5 @@
 """Contents of studies for the explorer's page: numbers packed for JSON, words as they are."""
 
-import json
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -8,7 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import SHOWN, attributes
+from disc_model.data.variables import SHOWN, attributes, stated_in
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
@@ -105,7 +104,7 @@ def _study_contents(
     shown_motions = None
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
-    base = json.loads(study.attrs.get("base", "{}"))
+    base = stated_in(study, "base")
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}
     # numbers of a point's case
@@ -115,8 +114,8 @@ def _study_contents(
         "name": name,
         "title": str(study.attrs.get("title", "")) or name,
         "call": call,
-        "discs": json.loads(study.attrs.get("discs", "{}")),
-        "starts": json.loads(study.attrs.get("starts", "{}")),
+        "discs": stated_in(study, "discs"),
+        "starts": stated_in(study, "starts"),
         "start": _start_of_all(study),
         "confidence": _confidence(study),
         "has_figures": stated.has_figures,
@@ -132,7 +131,7 @@ def _study_contents(
 
 def _with_parameters(study: xr.Dataset) -> xr.Dataset:
     """A study whose values of a parameter have the name and unit of it."""
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     named_by = NAMED_BY.get(str(study.attrs.get("quantity", "")), {})
     known = (*Parameters.model_fields, *RATIOS)
     renamed = {}
@@ -154,13 +153,13 @@ def _endless(study: xr.Dataset) -> list[str]:
 
 def _start_of_all(study: xr.Dataset) -> dict[str, Any]:
     """The start of a study's motions in its options, to which the start of a point is added."""
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     return {name: options[name] for name in ("prerun", "perturbation") if options.get(name)}
 
 
 def _confidence(study: xr.Dataset) -> float:
     """The level of the confidence intervals of shares, of studies that have any."""
-    options = json.loads(study.attrs.get("options", "{}"))
+    options = stated_in(study, "options")
     return float(options.get("confidence", CONFIDENCE))
 
 

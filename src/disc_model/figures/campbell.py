@@ -125,14 +125,19 @@ def _legend(figure: Figure, studies: Sequence[xr.Dataset], highest: float = np.i
 def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
     """Entries of a legend for the lines, marks and bands that are drawn, and for what lies above the
     highest frequency shown (Hz)."""
-    rates = [study["growth_rate"].values for study in studies]
     handles: list[Artist] = [
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
-    above = max(_count_above(study, highest) for study in studies)
+    above = max(modes_above(study["sliding_frequency"], highest) for study in studies)
     if above:
         handles.append(entry_of_cut(above, highest))
     handles += _entries_of_peaks([peak for study in studies for peak in peaks(study)], highest)
+    return handles + _entries_of_rates(studies)
+
+
+def _entries_of_rates(studies: Sequence[xr.Dataset]) -> list[Artist]:
+    """Entries of a legend for points by themselves, of other cycles, open steps, and gaps."""
+    handles: list[Artist] = []
     followed = [followed_rates(study) for study in studies]
     if any(unjoined(rate).any() for rate in followed):
         handles.append(sample(label=ALONE, **_dot(alone=True)))
@@ -141,7 +146,7 @@ def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in followed):
         wide_step = f"line open: a step of over {LINEAR:g}/s"
         handles.append(open_line(wide_step, BLACK, wide(0.8)))
-    if any(np.isnan(rate).any() for rate in rates):
+    if any(study["growth_rate"].isnull().any() for study in studies):
         handles.append(Patch(label="no growth rate", **BAND))
     return handles
 
@@ -171,13 +176,6 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
     return handles
 
 
-def _count_above(study: xr.Dataset, highest: float) -> int:
-    """The number of modes with frequencies above the highest shown, Hz."""
-    if np.isinf(highest):
-        return 0
-    return int(modes_above(study["sliding_frequency"], highest).sum())
-
-
 def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> None:
     """Draw the frequencies of one model up to the highest shown (Hz), and its growth rates
     below."""
@@ -189,7 +187,7 @@ def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> 
     bottom.plot(speeds[elsewhere], rate[elsewhere], **_elsewhere_look())
     for peak in peaks(study):
         _draw_peak(top, bottom, study, peak, highest)
-    if _count_above(study, highest):
+    if modes_above(study["sliding_frequency"], highest):
         mark_cut(top, highest)
     for ax in (top, bottom):
         for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle

@@ -2,18 +2,17 @@
 
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from disc_model.display import counted
 from disc_model.figures.drawing import GREY, sample, wide
-from disc_model.figures.types import Artist, Axes, Mask
+from disc_model.figures.types import Artist, Axes
 
 
-def modes_above(frequency: xr.DataArray, highest: float) -> Mask:
-    """Modes that have a frequency above the highest shown, Hz."""
+def modes_above(frequency: xr.DataArray, highest: float) -> int:
+    """The number of modes that have a frequency above the highest shown, Hz."""
     along = [dim for dim in frequency.dims if dim != "mode"]
-    return np.asarray((frequency > highest).any(along))
+    return int((frequency > highest).any(along).sum())
 
 
 def mark_cut(ax: Axes, highest: float) -> None:

@@ -7,14 +7,12 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import presentation_of, typeset
-from disc_model.display import number_text, rounded_text
+from disc_model.display import DEVIATION_DIGITS, number_text, rounded_text
 from disc_model.figures.words import POWERS, unit_text
 
 if TYPE_CHECKING:
     from disc_model.fitting.result import Fit
 
-DIGITS = 2
-"""Significant digits of standard deviations."""
 WITHOUT_DEVIATION = 4
 """Significant digits of values without one."""
 
@@ -57,11 +55,11 @@ def _with_deviation(value: float, deviation: float, unit: str) -> str:
     """A value to the digits of its standard deviation, with this and the unit."""
     if not deviation > 0:
         return number_text(value, unit, WITHOUT_DEVIATION)
-    digits = DIGITS
+    digits = DEVIATION_DIGITS
     if value:
         digits += math.floor(math.log10(abs(value))) - math.floor(math.log10(deviation))
-    shown = rounded_text(value, max(digits, DIGITS))
-    return f"{shown} ±{UNBROKEN}{number_text(deviation, unit, DIGITS)}"
+    shown = rounded_text(value, max(digits, DEVIATION_DIGITS))
+    return f"{shown} ±{UNBROKEN}{number_text(deviation, unit, DEVIATION_DIGITS)}"
 
 
 def _combined(formula: str, known: Any) -> str:

@@ -120,12 +120,20 @@ def parts_along(
     # a zip has several coordinates
     names = [str(name) for name, values in study.coords.items() if values.dims == (by,)]
     slices = [study.isel({by: i}) for i in range(study.sizes[by])]
-    parts = [_part(data, by, names, words or {}, short=True) for data in slices]
-    if len({part.name for part in parts}) < len(parts):  # lines are known by their names
-        parts = [_part(data, by, names, words or {}) for data in slices]
+    parts = _named_parts(slices, by, names, words or {})
     if len(names) > 1 and any(_are_labels(study[name]) for name in names):
         return parts
     return sorted(parts, key=lambda part: _rank(part.data, by, names, words or {}))
+
+
+def _named_parts(
+    slices: Sequence[Data], by: str, names: Sequence[str], words: Mapping[str, str]
+) -> list[Part[Data]]:
+    """Parts with short names, or with longer ones where these are alike, as lines are known by them."""
+    parts = [_part(data, by, names, words, short=True) for data in slices]
+    if len({part.name for part in parts}) == len(parts):
+        return parts
+    return [_part(data, by, names, words) for data in slices]
 
 
 def _are_labels(values: xr.DataArray) -> bool:

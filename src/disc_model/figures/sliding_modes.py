@@ -83,7 +83,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     for top, bottom, column in zip(tops, bottoms, columns, strict=True):
         bottom.set_xlabel(across.label)
         _name_frequencies(top, column, highest)
-        if modes_above(column["frequency"], highest).any():
+        if modes_above(column["frequency"], highest):
             mark_cut(top, highest)
         _name_decays(bottom, column, greatest)
         _mark_below(bottom, column, lowest)
@@ -92,9 +92,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     return figure
 
 
-def _legend(
-    figure: Figure, columns: Sequence[xr.Dataset], lowest: float, highest: float = np.inf
-) -> None:
+def _legend(figure: Figure, columns: Sequence[xr.Dataset], lowest: float, highest: float) -> None:
     """Name the widths of the lines that are drawn, and the modes below the axis of growth rates and
     above that of frequencies."""
     rates = np.concatenate([column["mode_growth_rate"].values.ravel() for column in columns])
@@ -104,7 +102,7 @@ def _legend(
         handles.append(sample(color=GREY, linewidth=wide(DECAYS), label="mode decays"))
     if (largest > ROUNDING).any():
         handles.append(sample(color=BLACK, linewidth=wide(GROWS), label="mode grows"))
-    above = max(int(modes_above(column["frequency"], highest).sum()) for column in columns)
+    above = max(modes_above(column["frequency"], highest) for column in columns)
     if above:
         handles.append(entry_of_cut(above, highest))
     names = [*dict.fromkeys(line.name for column in columns for line in below(column, lowest))]

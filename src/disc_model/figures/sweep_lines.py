@@ -214,6 +214,14 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
         called = dict(zip([each.number for each in family], names, strict=True))
 
     page.joins = True
+    page.replaced = _rename(family, names)
+    axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
+    page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
+    return called
+
+
+def _rename(family: Sequence[Lines], names: Sequence[str]) -> list[str]:
+    """Give lines their names among several; returns each former label before the one in its place."""
     replaced = []
     for each, name in zip(family, names, strict=True):
         for part, reference in each.parts:
@@ -224,7 +232,4 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
             if line is not None and text:
                 replaced += [str(line.get_label()), text]
                 line.set_label(text)
-    page.replaced = replaced
-    axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
-    page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
-    return called
+    return replaced

@@ -7,7 +7,7 @@ combination known nearly as well."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -146,21 +146,31 @@ def _multiplied(powers: Array, values: Array, relative: Array) -> Combined:
 
 def _sum_text(names: Sequence[str], row: Array) -> str:
     """Return a sum as a formula."""
-    text = ""
-    for name, number in zip(names, row, strict=True):
-        if number:
-            sign = "-" if number < 0 else "+"
-            size = "" if abs(number) == 1 else f"{abs(number):g} * "
-            text += f" {sign} {size}{name}"
-    return text.removeprefix(" + ")
+
+    def term(name: str, size: float) -> str:
+        return name if size == 1 else f"{size:g} * {name}"
+
+    return _formula(names, row, "+-", term)
 
 
 def _product_text(names: Sequence[str], powers: Array) -> str:
     """Return a product of powers as a formula."""
+
+    def term(name: str, size: float) -> str:
+        return name if size == 1 else f"{name}^{size:g}"
+
+    return _formula(names, powers, "*/", term)
+
+
+def _formula(
+    names: Sequence[str], numbers: Array, signs: str, term: Callable[[str, float], str]
+) -> str:
+    """Return a formula of terms, those of size 0 left out; the first is positive.
+
+    signs : before terms of positive and of negative numbers
+    """
     text = ""
-    for name, power in zip(names, powers, strict=True):
-        if power:
-            sign = "/" if power < 0 else "*"
-            raised = "" if abs(power) == 1 else f"^{abs(power):g}"
-            text += f" {sign} {name}{raised}"
-    return text.removeprefix(" * ")
+    for name, number in zip(names, numbers.tolist(), strict=True):
+        if number:
+            text += f" {signs[number < 0]} {term(name, abs(number))}"
+    return text.removeprefix(f" {signs[0]} ")

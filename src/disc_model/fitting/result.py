@@ -11,7 +11,14 @@ import numpy as np
 import xarray as xr
 
 from disc_model.arrays import Array, EqualByValue
-from disc_model.display import Drawn, Summarised, html_table, number_text, rounded_text
+from disc_model.display import (
+    DEVIATION_DIGITS,
+    Drawn,
+    Summarised,
+    html_table,
+    number_text,
+    rounded_text,
+)
 from disc_model.fitting.data import dataset_of
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.prediction import unit_of_parameter
@@ -22,8 +29,6 @@ UNLIKELY = 0.05
 """Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
 ALL_BUT_IMPOSSIBLE = 1e-3
 """and below which something is wrong."""
-DIGITS = 2
-"""Significant digits of standard deviations."""
 NAMED = 3
 """Largest number of unstable cycles that a note names before others that it counts."""
 WRONG = "model or uncertainties"
@@ -131,7 +136,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         doubt = self.doubt
         values = []
         for name, fitted in self.parameters.items():
-            spread = "" if doubt else f" ± {rounded_text(fitted.deviation, DIGITS)}"
+            spread = "" if doubt else f" ± {rounded_text(fitted.deviation, DEVIATION_DIGITS)}"
             values.append(f"{name}={fitted.value:.6g}{spread}")
         meaning = "" if doubt else "± one standard deviation"
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
@@ -182,7 +187,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         """Yield in words each combination that the measurements determine."""
         for formula, known in self.determined.items():
             value = number_text(known.value, "")
-            deviation = rounded_text(known.deviation, DIGITS)
+            deviation = rounded_text(known.deviation, DEVIATION_DIGITS)
             text = f"the measurements determine {formula} = {value} ± {deviation}"
             yield text if known.unit in ("", "1") else f"{text} {known.unit}"
 
