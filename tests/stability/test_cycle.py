@@ -1,7 +1,9 @@
 """The stick-slip cycle: its multipliers, its status, what is stable."""
 
 import math
+from collections.abc import Callable
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,6 +21,7 @@ from disc_model.stability.cycle import (
     find_cycle,
     run_through_once,
 )
+from disc_model.stability.frequencies import frequencies
 from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -308,6 +311,22 @@ def test_the_motion_near_its_own_cycle_is_near_no_other():
         assert found.near_motion is (None if found.stable else True)
         assert "motion" not in found.message
     assert signs == {True, False}
+
+
+@pytest.mark.parametrize("computed", [floquet, frequencies])
+def test_the_check_beside_the_motion_builds_no_second_return_map(
+    computed: Callable[[Parameters], Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    built = []
+    build = ReturnMap.__init__
+
+    def counted_build(self: ReturnMap, *arguments: Any, **options: Any) -> None:
+        built.append(self)
+        build(self, *arguments, **options)
+
+    monkeypatch.setattr(ReturnMap, "__init__", counted_build)
+    computed(Parameters(N=375, Omega=7.35))  # whose cycle is unstable
+    assert len(built) == 1
 
 
 def test_times_of_stick_and_slip_are_those_that_are_fitted() -> None:

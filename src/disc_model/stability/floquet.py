@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,9 +16,11 @@ from disc_model.stability.cycle import (
     SLIPPING,
     STICK_SLIP,
     FloquetResult,
+    cycle_from_rest,
     cycle_of,
     find_cycle,
     guess_faults,
+    may_stick_and_slip,
 )
 from disc_model.stability.return_map import Orbit, ReturnMap, newton
 from disc_model.stability.slipping_cycle import find_slipping_cycle
@@ -29,6 +32,14 @@ it: after fewer it may still be on its way."""
 GROWTH = 37.0
 """Growth rate times the time of these releases, beyond which even a difference by rounding, 1e-16, would have
 taken a motion away from the cycle."""
+
+
+class Search(NamedTuple):
+    """What a search near the static start has found, and the return map that it used; None of a case that
+    cannot stick and slip."""
+
+    cycle: FloquetResult
+    map: ReturnMap | None
 
 
 @compiling()
@@ -93,23 +104,30 @@ def floquet(
     raise_faults(foreign_case(case) + wrong)
     if kind == SLIPPING:
         return find_slipping_cycle(case, float(tol), guess)
-    cycle = find_cycle(case, float(tol), guess, releases)
     if guess is None:
-        return beside_motion(cycle)
-    return cycle
+        return cycle_near_start(case, float(tol))
+    return find_cycle(case, float(tol), guess, releases)
 
 
 def cycle_near_start(case: Parameters, tol: float) -> FloquetResult:
     """The cycle near the static start, and whether the motion from there is near it."""
-    return beside_motion(find_cycle(case, tol))
+    return search_near_start(case, tol).cycle
 
 
-def beside_motion(cycle: FloquetResult) -> FloquetResult:
-    """The result of the search near the static start. The message of an unstable cycle says so if the
-    motion from there is near another one, or cannot be near this one any more."""
+def search_near_start(case: Parameters, tol: float) -> Search:
+    """The search for the cycle near the static start, which is compared with the motion from there."""
+    if not may_stick_and_slip(case):
+        return Search(find_cycle(case, tol), None)
+    map_ = ReturnMap(case, tol)
+    return Search(beside_motion(cycle_from_rest(map_), map_), map_)
+
+
+def beside_motion(cycle: FloquetResult, map_: ReturnMap) -> FloquetResult:
+    """The result of the search near the static start, by the return map of its case. The message of an
+    unstable cycle says so if the motion from there is near another one, or cannot be near this one any
+    more."""
     if cycle.state is None or cycle.stable or cycle.releases > 1:
         return cycle
-    map_ = ReturnMap(cycle.parameters, cycle.tol)
     start = map_.first_release
     near = replace(cycle, near_motion=True)
     if not start.reached:

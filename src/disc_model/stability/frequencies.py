@@ -15,23 +15,23 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import FloquetResult, find_cycle
+from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.floquet import search_near_start
 from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
 
 @compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
-    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
+    """The stick-slip cycle near the static start, compared with the motion, and the modes of steady sliding. Of the
     multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
     MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
-    cycle = find_cycle(p, tol)
+    cycle, map_ = search_near_start(p, tol)
     modes = sliding_modes(p, cycle.sliding)
     columns = np.full((3, len(modes.frequency)), math.nan)
     disc = modes.diameters >= 0
-    if cycle.state is None or not disc.any():
+    if cycle.state is None or map_ is None or not disc.any():
         return cycle, modes, columns
-    map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(orbit.jacobian)
     shapes = _shapes_on_section(map_, cycle.state, modes.shapes[:, disc])

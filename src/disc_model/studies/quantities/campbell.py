@@ -125,11 +125,9 @@ class Campbell(Quantity):
         return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.floquet import beside_motion
         from disc_model.stability.frequencies import frequencies
 
-        found, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
-        cycle = beside_motion(found)
+        cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
         values: dict[str, Any] = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
