@@ -1,5 +1,6 @@
 """Campbell diagrams of a study on a reader's axes."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -8,7 +9,8 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.campbell import ALONE, peaks
+from disc_model.figures import campbell
+from disc_model.figures.campbell import ALONE, Peak, peaks
 from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.sizes import COLUMN, PAGE
 from tests.figures.described import campbell_study
@@ -86,6 +88,19 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     without = dm.plot_campbell(campbell_study())[0].figure
     assert NOT_NEAR.label not in labels(without)
     pyplot.close("all")
+
+
+def test_peaks_of_a_picture_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lines, names and the legend found them anew."""
+    sought = []
+
+    def counted_peaks(study: xr.Dataset) -> Iterator[Peak]:
+        sought.append(study)
+        return peaks(study)
+
+    monkeypatch.setattr(campbell, "peaks", counted_peaks)
+    dm.plot_campbell(campbell_study())
+    assert len(sought) == 1
 
 
 GAP = np.nan

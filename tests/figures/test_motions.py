@@ -20,7 +20,7 @@ from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
 from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
-from disc_model.figures.campbell import Peak, peaks
+from disc_model.figures.campbell import Column, Peak, peaks
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, OPEN_STEP, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
@@ -816,14 +816,14 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
 )
 def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
     speeds = np.arange(5.0)
-    studies = []
-    for column in (CALM, rates):
-        rate = ("Omega", np.array(column))
+    columns = []
+    for heights in (CALM, rates):
+        rate = ("Omega", np.array(heights))
         study = xr.Dataset({"growth_rate": rate}, {"Omega": speeds})
         study["sliding_frequency"] = 10 * study["Omega"]
-        studies.append(study)
+        columns.append(campbell_diagram.column_of(study))
     figure = Figure(figsize=(7, 4))
-    campbell_diagram._legend(figure, studies)
+    campbell_diagram._legend(figure, columns)
     shown = labels(figure)
     assert name in shown
     [legend] = figure.legends
@@ -833,7 +833,7 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
         assert np.array_equal(shape.vertices, OPEN_STEP.vertices), "there was no sample of it"
     assert "speed of a peak" not in shown
     figure = Figure(figsize=(7, 4))
-    campbell_diagram._legend(figure, studies[:1])
+    campbell_diagram._legend(figure, columns[:1])
     assert name not in labels(figure)
 
 
@@ -879,7 +879,7 @@ def crossing_at(speed: float, frequency: float, multiple: float = 4.0) -> xr.Dat
     )
 
 
-def meetings(monkeypatch: pytest.MonkeyPatch, found: list[Peak]) -> tuple[np.ndarray, xr.Dataset]:
+def meetings(found: list[Peak], speeds: list[float] | None = None) -> tuple[np.ndarray, Column]:
     """Empty panels and a study of two modes whose peaks are those that are given."""
     _, axes = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
     axes[0].set(xlim=(10, 20), ylim=(0, 700))
@@ -887,16 +887,15 @@ def meetings(monkeypatch: pytest.MonkeyPatch, found: list[Peak]) -> tuple[np.nda
     modes = np.repeat([[240.0, 270.0]], 5, axis=0)
     data = {"growth_rate": ("Omega", np.full(5, 0.3))}
     data["sliding_frequency"] = (("Omega", "mode"), modes)
-    monkeypatch.setattr(campbell_diagram, "peaks", lambda _: found)
-    return axes, xr.Dataset(data, {"Omega": np.linspace(10.0, 20.0, 5)})
+    study = xr.Dataset(data, {"Omega": speeds or [10.0, 12.5, 15.0, 17.5, 20.0]})
+    return axes, Column(study, found)
 
 
-def test_names_of_crossings_stand_at_their_own_peak(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_names_of_crossings_stand_at_their_own_peak() -> None:
     """A name stood beside the line of another peak."""
     found = [Peak(2, crossing_at(12.5, 270.0)), Peak(1, crossing_at(11.7, 600.0))]
-    (top, bottom), study = meetings(monkeypatch, found)
-    study = study.assign_coords(Omega=[10.0, 11.7, 12.5, 16.0, 20.0])
-    campbell_diagram.name_peaks(top, bottom, study)
+    (top, bottom), column = meetings(found, [10.0, 11.7, 12.5, 16.0, 20.0])
+    campbell_diagram.name_peaks(top, bottom, column)
     top.figure.draw_without_rendering()
     first = Text.get_window_extent(top.texts[0])
     own, other = (top.transData.transform((speed, 0))[0] for speed in (12.5, 11.7))
@@ -905,34 +904,32 @@ def test_names_of_crossings_stand_at_their_own_peak(monkeypatch: pytest.MonkeyPa
     pyplot.close("all")
 
 
-def test_names_of_crowded_crossings_are_led_to_them(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_names_of_crowded_crossings_are_led_to_them() -> None:
     """Of five crossings, two had no name."""
     speeds = [14.6, 14.8, 15.0, 15.2, 15.4]
     found = [Peak(2, crossing_at(speed, 270.0, speed)) for speed in speeds]
-    (top, bottom), study = meetings(monkeypatch, found)
-    campbell_diagram.name_peaks(top, bottom, study)
+    (top, bottom), column = meetings(found)
+    campbell_diagram.name_peaks(top, bottom, column)
     top.figure.draw_without_rendering()
     assert sum(name.get_visible() for name in top.texts) >= 4
     pyplot.close("all")
 
 
 @pytest.mark.parametrize("alone", [True, False])
-def test_a_legend_has_marks_of_peaks_as_they_are_drawn(
-    monkeypatch: pytest.MonkeyPatch, alone: bool
-) -> None:
+def test_a_legend_has_marks_of_peaks_as_they_are_drawn(alone: bool) -> None:
     """It had a filled mark where all marks were hollow."""
-    _, study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0), alone)])
-    entries = campbell_diagram.entries_of([study], 700)
+    _, column = meetings([Peak(2, crossing_at(15.0, 270.0), alone)])
+    entries = campbell_diagram.entries_of([column], 700)
     said = [str(entry.get_label()) for entry in entries]
     assert ("peak of growth, crossing at it" in said) is not alone
     assert ("speed of a peak of growth, crossing at it" in said) is alone
     pyplot.close("all")
 
 
-def test_names_of_crossings_cover_no_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_names_of_crossings_cover_no_line() -> None:
     """A multiple was written on the line of another mode, below the one that it meets."""
-    (top, bottom), study = meetings(monkeypatch, [Peak(2, crossing_at(15.0, 270.0))])
-    campbell_diagram.name_peaks(top, bottom, study)
+    (top, bottom), column = meetings([Peak(2, crossing_at(15.0, 270.0))])
+    campbell_diagram.name_peaks(top, bottom, column)
     top.figure.draw_without_rendering()
     [name] = top.texts
     assert name.get_visible()

@@ -73,6 +73,13 @@ class Peak(NamedTuple):
     alone: bool = False
 
 
+class Column(NamedTuple):
+    """A study of one model, which has a column of panels, and the peaks of its growth rate."""
+
+    study: xr.Dataset
+    peaks: Sequence[Peak]
+
+
 def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw frequencies above growth rates, a column for each value of the compared dimension."""
     if NORM in study.dims and (plot.normalization is not None or plot.by != NORM):
@@ -85,7 +92,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     )
     above = axes[: len(parts)]
     below = axes[len(parts) :]
-    columns = [part.data.transpose("Omega", ...) for part in parts]
+    columns = [column_of(part.data.transpose("Omega", ...)) for part in parts]
     highest = plot.highest or highest_of(columns)
     draw_panels(above, below, columns, highest)
     letters(axes, titles_of(parts))
@@ -95,18 +102,23 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     return figure
 
 
-def highest_of(columns: Sequence[xr.Dataset]) -> float:
+def column_of(study: xr.Dataset) -> Column:
+    """The column of a study, whose peaks are found here for all that is drawn and said of them."""
+    return Column(study, [*peaks(study)])
+
+
+def highest_of(columns: Sequence[Column]) -> float:
     """The upper end of an axis that shows all frequencies, Hz."""
-    return ROOM * max(float(column["sliding_frequency"].max()) for column in columns)
+    return ROOM * max(float(column.study["sliding_frequency"].max()) for column in columns)
 
 
 def draw_panels(
-    above: Sequence[Axes], below: Sequence[Axes], columns: Sequence[xr.Dataset], highest: float
+    above: Sequence[Axes], below: Sequence[Axes], columns: Sequence[Column], highest: float
 ) -> None:
     """Draw frequencies up to the highest shown (Hz), and growth rates below them, on one scale."""
     for top, bottom, column in zip(above, below, columns, strict=True):
         _draw_column(top, bottom, column, highest)
-    rates = [column["growth_rate"].values for column in columns]
+    rates = [column.study["growth_rate"].values for column in columns]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
     above[0].set_ylim(0, highest)
@@ -117,21 +129,23 @@ def draw_panels(
         whole_marks(ax)
 
 
-def _legend(figure: Figure, studies: Sequence[xr.Dataset], highest: float = np.inf) -> None:
+def _legend(figure: Figure, columns: Sequence[Column], highest: float = np.inf) -> None:
     """Name lines, marks and bands that are drawn."""
-    figure_legend(figure, entries_of(studies, highest), columns=3)
+    figure_legend(figure, entries_of(columns, highest), columns=3)
 
 
-def entries_of(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
+def entries_of(columns: Sequence[Column], highest: float) -> list[Artist]:
     """Entries of a legend for the lines, marks and bands that are drawn, and for what lies above the
     highest frequency shown (Hz)."""
     handles: list[Artist] = [
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
+    studies = [column.study for column in columns]
     above = max(modes_above(study["sliding_frequency"], highest) for study in studies)
     if above:
         handles.append(entry_of_cut(above, highest))
-    handles += _entries_of_peaks([peak for study in studies for peak in peaks(study)], highest)
+    found = [peak for column in columns for peak in column.peaks]
+    handles += _entries_of_peaks(found, highest)
     return handles + _entries_of_rates(studies)
 
 
@@ -176,16 +190,17 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
     return handles
 
 
-def _draw_column(top: Axes, bottom: Axes, study: xr.Dataset, highest: float) -> None:
+def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> None:
     """Draw the frequencies of one model up to the highest shown (Hz), and its growth rates
     below."""
+    study = column.study
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     elsewhere = _elsewhere(study)
     _draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, followed_rates(study))
     bottom.plot(speeds[elsewhere], rate[elsewhere], **_elsewhere_look())
-    for peak in peaks(study):
+    for peak in column.peaks:
         _draw_peak(top, bottom, study, peak, highest)
     if modes_above(study["sliding_frequency"], highest):
         mark_cut(top, highest)
@@ -291,9 +306,10 @@ def _meeting(crossing: xr.Dataset) -> tuple[float, float]:
     return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
 
 
-def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.inf) -> None:
+def name_peaks(top: Axes, bottom: Axes, column: Column, highest: float = np.inf) -> None:
     """Write the multiples at peaks, and at crossings up to the highest frequency shown (Hz), where there
     is room."""
+    study = column.study
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
@@ -301,14 +317,13 @@ def name_peaks(top: Axes, bottom: Axes, study: xr.Dataset, highest: float = np.i
     of_rates = _along_lines([broken(speeds, followed_rates(study), LINEAR)])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
-    found = [*peaks(study)]
-    for peak in found:
+    for peak in column.peaks:
         if peak.crossing is None:
             continue
         name = _multiple(peak.crossing)
         meeting = _meeting(peak.crossing)
         if meeting[1] <= highest:
-            others = [speeds[each.place] for each in found if each.place != peak.place]
+            others = [speeds[each.place] for each in column.peaks if each.place != peak.place]
             above.add(
                 name,
                 meeting,

@@ -9,6 +9,7 @@ from disc_model.errors import require
 from disc_model.figures.campbell import (
     FREQUENCY,
     RATE,
+    column_of,
     draw_panels,
     entries_of,
     highest_of,
@@ -46,18 +47,19 @@ def plot_campbell(
         (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
         (known, "highest", highest, "must be a number > 0, in Hz"),
     )
-    column = without_single(study, *OTHERS).transpose("Omega", ...)
-    further = [str(dim) for dim in column.dims if dim not in OTHERS]
+    drawn = without_single(study, *OTHERS).transpose("Omega", ...)
+    further = [str(dim) for dim in drawn.dims if dim not in OTHERS]
     rule = f"must not vary along it: select one, as by study.isel({'=0, '.join(further)}=0)"
     points = "must have two speeds or more"
     require(
         (not further, "study", ", ".join(further), rule),
-        (column.sizes["Omega"] > 1, "study", "a single speed", points),
+        (drawn.sizes["Omega"] > 1, "study", "a single speed", points),
     )
 
+    column = column_of(drawn)
     shown = highest or highest_of([column])
     wishes = Wishes(ax, legend, labels, title)
-    case = what_case(values_of(column))
+    case = what_case(values_of(drawn))
     shared: dict[str, Any] = {"sharex": True, "height_ratios": [3, 2]}
     with page_for(wishes, COLUMN, HEIGHT, 2, 1, title=case, **shared) as page:
         page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
