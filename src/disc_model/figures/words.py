@@ -99,8 +99,8 @@ SHORT = {
 """What labels call variables whose long names explain them."""
 TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
 """Variables that have no value where contact is kept up to the horizon."""
-CRITICAL = "critical value of "
-"""What long names of critical values say before that of the parameter."""
+CRITICAL = ("critical value of ", "")
+"""What long names of critical values say before and after that of the parameter."""
 BORDER = ("value of ", " above which the motion stays unstable")
 """What those of borders of stability say before and after it."""
 PERSONS = ("Young", "Poisson")
@@ -224,10 +224,8 @@ LOAD, _ = axis_of("N")
 def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     name, unit, factor = named(variable)
-    has_symbol = (
-        known_name(variable) or parameter_searched(variable) or parameter_bordered(variable)
-    )
-    label = typeset(name) if has_symbol else name
+    found = [parameter_within(variable, around) for around in (CRITICAL, BORDER)]
+    label = typeset(name) if known_name(variable) or any(found) else name
     if unit:
         label = f"{label} ({unit})"
     return label, factor
@@ -242,12 +240,12 @@ def named(variable: xr.DataArray) -> Named:
         return Named(f"{shown.name} {shown.symbol}".strip(), shown.unit, shown.factor)
     # disturbances have one name in all figures
     words = _words_of(variable).replace("disturbances of ", "")
-    critical = parameter_searched(variable)
+    critical = parameter_within(variable, CRITICAL)
     if critical:
         shown = SHOWN[critical]
         symbol = f"Critical {_within_words(shown.name)} {shown.symbol}".strip()
         return Named(symbol, shown.unit, shown.factor)
-    border = parameter_bordered(variable)
+    border = parameter_within(variable, BORDER)
     if border:
         shown = SHOWN[border]
         symbol = f"{shown.name} {shown.symbol}".strip()
@@ -267,19 +265,10 @@ def named(variable: xr.DataArray) -> Named:
     return Named(phrase, unit_text(units), 1.0)
 
 
-def parameter_searched(variable: xr.DataArray) -> str:
-    """The parameter of which a variable is the critical value, as `critical` finds it; "" if it is
-    none."""
-    words = _words_of(variable)
-    if not words.startswith(CRITICAL):
-        return ""
-    return _parameter_of_meaning(words.removeprefix(CRITICAL))
-
-
-def parameter_bordered(variable: xr.DataArray) -> str:
-    """The parameter above whose value the motion stays unstable, as `critical` finds it; "" if a variable
-    is no such value."""
-    before, after = BORDER
+def parameter_within(variable: xr.DataArray, around: tuple[str, str]) -> str:
+    """The parameter whose long name a variable says between two phrases, as of the values that `critical`
+    finds; "" if it says none."""
+    before, after = around
     words = _words_of(variable)
     if not (words.startswith(before) and words.endswith(after)):
         return ""
