@@ -1,6 +1,7 @@
 """Pictures on a reader's axes in figures as low and narrow as those of a journal's column."""
 
 import functools
+import json
 from typing import Any
 
 import numpy as np
@@ -289,6 +290,29 @@ def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
     pyplot.close("all")
 
 
+@pytest.mark.parametrize(
+    ("function", "unset", "option", "expected"),
+    [
+        ("critical", {}, {"precision": 0.01}, "precision of a millionth of the range"),
+        ("own", {}, {"order": 3}, "default order"),
+        ("own", {"order": None}, {"order": 3}, "default order"),
+        ("own", {"order": [1, 2]}, {"order": 3}, "sweep 1"),
+    ],
+)
+def test_an_option_that_is_not_set_has_words_beside_one_that_is(
+    function: str, unset: dict[str, Any], option: dict[str, Any], expected: str
+) -> None:
+    """It was "sweep 1"."""
+    value = ("N", [1.0, 2.0, 3.0])
+    _, ax = pyplot.subplots()
+    for options in (unset, option):
+        attrs = {"function": function, "options": json.dumps({"name": "c_p", **options})}
+        found = xr.Dataset({"value": value}, {"N": [300.0, 320.0, 340.0]}, attrs)
+        dm.plot_sweep(found, ax=ax)
+    assert named(ax)[0] == expected
+    pyplot.close("all")
+
+
 def test_the_title_says_how_long_a_sweep_stays_at_each_value() -> None:
     """It was said only where sweeps differ in it."""
     attrs = {"options": '{"dwell": 20.0, "max_dwell": 160.0}', "base": '{"N": 300.0}'}
@@ -379,7 +403,7 @@ def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
     """They were named by raw options, such as "max crossings 12" and "points 201"."""
     search = critical_values("critical", '{"name": "Omega", "points": 201, "kind": "stick_slip"}')
     scan = critical_values("critical_speed", '{"horizon": 50.0, "step": 0.5, "max_crossings": 12}')
-    longer = critical_values("critical_speed", '{"horizon": 90.0, "step": 0.1, "tol": 1e-9}')
+    longer = critical_values("critical_speed", '{"horizon": 90.0, "step": 0.1, "max_crossings": 9}')
     _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
     dm.plot_sweep(search, "value", ax=axes[0])
     dm.plot_sweep(scan, "critical_speed", ax=axes[0])
@@ -388,7 +412,7 @@ def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
     dm.plot_sweep(scan, "critical_speed", ax=axes[1])
     dm.plot_sweep(longer, "critical_speed", ax=axes[1])
     both = ["horizon 50 s, steps of 0.5 rad/s, up to 12 crossings"]
-    both += ["horizon 90 s, steps of 0.1 rad/s, tolerance 1e-09"]
+    both += ["horizon 90 s, steps of 0.1 rad/s, up to 9 crossings"]
     assert named(axes[1]) == both
     pyplot.close("all")
 

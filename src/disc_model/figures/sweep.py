@@ -40,7 +40,7 @@ from disc_model.figures.sweep_lines import (
     names_asked,
     quantities_of,
 )
-from disc_model.figures.sweep_options import options_of
+from disc_model.figures.sweep_options import options_of, set_options
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_in, label_of, measured
 
@@ -122,7 +122,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: st
     options = options_of(study)
     lines = lines_of(study, drawn.variable, labels, name, {**options, **values_of(study)})
     lines.shown.said = {**options, **said_of(study)}
-    lines.options = {*options}
+    lines.options = {*options} | set_options(study)
     quantities = quantities_of(lines, others)
     page.show(quantities)
     lines.number = len(lines_beside(page.ax))

@@ -16,7 +16,7 @@ from disc_model.figures.family import Member, name_in, names_of, retitle
 from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.pages import Page
-from disc_model.figures.sweep_options import COMPARED, function_of, sought_in
+from disc_model.figures.sweep_options import COMPARED, function_of, sought_in, unset_text
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
 
@@ -38,7 +38,7 @@ class Lines:
     duration : time for which motions were followed, "" if the variable does not depend on it
     shown : what tells the lines from others
     function, sought : what computed the lines, and in words, what critical values are those of
-    options : names of the options of that function
+    options : names of the options of that function that are set
     number : their place in the order in which lines were drawn there
     parts : name along a second dimension, "" without one, of each line, and the line
     """
@@ -194,6 +194,17 @@ def _compare_functions(family: Sequence[Lines]) -> None:
         each.shown.values = kept
 
 
+def _with_unset(family: Sequence[Lines]) -> None:
+    """Let lines of one function say of options that only others of them have set that they are not set."""
+    names = [name for each in family for name in each.options]
+    for each in family:
+        unset = {name: unset_text(name) for name in names if name not in each.options}
+        first = {name: each.shown.values[name] for name in ("variable", "sought")}
+        each.shown.values = {**first, **unset, **each.shown.values}
+        each.shown.said = {**each.shown.said, **unset}
+        each.options = {*each.options, *unset}
+
+
 def join_lines(page: Page, new: Lines) -> dict[int, str]:
     """Add lines to those on their axes. Of several, the legend names each by what differs between
     their variables and cases, or as its reader does. Returns the names of several by their numbers."""
@@ -208,6 +219,8 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
         each.shown.values = {**each.shown.values, "variable": short, "sought": each.sought}
     if len({each.function for each in family}) > 1:
         _compare_functions(family)
+    else:
+        _with_unset(family)
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page.figure, shown)

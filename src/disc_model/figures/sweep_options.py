@@ -54,6 +54,13 @@ OF_FUNCTIONS = {
     "outcome": {"evaluation_time": Phrase("last {} of the motion", "s")},
 }
 """and of those that have another unit or meaning in some functions."""
+UNSET = {
+    "duration": "",  # which `t_end` may say
+    "precision": "precision of a millionth of the range",
+    "stop_at": "not stopped",
+    "t_end": "",
+}
+"""What legends say of options that are not set, beside lines for which they are."""
 COMPARED = (STAYS, "horizon", "duration", "t_end")
 """Options that are said beside those of another function, which has settings of its own."""
 SEPARATION = "separation"
@@ -105,6 +112,16 @@ def option_text(name: str, value: Any) -> str:
     """What is said of the value of an option; "" of one that has no words."""
     phrase = PHRASES.get(name)
     return _said(name, value, phrase) if phrase else ""
+
+
+def set_options(study: xr.Dataset) -> set[str]:
+    """The names of the options that are set, also those of which nothing is said, such as lists."""
+    return {name for name, value in stated_in(study, "options").items() if value is not None}
+
+
+def unset_text(name: str) -> str:
+    """What is said of an option that is not set."""
+    return UNSET.get(name, f"default {name.replace('_', ' ')}")
 
 
 def _in_unit_of(options: dict[str, Any], searched: str) -> dict[str, Any]:
