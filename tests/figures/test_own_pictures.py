@@ -12,6 +12,7 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 import disc_model as dm
 from disc_model.analysis.spectra import Resonance
@@ -476,6 +477,22 @@ def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
     heights = (places[:, 1] - ax.bbox.y0) / ax.bbox.height
     assert (heights < 0.1).all()
     assert (heights > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("rate", "said"),
+    [
+        (-0.006, "there the motion is near another cycle"),
+        (np.nan, "there the motion is not near this cycle"),
+    ],
+)
+def test_a_critical_value_says_that_the_motion_is_elsewhere(rate: float, said: str) -> None:
+    found = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
+    away = replace(found, near_motion=False, other_growth_rate=rate)
+    for critical, expected in ((away, True), (found, False)):
+        ax = critical.plot()
+        shown = " ".join(text.get_text() for text in ax.figure.findobj(Text))
+        assert (said in shown) is expected
 
 
 def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:

@@ -11,6 +11,7 @@ from scipy.optimize import brentq
 from disc_model import Parameters, continue_cycle, floquet, neutral_curves, simulate, sweep
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Bar
+from disc_model.figures.selection import not_near
 from disc_model.stability import critical, parameter_scan
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
@@ -253,6 +254,42 @@ def test_a_sweep_keeps_what_is_said_of_a_critical_value() -> None:
     assert said[0] == expected
     assert found["value"][0] == 15.2
     assert found["at_lower_bound"].values.tolist() == [True, False]
+
+
+@pytest.mark.compiled
+def test_a_critical_value_says_where_the_motion_is_not_near_the_cycle() -> None:
+    """The growth rate of 0.28/s at 7.35 rad/s stood for that of a motion near another cycle."""
+    case = Parameters(N=375, Omega=7)
+    found = critical.critical(case, "Omega", (7.35, 7.4), points=3)
+    cycle = floquet(case.replace(Omega=found.value))
+    assert found.near_motion is cycle.near_motion is False
+    assert found.other_growth_rate == cycle.other_growth_rate
+    assert "near another cycle there, with growth rate 0.000399" in found.message
+    assert found.message.startswith("already unstable at the lower bound")
+    assert found.message in repr(found)
+    assert found.message in found._repr_html_()
+
+
+@pytest.mark.compiled
+def test_a_critical_value_at_which_the_motion_is_near_the_cycle_says_nothing_of_another() -> None:
+    found = critical.critical(Parameters(N=375, Omega=7), "Omega", (7.34, 7.36), points=2)
+    assert found.near_motion is True
+    assert math.isnan(found.other_growth_rate)
+    assert found.message == "already unstable at the lower bound, Omega = 7.34 rad/s"
+
+
+@pytest.mark.compiled
+def test_a_sweep_of_critical_values_has_what_they_say_of_the_motion() -> None:
+    axes = {"N": [375.0, 385.0]}
+    case = Parameters(N=375, Omega=7)
+    found = sweep(critical.critical, case, name="Omega", bounds=(7.35, 7.4), points=3, **axes)
+    assert found["near_motion"].values.tolist() == [False, True]
+    assert "near the cycle" in found["near_motion"].attrs["long_name"]
+    assert found["other_growth_rate"].values[0] == pytest.approx(0.0004, abs=1e-4)
+    away = not_near(found, "value")
+    assert away is not None
+    assert away.values.tolist() == [True, False]
+    assert not_near(found, "growth_rate") is None
 
 
 @pytest.mark.usefixtures("short_search")

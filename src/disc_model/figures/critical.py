@@ -106,9 +106,19 @@ def _note_of(critical: Critical, factor: float, unit: str) -> str:
     """From where on the motion is unstable, and what may have been overlooked."""
     step = f"{critical.resolution * factor:.2g} {unit}".strip()
     overlooked = f"tongues below {step} may be missed"
-    if critical.at_lower_bound:
-        return f"already unstable at the lower bound\n{overlooked}"
     if np.isnan(critical.value):
         return overlooked
     first = f"unstable from {critical.value * factor:.5g} {unit}".strip()
-    return f"{first}\n{overlooked}"
+    if critical.at_lower_bound:
+        first = "already unstable at the lower bound"
+    lines = [first, _place_of_motion(critical), overlooked]
+    return "\n".join(filter(None, lines))
+
+
+def _place_of_motion(critical: Critical) -> str:
+    """Where the motion is at the critical value, if it is not near the unstable cycle; else ""."""
+    if critical.near_motion is not False:
+        return ""
+    if np.isnan(critical.other_growth_rate):
+        return "there the motion is not near this cycle"
+    return "there the motion is near another cycle"

@@ -341,8 +341,10 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
 
 def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points whose value is that of an unstable cycle which the motion from the static start is not
-    near; None of other variables and studies."""
-    if variable not in OF_CYCLES or "near_motion" not in study:
+    near, or the critical value at which it is found; None of other variables and studies."""
+    searched = "crossings" in study  # by `critical`, whose growth rates are those at all values
+    of_cycle = variable == "value" if searched else variable in OF_CYCLES
+    if not of_cycle or "near_motion" not in study:
         return None
     away = study["near_motion"] == 0
     return away.broadcast_like(study[variable])

@@ -14,9 +14,11 @@ from disc_model.errors import raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
-from disc_model.stability.cycle import SLIPPING, STICK_SLIP
+from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
+from disc_model.stability.floquet import beside_motion
 from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
+from disc_model.stability.return_map import ReturnMap
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -46,7 +48,11 @@ class Critical(Drawn, EqualByValue):
     border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
         stable there, or unstable at all values. Tongues of instability may lie below it
     at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
-    message : says so if `value` is the lower bound or nan; else ""
+    message : says so if `value` is the lower bound or nan, or the motion from the static start is elsewhere; else ""
+    near_motion : whether the motion from the static start may be near the unstable cycle at `value`, as in
+        `FloquetResult`; None, which sweeps have as nan, without such a cycle. Where it is False, that motion may be
+        stable at `value`
+    other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
     kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
         or "sliding", steady sliding
     crossings : shape (n,), all values at which stability was seen to change, ascending
@@ -78,9 +84,12 @@ class Critical(Drawn, EqualByValue):
     growth_rate: Array
     resolution: float
     kind: str = STICK_SLIP
+    near_motion: bool | None = None
+    other_growth_rate: float = math.nan
 
     def __repr__(self) -> str:
-        first = self.message or f"unstable from {self.value:.6g}"
+        found = self._without_loss or f"unstable from {self.value:.6g}"
+        first = "; ".join(filter(None, (found, self._elsewhere)))
         crossings = counted(len(self.crossings), "crossing")
         seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
         return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
@@ -102,7 +111,22 @@ class Critical(Drawn, EqualByValue):
 
     @property
     def message(self) -> str:
-        """Why `value` is no value at which stability is lost, in words; "" where it is one."""
+        """Why `value` is no value at which the motion loses stability, in words; "" where it is one."""
+        return "; ".join(filter(None, (self._without_loss, self._elsewhere)))
+
+    @property
+    def _elsewhere(self) -> str:
+        """Where the motion is, if it is not near the unstable cycle; else ""."""
+        if self.near_motion is not False:
+            return ""
+        if math.isnan(self.other_growth_rate):
+            return "the motion from the static start is not near the unstable cycle there"
+        rate = f"with growth rate {self.other_growth_rate:.6g} 1/s"
+        return f"the motion from the static start is near another cycle there, {rate}"
+
+    @property
+    def _without_loss(self) -> str:
+        """Why stability is not lost at `value`, in words; "" where it is."""
         if math.isnan(self.value):
             count = len(self.values)
             if self.kind == SLIDING:  # which may be neutral
@@ -159,7 +183,8 @@ def critical(
     a stable cycle is followed from neighbouring values to its fold. Where an unstable one was found,
     the motion from the static start must settle on the stable one within 10,000 releases. Where a
     stable one was found, it counts, though between two folds the start may lead to another cycle:
-    `outcome` simulates the motion. Where no cycle is found and stick-slip goes on, the motion counts
+    `outcome` simulates the motion. At the least unstable value, `near_motion` says whether that motion
+    may be near the unstable cycle, as `floquet` does. Where no cycle is found and stick-slip goes on, the motion counts
     as unstable.
 
     It is computed at equal steps, which alone limit what can be overlooked. Instability often lies
@@ -255,6 +280,7 @@ def _result(scan: Scan, kind: str, shortest: float) -> Critical:
     crossings, unstable_above = scan.located_changes(shortest)
     computed = sorted(scan.motions)
     first = next((value for value in computed if not scan.is_stable(value)), math.nan)
+    compared = _compared_with_motion(scan, first)
     return Critical(
         parameters=scan.p,
         name=scan.name,
@@ -265,4 +291,15 @@ def _result(scan: Scan, kind: str, shortest: float) -> Critical:
         growth_rate=np.array([scan.motions[value].growth_rate for value in computed]),
         resolution=float(np.diff(computed).max()),
         kind=kind,
+        near_motion=compared.near_motion if compared else None,
+        other_growth_rate=compared.other_growth_rate if compared else math.nan,
     )
+
+
+def _compared_with_motion(scan: Scan, value: float) -> FloquetResult | None:
+    """The cycle of a scan at a value, and whether the motion from the static start is near it; None without
+    a cycle."""
+    cycle = scan.motions.get(value)
+    if not isinstance(cycle, FloquetResult) or cycle.state is None:
+        return None
+    return beside_motion(cycle, ReturnMap(cycle.parameters, cycle.tol))

@@ -131,21 +131,16 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         for name in BY_METHODS:
             if hasattr(result, name):
                 values[name] = getattr(result, name)
-        if type(result).__name__ == "FloquetResult":
-            values |= dict.fromkeys(_missing_of_cycle(result), math.nan)
+        if type(result).__name__ == "FloquetResult" and result.status is not CycleStatus.OK:
+            values |= dict.fromkeys(OF_A_CYCLE, math.nan)
+        if "near_motion" in values and values["near_motion"] is None:
+            values["near_motion"] = math.nan
         if hasattr(result, "sliding"):
             values["sliding_growth_rate"] = result.sliding.growth_rate
         return values
     if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
         return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
-
-
-def _missing_of_cycle(result: Any) -> Sequence[str]:
-    """Counts and verdicts of a result of `floquet` that have no value."""
-    if result.status is not CycleStatus.OK:
-        return OF_A_CYCLE
-    return ["near_motion"] if result.near_motion is None else []
 
 
 def stacked(
