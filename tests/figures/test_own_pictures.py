@@ -229,6 +229,26 @@ def test_several_special_points_of_a_kind_are_counted() -> None:
     assert folds.get_ydata() == pytest.approx([14.0, 15.0])
 
 
+def test_ends_at_which_a_branch_is_not_continued_say_so() -> None:
+    """Their pictures ended as if the branch did, while other ends had a mark and words."""
+    steps = dm.StepControl(max_points=3)
+    found = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2), steps=steps)
+    ax = found.plot("period")
+    name = "continued no further: max_points"
+    assert name in labels(ax.figure)
+    assert lines(ax)[name].get_xdata().tolist() == [found.values[-1, 0]]
+    dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 14.95)).plot("period", ax=ax)
+    assert name in labels(ax.figure), "also of several branches"
+
+
+def test_an_end_at_which_no_step_succeeds_says_so() -> None:
+    lost = SimpleNamespace(kind="lost", values=[15.0], period=0.014)
+    made: Any = SimpleNamespace(special=[lost], parameters=("Omega",))
+    _, ax = pyplot.subplots()
+    [entry] = _mark_special_points(ax, made, "period", (1.0, 1e3))
+    assert entry.get_label() == "continued no further: no step succeeds"
+
+
 def test_a_branch_of_both_stabilities_names_them_on_a_linear_axis() -> None:
     """Ranges from one end to the other differ by less than a factor of 30."""
     p = P.replace(Omega=14.9)

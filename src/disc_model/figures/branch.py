@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.data.variables import axis_of, presentation_of
 from disc_model.errors import require
-from disc_model.figures.branch_family import NAME, SPECIAL_MARKS, join_family, next_look
+from disc_model.figures.branch_family import NAME, NO_FURTHER, SPECIAL_MARKS, join_family, next_look
 from disc_model.figures.branch_lines import (
     FLOOR,
     STABLE,
@@ -128,7 +128,9 @@ def _mark_special_points(
         places = np.array([each.values[0] for each in special]) * across
         heights = np.array([_upward(each, branch, y) * upward for each in special], float)
         text = f"{len(special)} {name}s"
-        if len(special) == 1:
+        if name.startswith(NO_FURTHER):
+            text = name
+        elif len(special) == 1:
             text = f"{name} at {places[0]:.5g} {unit}".rstrip()
         look: dict[str, Any] = {"color": colour, "markersize": mark(4), "markeredgewidth": 0.5}
         handles += ax.plot(places, above_floor(heights), sign, label=text, **look)

@@ -13,6 +13,8 @@ from disc_model.figures.types import Axes
 
 NAME = "branch"
 """The label by which a reader names a branch."""
+NO_FURTHER = "continued no further"
+"""Said of ends at which a branch may go on."""
 SPECIAL_MARKS = {
     "fold": ("s", SEPARATED, "fold"),
     "period_doubling": ("D", BLUE, "period doubling"),
@@ -20,6 +22,8 @@ SPECIAL_MARKS = {
     "branch_point": ("*", BLACK, "branch point"),
     "grazing": ("X", SEPARATED, "grazing"),
     "hopf": ("^", BLUE, "Hopf point"),
+    "max_points": ("P", BLACK, f"{NO_FURTHER}: max_points"),
+    "lost": ("p", BLACK, f"{NO_FURTHER}: no step succeeds"),
 }
 """Kinds of special points, with their mark, colour and name in the legend."""
 WIDTH = 1.4  # points, of their lines in the legend

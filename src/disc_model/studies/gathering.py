@@ -131,7 +131,7 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         for name in BY_METHODS:
             if hasattr(result, name):
                 values[name] = getattr(result, name)
-        if type(result).__name__ == "FloquetResult" and result.status is not CycleStatus.OK:
+        if _lacks_cycle(result):
             values |= dict.fromkeys(OF_A_CYCLE, math.nan)
         if "near_motion" in values and values["near_motion"] is None:
             values["near_motion"] = math.nan
@@ -141,6 +141,11 @@ def _named_values(result: Any) -> Mapping[str, Any]:
     if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
         return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
+
+
+def _lacks_cycle(result: Any) -> bool:
+    """Whether a result is one of `floquet`, which has found no cycle."""
+    return type(result).__name__ == "FloquetResult" and result.status is not CycleStatus.OK
 
 
 def stacked(

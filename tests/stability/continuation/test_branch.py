@@ -83,6 +83,8 @@ def test_cycles_are_numbered_from_either_end() -> None:
         ("branch_point", "BP"),
         ("hopf", "HB"),
         ("end", "EP"),
+        ("max_points", "EP"),
+        ("lost", "EP"),
     ],
 )
 def test_special_points_have_the_labels_of_auto(kind: str, label: str) -> None:

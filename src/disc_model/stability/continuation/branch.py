@@ -32,6 +32,8 @@ LABELS: dict[str, str] = {
     "grazing": "GR",
     "hopf": "HB",
     "end": "EP",
+    "max_points": "EP",
+    "lost": "EP",
 }
 """Kinds of special points, and their labels in AUTO and COCO."""
 CHANGES = ("fold", "period_doubling", "neimark_sacker")
@@ -48,7 +50,8 @@ class SpecialPoint(Summarised):
     ----------
     kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
         multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
-        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch
+        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
+        "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
     values : shape (n_parameters,), SI units
     period : s; stick_fraction; growth_rate : 1/s
     multiplier : the one that is critical; at a grazing and at an end, the leading one

@@ -12,6 +12,9 @@ from disc_model.stability.continuation.curve import CurvePoint
 from disc_model.stability.continuation.problem import CycleProblem, growth_rate
 from disc_model.stability.cycle import multipliers
 
+SHOWN_ENDS = (ends.GRAZED, ends.HOPF, ends.DOUBLED, ends.MOST_POINTS, ends.LOST)
+"""Ends that are special points of a kind of their own."""
+
 
 def branch_of(
     problem: CycleProblem, course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()
@@ -90,6 +93,6 @@ def _special_points(problem: CycleProblem, course: Course) -> tuple[SpecialPoint
 def _end_of(end: ends.End | None, point: CurvePoint, number: int) -> special.Located:
     """The end of a branch as a special point; without a reason it is the start."""
     kind = "end"
-    if end is not None and end.kind in (ends.GRAZED, ends.HOPF, ends.DOUBLED):
+    if end is not None and end.kind in SHOWN_ENDS:
         kind = end.kind
     return special.Located(kind, point, special.leading(point), number)
