@@ -972,12 +972,26 @@ def test_a_stable_cycle_and_quantities_of_no_cycle_have_no_note() -> None:
     assert np.isnan(stable.to_dataset()["unstable"].item())
 
 
+@pytest.mark.compiled
+def test_a_fit_says_that_the_motion_is_not_near_a_fitted_cycle() -> None:
+    """As `floquet` does at this speed."""
+    case = dm.Parameters(N=375, Omega=7.35)
+    found = dm.fit(case, ["mu_s"], {"period": (Prediction(case).of("period"), 1e-6)})
+    assert dm.floquet(found.case).near_motion is False
+    assert found.elsewhere == ("period",)
+    assert found.note.endswith("the motion from the static start is not near the cycle of period")
+
+
 def test_a_note_names_all_unstable_cycles() -> None:
     found = dm.fit(DISC, ["E"], {"frequency_0_0": (239.0, 0.5)})
     noted = replace(found, unstable={"period": 0.5, "slip_time (Omega=14)": 0.25})
     assert noted.note == (
         "in the fitted case the cycles of period (0.5/s) and slip_time (Omega=14) (0.25/s) are unstable: "
         "a motion does not stay on them"
+    )
+    away = replace(found, elsewhere=("period", "slip_time (Omega=14)"))
+    assert away.note == (
+        "the motion from the static start is not near the cycles of period and slip_time (Omega=14)"
     )
     rates = {f"period (Omega={speed})": 0.5 for speed in range(11, 16)}
     assert "Omega=13) (0.5/s) and 2 others are unstable" in replace(found, unstable=rates).note

@@ -181,6 +181,7 @@ def _result(
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
     computed = problem.predictions(fitted)
+    unstable = problem.unstable(fitted)
     return Fit(
         case=case,
         parameters=parameters,
@@ -198,7 +199,8 @@ def _result(
         at_bounds=at_bounds,
         passed_bounds=passed,
         gap=gap,
-        unstable=problem.unstable(fitted),
+        unstable=unstable,
+        elsewhere=problem.elsewhere(fitted, unstable),
     )
 
 

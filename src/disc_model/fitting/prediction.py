@@ -20,6 +20,7 @@ from disc_model.errors import suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.cycle import find_cycle
+from disc_model.stability.floquet import cycle_near_start
 from disc_model.stability.sliding import steady_sliding
 
 MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
@@ -29,6 +30,8 @@ COUPLED = re.compile(r"coupled_frequency_([1-9]\d*)")
 
 REPEATS = 1e-6
 """Relative difference of successive periods up to which a simulated motion counts as a cycle."""
+TOLERANCE = 1e-12
+"""Relative residual of cycles."""
 LONGEST = 6
 """Number of times that a simulation is doubled until the motion repeats."""
 
@@ -79,10 +82,16 @@ class Prediction:
         if is_rigid(self.case):
             return block_cycle(self.case)
         with compiling():
-            found = find_cycle(self.case)
+            found = find_cycle(self.case, TOLERANCE)
         if math.isnan(found.period):
             raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
+
+    @cached_property
+    def near_motion(self) -> bool | None:
+        """Whether the motion from the static start may be near that cycle, as of `floquet`."""
+        with compiling():
+            return cycle_near_start(self.case, TOLERANCE).near_motion
 
     @cached_property
     def sliding(self) -> complex:

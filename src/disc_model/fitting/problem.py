@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -148,6 +148,18 @@ class Problem:
             if rate > UNSTABLE:
                 rates[each.name] = rate
         return rates
+
+    def elsewhere(self, values: Array, names: Collection[str]) -> tuple[str, ...]:
+        """Return those of some names of measurements near whose unstable cycle the motion from the static
+        start is not."""
+        known: dict[str, Prediction] = {}
+        found = []
+        for each in self.measurements:
+            if each.name not in names:
+                continue
+            if self._prediction(each, values, known).near_motion is False:
+                found.append(each.name)
+        return tuple(found)
 
     def without(self, names: Sequence[str]) -> Problem:
         """Return the problem without the measurements of some names."""

@@ -99,6 +99,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     consistent : whether there is no `doubt`
     unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
         0.01/s; a period, for example, cannot be measured for long there
+    elsewhere : names of those of these measurements near whose cycle the motion from the static start is not
     note : says so, and what is `determined`; "" where there is neither
 
     Examples
@@ -131,6 +132,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     limits: Mapping[str, float] = field(default_factory=dict)
     gap: Gap | None = None
     unstable: Mapping[str, float] = field(default_factory=dict)
+    elsewhere: tuple[str, ...] = ()
 
     def __repr__(self) -> str:
         doubt = self.doubt
@@ -181,7 +183,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         """Which combinations of indistinct parameters the measurements determine, and which measured cycles
         are unstable, with their growth rates; "" where there are none. The fit may be consistent although
         cycles are unstable: the values are right if the motion was still on these."""
-        return "; ".join(filter(None, [*self._combination_texts(), self._instability]))
+        said = [*self._combination_texts(), self._instability, self._distance]
+        return "; ".join(filter(None, said))
 
     def _combination_texts(self) -> Iterator[str]:
         """Yield in words each combination that the measurements determine."""
@@ -199,13 +202,19 @@ class Fit(Summarised, Drawn, EqualByValue):
         cycles = [f"{name} ({rate:.2g}/s)" for name, rate in self.unstable.items()]
         if len(cycles) == 1:
             return f"in the fitted case the cycle of {cycles[0]} is unstable: a motion does not stay on it"
-        first = cycles[: min(NAMED, len(cycles) - 1)]
-        rest = cycles[len(first) :]
-        last = rest[0] if len(rest) == 1 else f"{len(rest)} others"
-        which = f"{', '.join(first)} and {last}"
+        which = _listed(cycles)
         return (
             f"in the fitted case the cycles of {which} are unstable: a motion does not stay on them"
         )
+
+    @property
+    def _distance(self) -> str:
+        """Which of these cycles the motion is not near, in words."""
+        if not self.elsewhere:
+            return ""
+        cycles = "cycle" if len(self.elsewhere) == 1 else "cycles"
+        which = _listed(self.elsewhere)
+        return f"the motion from the static start is not near the {cycles} of {which}"
 
     def _limit_texts(self, name: str) -> Iterator[str]:
         """Yield in words the limit of a parameter, if it has one."""
@@ -349,6 +358,16 @@ class Fit(Summarised, Drawn, EqualByValue):
             )
         )
         return html_table(("fit", ""), self.summary()) + html_table(head, rows)
+
+
+def _listed(names: Sequence[str]) -> str:
+    """Names in a sentence, of which further ones are only counted."""
+    if len(names) == 1:
+        return names[0]
+    first = names[: min(NAMED, len(names) - 1)]
+    rest = names[len(first) :]
+    last = rest[0] if len(rest) == 1 else f"{len(rest)} others"
+    return f"{', '.join(first)} and {last}"
 
 
 def _stopped(gap: Gap) -> str:
