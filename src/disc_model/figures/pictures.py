@@ -29,7 +29,7 @@ def plot_sweep(  # noqa: PLR0913
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
@@ -123,7 +123,7 @@ def plot_campbell(
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
@@ -167,7 +167,7 @@ def plot_modes(
     *,
     ax: Axes | NDArray[Any] | None = None,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
 

@@ -604,11 +604,16 @@ def head_text(width: float, title: str, values: str, most: int | None = None) ->
     line of its name. Of values that need more lines than `most`, the last ones are only counted."""
     unbroken = [value.replace(" ", "\u00a0") for value in typeset(values).split(", ")]
     length = round(width / CHARACTER)
-    said = fill(", ".join(unbroken), length)
+    said = _in_lines(", ".join(unbroken), length)
     for count in range(len(unbroken) - 1, 0, -1):
         if most is None or said.count("\n") < most:
             break
         rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
-        said = fill(f"{', '.join(unbroken[:count])} {rest}", length)
+        said = _in_lines(f"{', '.join(unbroken[:count])} {rest}", length)
     lines = [text for text in (fill(title, length), said) if text]
     return "\n".join(lines).replace("\u00a0", " ")
+
+
+def _in_lines(values: str, length: int) -> str:
+    """Values in lines of a number of characters; one that is longer has a line of its own."""
+    return fill(values, max(length, 1), break_long_words=False, break_on_hyphens=False)
