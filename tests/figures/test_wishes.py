@@ -597,3 +597,21 @@ def test_gaps_are_widened_while_panels_keep_their_least_size(
     found = row.gap_in(0.85, wider, least)
     assert 0.85 / (3 + 2 * found) == pytest.approx(size, abs=1e-4)  # as they are written above
     assert Row(0.85, 1, gap).gap_in(0.85, wider, least) == gap
+
+
+def test_a_long_title_of_a_new_figure_stays_on_the_page() -> None:
+    """It ran beyond both edges of a column."""
+    figure = one(DRAWN["line"](title="Growth rates of a steel disc of 6 mm " * 3)).figure
+    figure.draw_without_rendering()
+    [title] = [text for text in figure.texts if text.get_text() == figure.get_suptitle()]
+    box = title.get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.x1
+
+
+def test_pictures_leave_the_title_of_a_plain_figure_its_room() -> None:
+    """It met the label of a low panel."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 1.8))
+    title = figure.suptitle("A disc\nof steel\nand a slider\nof 300 g")
+    DRAWN["line"](ax=ax)
+    figure.draw_without_rendering()
+    assert title.get_window_extent().y0 >= ax.get_tightbbox().y1

@@ -74,11 +74,11 @@ def page_for(
         try:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in page.axes]
-            above = wishes.title
+            above = head_text(width, str(wishes.title or ""), "")
             if wishes.has_usual_title:
                 above = head_text(width, "", title, MOST_LINES)
             if above:
-                figure.suptitle(str(above), fontsize=large(8))
+                figure.suptitle(above, fontsize=large(8))
             restate(page, wishes)
             write_legend(page, wishes)
             break_labels(figure)

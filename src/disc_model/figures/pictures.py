@@ -151,7 +151,7 @@ def plot_campbell(
     Examples
     --------
     >>> import disc_model as dm
-    >>> axes = {"Omega": {"start": 10, "stop": 11, "step": 0.05}}
+    >>> axes = {"Omega": {"start": 10, "stop": 10.2, "step": 0.01}}
     >>> study = dm.run_study({"study": "c", "quantity": "campbell", "base": {"N": 385}, "axes": axes})
     >>> frequencies, rates = dm.plot_campbell(study, highest=400)
     >>> rates.get_xlabel()

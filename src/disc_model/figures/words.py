@@ -616,7 +616,8 @@ def head_text(width: float, title: str, values: str, most: int | None = None) ->
             break
         rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
         said = _in_lines(f"{', '.join(unbroken[:count])} {rest}", length)
-    lines = [text for text in (fill(title, length), said) if text]
+    lines = [fill(line, length) for line in title.splitlines()]
+    lines = [text for text in (*lines, said) if text]
     return "\n".join(lines).replace("\u00a0", " ")
 
 
