@@ -283,6 +283,7 @@ def test_pictures_of_several_panels_take_as_many_axes() -> None:
     dm.plot_modes(CASE, ax=axes.flat[:modes], title="not over a mode's own name")
     assert "Hz" in axes.flat[0].get_title()
     assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"
+    assert one(dm.plot_modes(CASE, title=True)).figure.get_suptitle().startswith("Modes")
 
 
 PANEL = 42 / 25.4

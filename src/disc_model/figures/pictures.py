@@ -177,7 +177,7 @@ def plot_modes(
     most : number of modes that are drawn, by ascending frequency
     ax : axes to draw on, one for each mode
     labels : as in `Result.plot`
-    title : of a new figure; "" for none
+    title : of a new figure; "" or False for none
 
     Returns
     -------
