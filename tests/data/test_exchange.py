@@ -343,11 +343,14 @@ def crossings(counts: list[int]) -> xr.Dataset:
     speeds = np.where(place < np.array(counts)[:, None], 10.0 + place, np.nan)
     words = {"flag_values": np.int8([0, 1]), "flag_meanings": "none rises"}
     effects = np.isfinite(speeds).astype(np.int8)
+    dims = ("N", "crossing")
     variables = {
-        "crossing_Omega": (("N", "crossing"), speeds, {"units": "rad s-1"}),
-        "crossing_effect": (("N", "crossing"), effects, words),
+        "crossing_Omega": (dims, speeds, {"units": "rad s-1"}),
+        "crossing_effect": (dims, effects, words),
     }
-    return xr.Dataset(variables, {"N": [300.0, 385.0][: len(counts)], "crossing": place + 1})
+    loads = [300.0, 385.0]
+    coordinates = {"N": loads[: len(counts)], "crossing": place + 1}
+    return xr.Dataset(variables, coordinates)
 
 
 def test_a_table_of_crossings_has_a_row_for_each(tmp_path: Path) -> None:

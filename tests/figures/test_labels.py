@@ -239,10 +239,26 @@ def test_titles_say_choices_of_the_model_before_the_size_of_the_disc() -> None:
 
 def test_titles_say_which_disc_and_slider_before_how_they_are_computed() -> None:
     """At 84 mm, stiffness, thickness, mass and spring of a steel disc were among “and 8 more”."""
-    steel = {"E": 2.1e11, "rho": 7850.0, "nu": 0.3, "h": 6e-3, "m": 0.3, "k": 5e5, "k_p": 2e5}
-    friction = {"mu_s": 0.45, "mu_k": 0.35, "friction_offset": "surface", "contact_arc": 0.4}
-    modes = {"damping_ratio": 5e-4, "normalization": "orthonormal", "n_diameters": 6}
-    said = what_case({"N": 5000.0, "Omega": 60.0, **steel, **friction, **modes, "c_p": 20.0})
+    steel = {
+        "N": 5000.0,
+        "Omega": 60.0,
+        "E": 2.1e11,
+        "rho": 7850.0,
+        "nu": 0.3,
+        "h": 6e-3,
+        "m": 0.3,
+        "k": 5e5,
+        "k_p": 2e5,
+        "c_p": 20.0,
+        "mu_s": 0.45,
+        "mu_k": 0.35,
+        "friction_offset": "surface",
+        "contact_arc": 0.4,
+        "damping_ratio": 5e-4,
+        "normalization": "orthonormal",
+        "n_diameters": 6,
+    }
+    said = what_case(steel)
     shown = head_text(COLUMN, "", said, 3)
     for value in ("E = 210 GPa", "h = 6 mm", "m = 300 g", "k = 500 kN/m"):
         assert value in shown

@@ -9,7 +9,7 @@ from typing import Any
 from matplotlib import pyplot
 from matplotlib.text import Text
 
-from disc_model.figures.case_titles import MOST_LINES
+from disc_model.figures.case_titles import title_text
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.legends import keep_height
@@ -20,7 +20,6 @@ from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.style import readers_style
-from disc_model.figures.words import head_text
 
 
 @contextmanager
@@ -74,9 +73,9 @@ def page_for(
         try:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in page.axes]
-            above = head_text(width, str(wishes.title or ""), "")
+            above = title_text(width, "", wishes.title)
             if wishes.has_usual_title:
-                above = head_text(width, "", title, MOST_LINES)
+                above = title_text(width, title)
             if above:
                 figure.suptitle(above, fontsize=large(8))
             restate(page, wishes)

@@ -17,11 +17,17 @@ _WRITTEN: WeakKeyDictionary[Axes, str] = WeakKeyDictionary()
 """What was written above axes, in one line."""
 
 
+def title_text(width: float, said: str, asked: str | bool | None = None) -> str:
+    """The values of a case, or else a title that a reader asks for, in lines that fit a width in inches."""
+    title = asked if isinstance(asked, str) else ""
+    return head_text(width, title, said, MOST_LINES)
+
+
 def write_case(ax: Axes, said: str, note: str = "") -> None:
     """Write the values of a case above axes, in lines that fit their width, and a note below them."""
     figure: Any = ax.get_figure(root=True)
     width = ax.get_window_extent().width / figure.dpi * SIZE / large(SIZE)
-    lines = [head_text(width, "", said, MOST_LINES)]
+    lines = [title_text(width, said)]
     if note != said:
         lines.append(head_text(width, note, ""))
     ax.set_title("\n".join(filter(None, lines)), loc="left", fontsize=large(SIZE))

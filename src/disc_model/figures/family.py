@@ -11,7 +11,7 @@ from disc_model.data.variables import typeset
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.case_titles import MOST_LINES, rewrite_case
+from disc_model.figures.case_titles import rewrite_case, title_text
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -27,7 +27,7 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.labels import without_font
 from disc_model.figures.pages import OWN, Page
-from disc_model.figures.words import head_text, stated_value, what_case
+from disc_model.figures.words import stated_value, what_case
 from disc_model.parameters import RATIOS
 
 LOOKS = (
@@ -116,9 +116,9 @@ def retitle(page: Page, family: Sequence[Member], first: str = "") -> None:
     said = what_case(_common_values(before))
     if first and len(before) == 1:
         said = first
-    former = head_text(width, "", said, MOST_LINES)
+    former = title_text(width, said)
     if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
-        said = head_text(width, "", page.case, MOST_LINES)
+        said = title_text(width, page.case)
         figure.suptitle(said, fontsize=large(8))
 
 
