@@ -14,6 +14,7 @@ import xarray as xr
 
 import disc_model as dm
 from disc_model.data import dataset
+from disc_model.studies.registry import quantity_names
 from tests.refusals import refusal
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
@@ -44,7 +45,7 @@ def run(**options: Any) -> None:
 
 start.__signature__ = inspect.signature(dm.State)  # type: ignore[attr-defined]
 run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined]
-PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None"}
+PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None True"}
 CALLS = {"workers": "huge", "processes": "True", "executor": "None", "progress": "True"}
 SHAPES = {"case": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
@@ -301,3 +302,13 @@ def test_the_argument_that_is_meant_is_suggested(
     for call in (partial(getattr(dm, name), P), partial(dm.sweep, getattr(dm, name), P, N=[200])):
         with refusal(rf"is no .*, did you mean {meant}\?"):
             call(**given)
+
+
+def test_quantities_that_are_no_functions_lead_to_studies() -> None:
+    """A notebook had no `bifurcation` or `campbell`, and did not say where these are."""
+    assert {*dm._OF_STUDIES} == {*quantity_names()} - {*dm.__all__}
+    for name in dm._OF_STUDIES:
+        with pytest.raises(AttributeError, match=f"run_study.*{name}"):
+            getattr(dm, name)
+    for name in ("bifurcation", "campbell", "run_study"):
+        assert name in str(dm.__doc__)

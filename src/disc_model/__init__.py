@@ -5,6 +5,10 @@ reattachment.
     >>> result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 60)
     >>> result.first_separation
 
+Functions take one case, and `sweep` calls them for many. `run_study` computes what needs many cases at
+once, such as a bifurcation diagram (quantity "bifurcation", which `plot_sweep` draws) or a Campbell
+diagram ("campbell", `plot_campbell`).
+
 Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only
 for simulations.
 """
@@ -51,6 +55,20 @@ _NAMES = {
     "stability.sliding": "steady_sliding",
     "stability.splitting": "split_growth",
 }
+_OF_STUDIES = (
+    "bifurcation",
+    "branches",
+    "campbell",
+    "locking",
+    "lyapunov",
+    "ramps",
+    "range_law",
+    "regions",
+    "sensitivity",
+    "sliding",
+    "stability_curves",
+)
+"""Quantities of studies that are no functions of this name."""
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = [*_HOMES, "__version__"]
@@ -99,7 +117,10 @@ if TYPE_CHECKING:
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        hint = ""
+        if name in _OF_STUDIES:
+            hint = f": it is a quantity of studies, as in run_study({{'quantity': {name!r}, ...}})"
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
     value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value

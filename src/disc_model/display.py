@@ -88,7 +88,7 @@ class Drawn:
         ax: Any = None,
         legend: bool | Mapping[str, Any] = True,
         labels: Mapping[str, str] | None = None,
-        title: str | None = None,
+        title: str | bool | None = None,
     ) -> Any:
         """Draw the picture that the class describes, on axes of matplotlib or in a new figure;
         returns the axes.

@@ -335,3 +335,50 @@ def test_a_point_that_is_left_out_has_no_word() -> None:
     status = dm.run_study(GRID)["status"]
     heavy = status.where(status["N"] > 160)
     assert dm.words(heavy).values.tolist() == ["", "ok"]
+
+
+def crossings(counts: list[int]) -> xr.Dataset:
+    """So many crossings at each load, in a dataset with room for four."""
+    place = np.arange(4)
+    speeds = np.where(place < np.array(counts)[:, None], 10.0 + place, np.nan)
+    words = {"flag_values": np.int8([0, 1]), "flag_meanings": "none rises"}
+    effects = np.isfinite(speeds).astype(np.int8)
+    dims = ("N", "crossing")
+    variables = {
+        "crossing_Omega": (dims, speeds, {"units": "rad s-1"}),
+        "crossing_effect": (dims, effects, words),
+    }
+    loads = [300.0, 385.0]
+    coordinates = {"N": loads[: len(counts)], "crossing": place + 1}
+    return xr.Dataset(variables, coordinates)
+
+
+def test_a_table_of_crossings_has_a_row_for_each(tmp_path: Path) -> None:
+    """Most of 100 rows were empty, but for the word "none"."""
+    path = tmp_path / "crossings.csv"
+    dm.save(crossings([1, 2]), path)
+    table = pd.read_csv(path)
+    assert table["N"].tolist() == [300, 385, 385]
+    assert table["crossing_Omega (rad s-1)"].tolist() == [10, 10, 11]
+    assert table["crossing_effect"].tolist() == ["rises"] * 3
+
+
+@pytest.mark.parametrize(("counts", "columns"), [([1, 2], 2), ([0, 0], 1)])
+def test_a_table_of_points_has_columns_of_crossings_that_there_are(
+    counts: list[int], columns: int, tmp_path: Path
+) -> None:
+    """Most of 100 columns were empty."""
+    path = tmp_path / "points.csv"
+    dm.save(crossings(counts).assign(status=("N", ["ok", "ok"])), path)
+    table = pd.read_csv(path)
+    heads = [f"crossing_Omega[{number + 1}] (rad s-1)" for number in range(columns)]
+    assert [name for name in table if name.startswith("crossing_Omega")] == heads
+    assert len(table) == 2
+
+
+def test_a_table_without_crossings_has_their_heads(tmp_path: Path) -> None:
+    path = tmp_path / "none.csv"
+    dm.save(crossings([0]), path)
+    table = pd.read_csv(path)
+    assert len(table) == 0
+    assert "crossing_Omega (rad s-1)" in table

@@ -8,6 +8,7 @@ from matplotlib.text import Text
 import disc_model as dm
 from disc_model.figures.labels import break_labels, in_lines, part_numbers
 from disc_model.figures.peak_names import name_lines
+from disc_model.figures.runs import stated
 from disc_model.figures.sizes import COLUMN
 from disc_model.figures.words import head_text, what_case
 from tests.figures.reading import assert_numbers_are_apart
@@ -227,11 +228,48 @@ def test_titles_say_choices_of_the_model_before_the_size_of_the_disc() -> None:
     steel = {"E": 2.1e11, "rho": 7850.0, "nu": 0.3, "h": 0.02, "a": 0.05, "b": 0.15, "r_0": 0.12}
     options = {"friction_offset": "surface", "mu_s": 0.45, "mu_k": 0.35, "c_p": 5.0}
     said = what_case({**steel, "k": 1e6, **options, "N": 8000.0, "Omega": 50.0})
-    first = (
-        "N = 8000 N, Ω = 50 rad/s, μ_s = 0.45, μ_k = 0.35, friction on the surface, c_p = 5 N s/m, "
-    )
-    assert said.startswith(f"{first}k = 1000 kN/m, E = 210 GPa, ")
+    first = "N = 8000 N, Ω = 50 rad/s, μ_s = 0.45, μ_k = 0.35, friction on the surface, "
+    disc = "k = 1000 kN/m, E = 210 GPa, h = 20 mm, "
+    assert said.startswith(f"{first}{disc}c_p = 5 N s/m, a = 50 mm, ")
     lines = head_text(COLUMN, "", said, 3).splitlines()
     assert len(lines) == 3
     assert "friction on the surface" in " ".join(lines)
     assert lines[-1].endswith("more")
+
+
+def test_titles_say_which_disc_and_slider_before_how_they_are_computed() -> None:
+    """At 84 mm, stiffness, thickness, mass and spring of a steel disc were among “and 8 more”."""
+    steel = {
+        "N": 5000.0,
+        "Omega": 60.0,
+        "E": 2.1e11,
+        "rho": 7850.0,
+        "nu": 0.3,
+        "h": 6e-3,
+        "m": 0.3,
+        "k": 5e5,
+        "k_p": 2e5,
+        "c_p": 20.0,
+        "mu_s": 0.45,
+        "mu_k": 0.35,
+        "friction_offset": "surface",
+        "contact_arc": 0.4,
+        "damping_ratio": 5e-4,
+        "normalization": "orthonormal",
+        "n_diameters": 6,
+    }
+    said = what_case(steel)
+    shown = head_text(COLUMN, "", said, 3)
+    for value in ("E = 210 GPa", "h = 6 mm", "m = 300 g", "k = 500 kN/m"):
+        assert value in shown
+    assert said.endswith("nodal diameters up to 6, orthonormal modes")
+
+
+def test_titles_tell_discs_that_are_given_by_their_modes_apart() -> None:
+    """Two discs of as many modes had the same title."""
+    titles = []
+    for highest in (1820, 2300):
+        disc = dm.Disc(diameters=[0, 2], omega=[1490, highest], amplitude=[1.5, 2.2])
+        titles.append(stated(dm.Parameters(N=385, Omega=15, disc=disc)))
+    start = "N = 385 N, Ω = 15 rad/s, a disc given by 2 modes of 237.1 to"
+    assert titles == [f"{start} {highest} Hz" for highest in ("289.7", "366.1")]

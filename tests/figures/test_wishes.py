@@ -143,6 +143,44 @@ def test_own_axes_are_used_and_their_figure_keeps_its_title(name: str) -> None:
     assert ax.get_title() == "panel title"
 
 
+@pytest.mark.parametrize("name", DRAWN)
+def test_own_axes_have_the_values_of_the_case_above_them_on_request(name: str) -> None:
+    """Panels of several runs did not say which case they show."""
+    _, ax = pyplot.subplots(layout="constrained")
+    DRAWN[name](ax=ax, title=True)
+    said = " ".join(ax.get_title(loc="left").split())
+    new = one(DRAWN[name]()).figure
+    assert said.startswith(" ".join(new.get_suptitle().split()))
+    note = " ".join(new.axes[0].get_title(loc="left").split())
+    assert said.endswith(note)
+
+
+@pytest.mark.parametrize("name", DRAWN)
+def test_new_figures_have_their_title_unless_it_is_false(name: str) -> None:
+    usual = one(DRAWN[name]()).figure
+    asked = one(DRAWN[name](title=True)).figure
+    without = one(DRAWN[name](title=False)).figure
+    assert asked.get_suptitle() == usual.get_suptitle()
+    assert without.get_suptitle() == ""
+
+
+def test_values_above_own_axes_are_those_that_all_cases_there_have() -> None:
+    _, ax = pyplot.subplots(layout="constrained")
+    dm.floquet(CASE).plot(ax=ax, title=True)
+    dm.floquet(CASE.replace(Omega=14)).plot(ax=ax)
+    assert ax.get_title(loc="left") == "N = 385 N, nodal diameters up to 2"
+    ax.set_title("mine", loc="left")
+    dm.floquet(CASE.replace(N=300)).plot(ax=ax)
+    assert ax.get_title(loc="left") == "mine"
+
+
+def test_values_above_a_narrow_panel_stay_whole() -> None:
+    _, axes = pyplot.subplots(2, 2, figsize=(3.31, 4), layout="constrained")
+    dm.floquet(CASE.replace(c_p=4)).plot(ax=axes[0, 0], title=True, legend=False)
+    lines = axes[0, 0].get_title(loc="left").splitlines()
+    assert [line.rstrip(",") for line in lines[:2]] == ["N = 385 N", "Ω = 15 rad/s"]
+
+
 @pytest.mark.parametrize("name", [name for name in DRAWN if name not in ("map", "words")])
 def test_widths_of_lines_and_marks_and_fonts_follow_the_settings(name: str) -> None:
     """Line widths were fixed."""
@@ -187,7 +225,7 @@ def test_new_figures_fit_a_column_or_a_page_with_all_that_they_say(name: str) ->
 WRONG = {
     "legend": ({"lok": "best"}, "did you mean loc"),
     "labels": ({"x": 1}, "must be texts"),
-    "title": (3, "must be a text"),
+    "title": (3, "must be a text, True or False"),
     "ax": ("axes", "must be 1 axes"),
 }
 
@@ -245,6 +283,7 @@ def test_pictures_of_several_panels_take_as_many_axes() -> None:
     dm.plot_modes(CASE, ax=axes.flat[:modes], title="not over a mode's own name")
     assert "Hz" in axes.flat[0].get_title()
     assert one(dm.plot_modes(CASE, title="Shapes")).figure.get_suptitle() == "Shapes"
+    assert one(dm.plot_modes(CASE, title=True)).figure.get_suptitle().startswith("Modes")
 
 
 PANEL = 42 / 25.4
@@ -559,3 +598,21 @@ def test_gaps_are_widened_while_panels_keep_their_least_size(
     found = row.gap_in(0.85, wider, least)
     assert 0.85 / (3 + 2 * found) == pytest.approx(size, abs=1e-4)  # as they are written above
     assert Row(0.85, 1, gap).gap_in(0.85, wider, least) == gap
+
+
+def test_a_long_title_of_a_new_figure_stays_on_the_page() -> None:
+    """It ran beyond both edges of a column."""
+    figure = one(DRAWN["line"](title="Growth rates of a steel disc of 6 mm " * 3)).figure
+    figure.draw_without_rendering()
+    [title] = [text for text in figure.texts if text.get_text() == figure.get_suptitle()]
+    box = title.get_window_extent()
+    assert 0 <= box.x0 < box.x1 <= figure.bbox.x1
+
+
+def test_pictures_leave_the_title_of_a_plain_figure_its_room() -> None:
+    """It met the label of a low panel."""
+    figure, ax = pyplot.subplots(figsize=(3.31, 1.8))
+    title = figure.suptitle("A disc\nof steel\nand a slider\nof 300 g")
+    DRAWN["line"](ax=ax)
+    figure.draw_without_rendering()
+    assert title.get_window_extent().y0 >= ax.get_tightbbox().y1

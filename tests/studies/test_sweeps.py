@@ -824,18 +824,30 @@ def test_an_executor_computes_the_batches_of_a_study() -> None:
     assert backwards.submitted == 2
 
 
+def with_horizon(case: dm.Parameters, horizon: float) -> float:
+    return horizon * case.Omega
+
+
+def test_arguments_of_the_function_may_follow_the_case_without_a_name() -> None:
+    """A duration had to be named, although the function takes it after the case."""
+    swept = sweep(with_horizon, dm.Parameters(N=385, Omega=15), 200, Omega=[10, 20])
+    assert swept["value"].values.tolist() == [2000, 4000]
+    assert json.loads(swept.attrs["options"]) == {"horizon": 200}
+
+
 @pytest.mark.parametrize(
-    ("unnamed", "told"),
-    [((200,), "horizon: .* horizon=200"), (3 * [1], "one more than the function")],
+    ("unnamed", "named", "told"),
+    [
+        ([1, 2], {}, "one more than the arguments of with_horizon"),
+        ([1], {"horizon": 2}, "horizon=2: is given by its place already"),
+        ([1], {"over": {"horizon": [2]}}, "horizon"),
+    ],
 )
-def test_an_argument_without_a_name_is_told_its_name(unnamed: Any, told: str) -> None:
-    """Python said that `sweep` takes two positional arguments, but not what to write."""
-
-    def found(case: dm.Parameters, horizon: float) -> float:
-        return horizon
-
+def test_an_argument_without_a_name_is_one_of_the_function_that_is_not_given(
+    unnamed: list[int], named: dict[str, Any], told: str
+) -> None:
     with refusal(told):
-        sweep(found, dm.Parameters(N=385, Omega=15), *unnamed, Omega=[10, 20])
+        sweep(with_horizon, dm.Parameters(N=385, Omega=15), *unnamed, Omega=[10, 20], **named)
 
 
 @pytest.mark.parametrize("workers", [1, 2])

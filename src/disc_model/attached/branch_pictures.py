@@ -23,7 +23,7 @@ def plot_branches(
     ax: Axes | None = None,
     legend: bool | dict[str, Any] = True,
     labels: dict[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw all branches of a sweep of `continue_cycle` on the same axes, as `Branch.plot` draws one.
 

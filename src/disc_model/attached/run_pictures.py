@@ -35,7 +35,7 @@ def plot(
     ax: Axes | Sequence[Axes] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes | NDArray[Any]:
     """Draw variables against time: the range in the whole run, and its last cycles over stick
     and separation.
@@ -54,7 +54,7 @@ def plot(
     legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
     labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
         the usual ones; by "case" the name of the run among several, otherwise what differs between them
-    title : another title; "" for none
+    title : another title; "" or False for none; True for the values of the case also above axes of your own
 
     Returns
     -------
@@ -91,7 +91,7 @@ def plot_phase_portrait(
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw one variable over another, coloured by phase, or by run if there are several on the same
     axes; of the last cycles if no window is named.
@@ -123,7 +123,7 @@ def plot_spectrum(
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
     its lines fall below a hundredth of the strongest.
@@ -169,7 +169,7 @@ def plot_poincare(
     ax: Sequence[Axes] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
     which it returns; of a `Poincare` that was recorded, or of the whole run if none is named.

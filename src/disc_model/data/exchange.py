@@ -52,8 +52,9 @@ def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
         Both hold a checksum, by which `load` notices any damage. ".csv": a table with a row for each point, units in
         the heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`; a variable with further
-        dimensions has a column for each place along them, such as `multipliers_real[0]`. It is for other programs:
-        `load` reads no tables
+        dimensions has a column for each place along them, such as `multipliers_real[0]`, and a row for each place if
+        only such variables are chosen, as by ``data[["crossing_Omega", "crossing_effect"]]``. Places at which nothing
+        was found, such as those after the last crossing, are left out. It is for other programs: `load` reads no tables
 
     Returns
     -------

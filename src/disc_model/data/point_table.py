@@ -8,11 +8,14 @@ from functools import partial
 from itertools import product
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from disc_model.data.coded import words
 from disc_model.data.files import write_atomically
+from disc_model.data.missing import WITH_ROOM
 from disc_model.data.tables import head_of
 from disc_model.errors import Fault, ParameterError
 
@@ -22,7 +25,8 @@ def save_points(data: xr.Dataset, file: Path) -> None:
 
     Heads of columns have units, such as ``Omega (rad s-1)``, and words stand in place of their
     numbers. A variable that has further dimensions has a column for each place along these, such as
-    ``multipliers_real[0]``.
+    ``multipliers_real[0]``. Where a dimension has room for more than was found, such as that of
+    crossings, places without a number have neither a row nor a column.
 
     Raises
     ------
@@ -34,12 +38,46 @@ def save_points(data: xr.Dataset, file: Path) -> None:
     worded = words(data)
     points = _dimensions_of_points(worded)
     _check_dimensions(worded)
+    worded = _without_empty_places(worded)
     sizes = {dim: worded.sizes[dim] for dim in points}
     columns = {}
     for name in (*worded.coords, *worded.data_vars):
         for head, column in _columns(worded, str(name), sizes):
             columns[head] = column.set_dims(sizes).values.ravel()
-    write_atomically(file, partial(pd.DataFrame(columns).to_csv, index=False))
+    table = pd.DataFrame(columns)[_has_numbers(worded, sizes)]
+    write_atomically(file, partial(table.to_csv, index=False))
+
+
+def _numbers_along(data: xr.Dataset, dim: str) -> list[xr.DataArray]:
+    """The variables of a dataset along a dimension whose numbers may be missing."""
+    return [each for each in data.values() if dim in each.dims and each.dtype.kind == "f"]
+
+
+def _without_empty_places(data: xr.Dataset) -> xr.Dataset:
+    """A dataset without the places along dimensions `WITH_ROOM` at which no point has a number; the first
+    one stays, for its heads."""
+    kept = {}
+    for dim in {*WITH_ROOM} & {*map(str, data.dims)}:
+        found = np.zeros(data.sizes[dim], bool)
+        numbers = _numbers_along(data, dim)
+        for each in numbers:
+            others = [other for other in each.dims if other != dim]
+            found |= each.notnull().any(others).values
+        if numbers:
+            found[0] = True
+            kept[dim] = np.flatnonzero(found)
+    return data.isel(kept)
+
+
+def _has_numbers(data: xr.Dataset, points: Mapping[str, int]) -> NDArray[np.bool_]:
+    """Whether each row has a number of what is along a dimension `WITH_ROOM`; all rows have where the
+    points have no such dimension."""
+    numbers = [each for dim in WITH_ROOM if dim in points for each in _numbers_along(data, dim)]
+    found = np.full([*points.values()], not numbers)
+    for each in numbers:
+        further = [dim for dim in each.dims if dim not in points]
+        found |= each.notnull().any(further).variable.set_dims(points).values
+    return found.ravel()
 
 
 def _dimensions_of_points(data: xr.Dataset) -> tuple[str, ...]:

@@ -292,6 +292,14 @@ def stated_in(study: Any, what: str) -> dict[str, Any]:
     return json.loads(study.attrs.get(what, "{}"))
 
 
+def _disc_text(frequencies: Sequence[float]) -> str:
+    """What tells a disc that is given by its modes from others, whose table is too long: how many
+    there are, and the range of their frequencies, given in rad/s."""
+    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
+    extent = low if low == high else f"{low} to {high}"
+    return f"a disc given by {counted(len(frequencies), 'mode')} of {extent} Hz"
+
+
 def values_text(
     values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})
 ) -> str:
@@ -301,9 +309,10 @@ def values_text(
     for name, field in Parameters.model_fields.items():
         if name in values and name not in ("normalization", "contact"):
             value = values[name]
-            if name == "disc" and value:  # a table is too long
-                frequencies = value["omega"] if isinstance(value, Mapping) else value.omega
-                texts.append(f"a disc given by {len(frequencies)} modes")
+            if name == "disc" and value:
+                texts.append(
+                    _disc_text(value["omega"] if isinstance(value, Mapping) else value.omega)
+                )
             elif name in ("N", "Omega") or value != field.default:
                 shown = SHOWN.get(name) or Shown(
                     name, name, Parameters.unit(name).removeprefix("1")

@@ -43,7 +43,7 @@ def plot_branch(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
     its first; returns the axes."""

@@ -52,7 +52,7 @@ def join_family(page: Page, new: Member) -> None:
     if len(family) > 1 or new.name:
         _explain(page, family)
     if len(family) > 1:
-        retitle(page.figure, family)
+        retitle(page, family)
 
 
 def _explain(page: Page, family: Sequence[Member]) -> None:

@@ -37,7 +37,7 @@ def plot_campbell(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> np.ndarray:
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""

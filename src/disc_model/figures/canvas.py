@@ -9,17 +9,17 @@ from typing import Any
 from matplotlib import pyplot
 from matplotlib.text import Text
 
+from disc_model.figures.case_titles import title_text
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.legends import keep_height
-from disc_model.figures.pages import MOST_LINES, OWN, given_axes, restate, write_legend
+from disc_model.figures.pages import OWN, given_axes, restate, write_legend
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
 from disc_model.figures.pages import Wishes as Wishes
 from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.style import readers_style
-from disc_model.figures.words import head_text
 
 
 @contextmanager
@@ -44,7 +44,7 @@ def page_for(
     wishes.check()
     if wishes.ax is not None:
         asked = wishes.labels or {}
-        page = Page(given_axes(wishes.ax, rows * columns), own=False, asked=asked)
+        page = Page(given_axes(wishes.ax, rows * columns), own=False, asked=asked, case=title)
         if stacked:
             stack_narrow(page.axes, stacked)
         figure: Any = page.ax.get_figure(root=True)
@@ -73,11 +73,11 @@ def page_for(
         try:
             yield page
             page.bars = [ax for ax in figure.axes if ax not in page.axes]
-            usual = wishes.title
-            if usual is None:
-                usual = head_text(width, "", title, MOST_LINES)
-            if usual:
-                figure.suptitle(usual, fontsize=large(8))
+            above = title_text(width, "", wishes.title)
+            if wishes.has_usual_title:
+                above = title_text(width, title)
+            if above:
+                figure.suptitle(above, fontsize=large(8))
             restate(page, wishes)
             write_legend(page, wishes)
             break_labels(figure)

@@ -51,7 +51,7 @@ def plot_critical(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw the growth rate of the motion over the parameter; shaded: it is unstable. Returns the
     axes."""

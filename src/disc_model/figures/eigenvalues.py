@@ -47,7 +47,7 @@ def plot_eigenvalues(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw frequency over growth rate of the eigenvalues of steady sliding; unstable ones with
     their frequency."""

@@ -33,7 +33,7 @@ def plot_exponents(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw the exponents with their errors, those that have converged filled; what has vanished is
     left out."""

@@ -11,6 +11,7 @@ from disc_model.data.variables import typeset
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
+from disc_model.figures.case_titles import rewrite_case, title_text
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -25,8 +26,8 @@ from disc_model.figures.drawing import (
     large,
 )
 from disc_model.figures.labels import without_font
-from disc_model.figures.pages import MOST_LINES, OWN
-from disc_model.figures.words import head_text, stated_value, what_case
+from disc_model.figures.pages import OWN, Page
+from disc_model.figures.words import stated_value, what_case
 from disc_model.parameters import RATIOS
 
 LOOKS = (
@@ -102,19 +103,22 @@ def _what_differs(member: Member, family: Sequence[Member]) -> str:
     return ", ".join(filter(None, said))
 
 
-def retitle(figure: Any, family: Sequence[Member], first: str = "") -> None:
+def retitle(page: Page, family: Sequence[Member], first: str = "") -> None:
     """Let the title say what all members have in common, unless the reader has given another.
 
     first : what it says of the first alone, if this is more than its values
     """
+    page.case = what_case(_common_values(family))
+    rewrite_case(page.ax, page.case)
+    figure = page.figure
     width = float(figure.get_size_inches()[0])
     before = family[:-1]
     said = what_case(_common_values(before))
     if first and len(before) == 1:
         said = first
-    former = head_text(width, "", said, MOST_LINES)
+    former = title_text(width, said)
     if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
-        said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
+        said = title_text(width, page.case)
         figure.suptitle(said, fontsize=large(8))
 
 

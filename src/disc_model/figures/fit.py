@@ -56,7 +56,12 @@ ROW = 0.18  # inch, height of a measurement
 
 
 def plot_fit(
-    fit: Fit, *, ax: Any = None, legend: Any = True, labels: Any = None, title: str | None = None
+    fit: Fit,
+    *,
+    ax: Any = None,
+    legend: Any = True,
+    labels: Any = None,
+    title: str | bool | None = None,
 ) -> np.ndarray:
     """Draw computed over measured values, both relative to the measured ones, and their deviations
     in standard deviations; two panels with a row for each measurement, the first on top."""

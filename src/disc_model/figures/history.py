@@ -48,7 +48,7 @@ def plot_run(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Any:
     """Draw variables of a run, a row each, in windows, a column each; returns the axes, squeezed
     as by `pyplot.subplots`."""

@@ -216,6 +216,11 @@ def without_font(text: str) -> str:
     return re.sub(r"\$\\mathrm\{([^$]+)\}\$", r"$\1$", text)
 
 
+def in_a_row(text: str) -> str:
+    """A text without the letters of its symbols and the lines in which it stands."""
+    return without_font(text).replace("\n", " ")
+
+
 # ---- Numbers along axes
 
 

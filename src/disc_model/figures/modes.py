@@ -23,7 +23,12 @@ EDGE = 0.02  # share of the ring's width beside a clamped edge, which is no noda
 
 
 def plot_modes(
-    p: Parameters, most: int = 15, *, ax: Any = None, labels: Any = None, title: str | None = None
+    p: Parameters,
+    most: int = 15,
+    *,
+    ax: Any = None,
+    labels: Any = None,
+    title: str | bool | None = None,
 ) -> np.ndarray:
     """Draw the modes of a case, as `disc_model.plot_modes` describes."""
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
@@ -38,7 +43,7 @@ def plot_modes(
     rows = -(-count // columns)
     width = COLUMN if columns < 3 else PAGE
     usual = "Modes (nodal diameters, nodal circles), slider and nodal lines"
-    named = usual if title is None else title
+    named = usual if title is None or title is True else title
     wishes = Wishes(ax, labels=labels, title=named if ax is None else None)
     with page_for(wishes, width, 0.24 * PAGE * rows + 0.3, rows, columns) as page:
         page.show(*(Quantities("Disc from above (mm)", "Disc from above (mm)") for _ in page.axes))

@@ -31,7 +31,7 @@ def plot_multipliers(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw multipliers and the unit circle; raises `CycleError` without a cycle."""
     values = cycle.raise_for_status().multipliers

@@ -38,7 +38,7 @@ def plot_neutral_curves(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw the curves within their bounds, thick where a stable cycle adjoins, with the resonances
     to which they belong; returns the axes. Raises `ParameterError` without a curve."""

@@ -15,7 +15,7 @@ import numpy as np
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import mark, wide
 from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
-from disc_model.figures.labels import without_font
+from disc_model.figures.labels import in_a_row
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.runs import stated, stated_values
@@ -239,15 +239,10 @@ def _remove(ax: Axes, panel: Panel) -> None:
         artist = reference()
         if artist is not None and artist.axes is ax:
             artist.remove()
-    notes = {_in_a_row(note) for note in panel.case.notes}
+    notes = {in_a_row(note) for note in panel.case.notes}
     for side in ("left", "right"):
-        if _in_a_row(ax.get_title(loc=side)) in notes:  # type: ignore[arg-type]  # a Literal
+        if in_a_row(ax.get_title(loc=side)) in notes:  # type: ignore[arg-type]  # a Literal
             ax.set_title("", loc=side)  # type: ignore[arg-type]  # as well
-
-
-def _in_a_row(text: str) -> str:
-    """A text without the lines in which it stands."""
-    return without_font(text).replace("\n", " ")
 
 
 def _name(panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
@@ -266,4 +261,4 @@ def _explain(page: Page, panels: Sequence[Panel], entries: Sequence[Artist]) -> 
     page.replaced = replaced | {str(entry.get_label()) for entry in entries}
     page.explain(entries)
     if len(family) > 1:
-        retitle(page.figure, family, panels[0].case.title)
+        retitle(page, family, panels[0].case.title)

@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.legend import Legend
 
 from disc_model.errors import Fault, ParameterError, require, suggestion
+from disc_model.figures.case_titles import write_case
 from disc_model.figures.drawing import large
 from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.labels import is_square, without_font
@@ -32,9 +33,9 @@ MANY = 8  # entries of a legend of a new figure beyond which their text is small
 SAMPLE = 2.0  # length of their samples over this size: a whole period of dashes
 PLACED = "_disc_model_placed"
 """Attribute of a legend that was placed for its reader: its picture, and what was asked of it."""
-MOST_LINES = 3  # of values of a case above a picture
 PLACING = ("loc", "bbox_to_anchor")
 """Options of a legend that say where it stands."""
+TITLE_RULE = "must be a text, True or False"
 LEGEND_RULE = "must be True, False, or options of a legend of matplotlib"
 
 
@@ -47,13 +48,14 @@ class Wishes:
         place in that of the usual one
     labels : other words for labels of axes, which are called "x" and "y", of a bar of colours,
         called "bar", and for entries of the legend, which are called as they are without
-    title : another title; "" for none, None for the usual one
+    title : another title; "" or False for none, None for the usual one; True also for the values of
+        the case above a reader's axes
     """
 
     ax: Any = None
     legend: bool | Mapping[str, Any] = True
     labels: Mapping[str, str] | None = None
-    title: str | None = None
+    title: str | bool | None = None
 
     def check(self) -> None:
         """Raise `ParameterError` if a wish cannot be understood."""
@@ -66,8 +68,13 @@ class Wishes:
             (isinstance(self.legend, bool | Mapping), "legend", self.legend, LEGEND_RULE),
             (not unknown, "legend", wrong, f"{LEGEND_RULE}{like}"),
             (_are_texts(labels), "labels", labels, "must be texts by x, y, or what they replace"),
-            (isinstance(self.title, str | None), "title", self.title, "must be a text"),
+            (isinstance(self.title, str | bool | None), "title", self.title, TITLE_RULE),
         )
+
+    @property
+    def has_usual_title(self) -> bool:
+        """Whether the title is what the picture says of itself."""
+        return self.title is None or self.title is True
 
 
 def _are_texts(labels: object) -> bool:
@@ -90,6 +97,7 @@ class Page:
         cover something
     heading : title of the legend
     note : what stands above the first panel, unless the reader asks for another title
+    case : the values of its case, in words
     joins : whether the entries of a legend that the axes have are kept
     replaced : words of such entries that are not
     bars : axes of bars of colours
@@ -106,6 +114,7 @@ class Page:
     beside: Place = "inside"
     heading: str = ""
     note: str = ""
+    case: str = ""
     joins: bool = False
     replaced: Collection[str] = ()
     bars: Sequence[Axes] = field(default_factory=list)
@@ -177,11 +186,13 @@ def given_axes(ax: Any, count: int) -> list[Axes]:
 
 def restate(page: Page, wishes: Wishes) -> None:
     """Write the title and labels that a reader asks for."""
-    if wishes.title is None:
+    if wishes.title is True and not page.own:
+        write_case(page.ax, page.case, page.note)
+    elif wishes.has_usual_title:
         if page.note:
             page.ax.set_title(page.note, loc="left", fontsize=large(8))
     elif not page.own:
-        page.ax.set_title(wishes.title)
+        page.ax.set_title(str(wishes.title or ""))
     _relabel(page, wishes.labels or {})
 
 

@@ -29,7 +29,7 @@ def plot_sweep(  # noqa: PLR0913
     ax: Axes | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
@@ -123,7 +123,7 @@ def plot_campbell(
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
@@ -151,7 +151,7 @@ def plot_campbell(
     Examples
     --------
     >>> import disc_model as dm
-    >>> axes = {"Omega": {"start": 10, "stop": 11, "step": 0.05}}
+    >>> axes = {"Omega": {"start": 10, "stop": 10.2, "step": 0.01}}
     >>> study = dm.run_study({"study": "c", "quantity": "campbell", "base": {"N": 385}, "axes": axes})
     >>> frequencies, rates = dm.plot_campbell(study, highest=400)
     >>> rates.get_xlabel()
@@ -167,7 +167,7 @@ def plot_modes(
     *,
     ax: Axes | NDArray[Any] | None = None,
     labels: Mapping[str, str] | None = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw the shapes of the modes of a case from above, with their nodal lines and frequencies.
 
@@ -177,7 +177,7 @@ def plot_modes(
     most : number of modes that are drawn, by ascending frequency
     ax : axes to draw on, one for each mode
     labels : as in `Result.plot`
-    title : of a new figure; "" for none
+    title : of a new figure; "" or False for none
 
     Returns
     -------

@@ -213,7 +213,7 @@ def _beyond(ax: Axes, bars: Sequence[Axes]) -> Beyond:
     left = margin
     right = page.bbox.width - margin
     floor = margin
-    ceiling = page.bbox.height - margin
+    ceiling = _ceiling(page) - margin
     place = ax.get_subplotspec()
     if place is not None:
         own = place.get_topmost_subplotspec()
@@ -227,6 +227,16 @@ def _beyond(ax: Axes, bars: Sequence[Axes]) -> Beyond:
         max(floor - taken.y0, 0.0),
         max(taken.y1 - ceiling, 0.0),
     )
+
+
+def _ceiling(page: Any) -> float:
+    """Where the room for axes ends above: at the edge of the page, or at a title that its reader has set
+    there, in pixels."""
+    said = page.get_suptitle()
+    titles = [text for text in page.texts if said and text.get_text() == said]
+    lower = [text.get_window_extent().y0 for text in titles]
+    height = float(page.bbox.height)
+    return min([height, *(y for y in lower if y > height / 2)])
 
 
 def _beside(page: Any, own: Any, across: int, down: int) -> list[Bbox]:

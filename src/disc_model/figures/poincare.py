@@ -46,7 +46,7 @@ def plot_poincare(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> NDArray[Any]:
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)

@@ -35,7 +35,7 @@ def plot_phase_portrait(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw a portrait of a run; returns the axes."""
     samples = window_of(case, window, ("x", x), ("y", y), samples=True)

@@ -6,6 +6,7 @@ from weakref import WeakSet
 
 from matplotlib.text import Text
 
+from disc_model.figures.case_titles import case_above
 from disc_model.figures.colours import bars_of
 from disc_model.figures.labels import (
     break_labels,
@@ -91,6 +92,7 @@ def set_own_upright(figure: Any) -> None:
         own = own_labels(ax)
         labels = {"x": ax.xaxis.label, "y": ax.yaxis.label}
         set_upright(label for along, label in labels.items() if along not in own)
+        set_upright(case_above(ax))
         for artist in filter(None, (*shown_on(ax).drawn, ax.get_legend())):
             set_upright(artist.findobj(Text))
         for bar in bars_of(ax):

@@ -34,7 +34,7 @@ def plot_spectrum(
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw the spectrum of a variable of a run; returns the axes."""
     known = highest is None or (is_number(highest) and highest > 0)

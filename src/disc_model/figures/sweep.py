@@ -59,7 +59,7 @@ def plot_sweep(  # noqa: PLR0913
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
-    title: str | None = None,
+    title: str | bool | None = None,
 ) -> Axes:
     """Draw a sweep or a grid study, as `disc_model.plot_sweep` describes."""
     variables: list[Any] = [variable]

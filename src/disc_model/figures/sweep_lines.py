@@ -223,7 +223,7 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
         _with_unset(family)
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
-        retitle(page.figure, shown)
+        retitle(page, shown)
         called = dict(zip([each.number for each in family], names, strict=True))
 
     page.joins = True

@@ -74,10 +74,14 @@ OF_FRICTION = ("mu_s", "mu_k", "mu_k_over_mu_s", "friction_decay", "viscous_fric
 """Parameters of the law of friction,"""
 OF_DAMPING = ("D_star", "damping_ratio", "c", "c_p", "c_p_over_c")
 OF_CONTACT = ("friction_offset", "contact_arc", "contact_compliance")
-OF_MODEL = (*OF_DAMPING, *OF_CONTACT, "n_diameters", "n_circles", "disc")
-"""other choices of the model,"""
-OF_DISC = ("E", "nu", "rho", "a", "b", "h", "r_0", "a_over_b", "h_over_b", "r_0_over_b")
-"""and the material and the size of the disc."""
+IDENTIFYING = ("disc", "E", "h", "h_over_b", "m", "k")
+"""what tells a disc and a slider from others first,"""
+OF_DISC = ("nu", "rho", "a", "b", "r_0", "a_over_b", "r_0_over_b")
+"""the rest of the material and of the size of the disc,"""
+OF_MODES = ("n_diameters", "n_circles")
+"""and how many modes there are."""
+ORDERED = ("N", "Omega", *OF_FRICTION, *IDENTIFYING, *OF_DAMPING, *OF_CONTACT, *OF_DISC, *OF_MODES)
+"""Parameters that have a place of their own in a title."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
@@ -564,18 +568,20 @@ def in_lines(name: str) -> str:
 
 def what_case(values: Mapping[str, Any]) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
-    sweep, in words. Choices of the model come first, and the size and the material of a disc last,
-    as a title may have no room for all."""
+    sweep, in words. What identifies a case comes first: its friction, and what tells its disc and slider
+    from others. How the disc is computed comes last, as a title may have no room for all."""
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
-    if values.get("normalization") == "orthonormal":
-        words.append(MODES["orthonormal"])
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
     said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION)), *words]
-    said.append(_numbers_text(numbers, OF_MODEL))
-    others = {*numbers} - {"N", "Omega", *OF_FRICTION, *OF_MODEL, *OF_DISC}
-    said += [_numbers_text(numbers, others), values.get(STAYS, ""), _numbers_text(numbers, OF_DISC)]
+    said += [_numbers_text(numbers, IDENTIFYING)]
+    said += [_numbers_text(numbers, (*OF_DAMPING, *OF_CONTACT))]
+    others = {*numbers} - {*ORDERED}
+    said += [_numbers_text(numbers, others), values.get(STAYS, "")]
+    said += [_numbers_text(numbers, OF_DISC), _numbers_text(numbers, OF_MODES)]
+    if values.get("normalization") == "orthonormal":
+        said.append(MODES["orthonormal"])
     return ", ".join(filter(None, said))
 
 
@@ -593,11 +599,17 @@ def head_text(width: float, title: str, values: str, most: int | None = None) ->
     line of its name. Of values that need more lines than `most`, the last ones are only counted."""
     unbroken = [value.replace(" ", "\u00a0") for value in typeset(values).split(", ")]
     length = round(width / CHARACTER)
-    said = fill(", ".join(unbroken), length)
+    said = _in_lines(", ".join(unbroken), length)
     for count in range(len(unbroken) - 1, 0, -1):
         if most is None or said.count("\n") < most:
             break
         rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
-        said = fill(f"{', '.join(unbroken[:count])} {rest}", length)
-    lines = [text for text in (fill(title, length), said) if text]
+        said = _in_lines(f"{', '.join(unbroken[:count])} {rest}", length)
+    lines = [fill(line, length) for line in title.splitlines()]
+    lines = [text for text in (*lines, said) if text]
     return "\n".join(lines).replace("\u00a0", " ")
+
+
+def _in_lines(values: str, length: int) -> str:
+    """Values in lines of a number of characters; one that is longer has a line of its own."""
+    return fill(values, max(length, 1), break_long_words=False, break_on_hyphens=False)

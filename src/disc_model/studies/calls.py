@@ -33,6 +33,8 @@ BY_PLACE = (
     inspect.Parameter.VAR_POSITIONAL,
 )
 """Kinds of arguments that can be given without a name."""
+BY_NAME = inspect.Parameter.POSITIONAL_OR_KEYWORD
+"""Kind of arguments that can be given in either way."""
 ERRORS = ("raise", "record")
 """What may become of an error that is neither of this package nor of arithmetic."""
 
@@ -134,18 +136,18 @@ def checked_call(
     zipped: Any,
     named: Mapping[str, Any],
 ) -> Call:
-    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it, such as
-    arguments of the function without a name."""
+    """Return the call of a sweep; raises `ParameterError` with all that is wrong with it."""
     rule = "must be a function, such as disc_model.floquet"
     faults = [*foreign_case(case), *violations((callable(function), "function", function, rule))]
     raise_faults(faults)
     warn_of_doubts(case)
 
+    title = getattr(function, "__name__", type(function).__name__)
     # what is named is a number of the case, or an argument of the function
     parameters = inspect.signature(function).parameters
     takes_case = any(each.kind in BY_PLACE for each in parameters.values())
     faults += violations((takes_case, "function", function, "must take a case first"))
-    faults += _faults_of_unnamed(unnamed, [*parameters][1:])
+    named = {**_by_name(title, unnamed, parameters, named, faults), **named}
     raise_faults(faults)
     names = case.numbers.keys() | Parameters.model_fields.keys() | RATIOS.keys()
     numbers = sorted(case.numbers.keys() | RATIOS.keys(), key=str.lower)
@@ -160,7 +162,6 @@ def checked_call(
         together.append(samples)
         taken.update(samples.coordinates)
 
-    title = getattr(function, "__name__", type(function).__name__)
     arguments = Arguments(title, title if _is_ours(function) else "", parameters)
     if not arguments.takes_any:
         faults += _unknown(options, parameters, numbers)
@@ -220,14 +221,21 @@ def _unknown(
         yield Fault.of((name,), options[name], rule)
 
 
-def _faults_of_unnamed(unnamed: Sequence[Any], arguments: Sequence[str]) -> list[Fault]:
-    """What is wrong with values without a name, which a function's arguments would take in turn."""
-    faults = []
-    for i, value in enumerate(unnamed):
-        if i < len(arguments):
-            rule = f"must be named, as in {arguments[i]}={value!r}"
-            faults.append(Fault((arguments[i],), "", rule))
-        else:
-            rule = "must be named, and is one more than the function's arguments"
-            faults.append(Fault.of(("function",), value, rule))
-    return faults
+def _by_name(
+    title: str,
+    unnamed: Sequence[Any],
+    parameters: Mapping[str, inspect.Parameter],
+    named: Mapping[str, Any],
+    faults: list[str],
+) -> dict[str, Any]:
+    """Values without a name by those of the function's arguments after the case, which they are in
+    turn; what is wrong with them is added to the faults."""
+    others = [*parameters][1:]
+    arguments = [name for name in others if parameters[name].kind is BY_NAME]
+    for value in unnamed[len(arguments) :]:
+        rule = f"is one more than the arguments of {title} that have a place"
+        faults.append(Fault.of(("function",), value, rule))
+    values = dict(zip(arguments, unnamed, strict=False))
+    for name in values.keys() & named.keys():
+        faults.append(Fault.of((name,), named[name], "is given by its place already"))
+    return values

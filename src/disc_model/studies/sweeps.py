@@ -56,7 +56,8 @@ def sweep(  # noqa: PLR0913
     ----------
     function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
     case : values of all parameters that do not vary
-    *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
+    *unnamed : further arguments of the function in their order, as after the case in its own call:
+        ``sweep(simulate, case, 60)`` is ``sweep(simulate, case, t_end=60)``
     over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers
         or words. Each is a dimension, after those of the case
     zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.

@@ -27,6 +27,10 @@ def run_study(
 ) -> xr.Dataset | xr.DataTree:
     """Compute a study in this process, without files, and return its merged dataset.
 
+    Its quantity may be one that is no function of a case, such as "bifurcation", samples of the motion over
+    a parameter, which `plot_sweep` draws, or "campbell", frequencies and growth rates over the speed,
+    which `plot_campbell` draws. The page "Quantities of studies" of the documentation lists all.
+
     Parameters
     ----------
     source : path of a study file, or the mapping that such a file holds
@@ -50,6 +54,13 @@ def run_study(
     >>> study = {"study": "growth", "quantity": "floquet", "base": {"N": 385, "Omega": 12}, "axes": axes}
     >>> dm.run_study(study)["growth_rate"].sizes
     Frozen({'mu_s': 2, 'mu_k': 1})
+
+    A bifurcation diagram:
+
+    >>> turns = {"study": "turns", "quantity": "bifurcation", "options": {"transient": 20}}
+    >>> turns |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
+    >>> dm.plot_sweep(dm.run_study(turns)).get_xlabel()
+    'Speed Ω (rad/s)'
     """
     # needs yaml, of the extra `workflow`
     from disc_model.studies.study import load_study, parse_study

@@ -421,7 +421,7 @@ class Branch:
         ax: Any = None,
         legend: bool | dict[str, Any] = True,
         labels: dict[str, str] | None = None,
-        title: str | None = None,
+        title: str | bool | None = None,
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
         parameter, thick where the cycle is stable, and the special points. Dots are cycles that were

@@ -1,0 +1,48 @@
+"""The values of a case above a reader's axes."""
+
+from typing import Any
+from weakref import WeakKeyDictionary
+
+from matplotlib.text import Text
+
+from disc_model.figures.drawing import large
+from disc_model.figures.labels import in_a_row, titles_of
+from disc_model.figures.types import Axes
+from disc_model.figures.words import head_text
+
+MOST_LINES = 3  # of values of a case above a picture
+SIZE = 8.0  # points
+
+_WRITTEN: WeakKeyDictionary[Axes, str] = WeakKeyDictionary()
+"""What was written above axes, in one line."""
+
+
+def title_text(width: float, said: str, asked: str | bool | None = None) -> str:
+    """The values of a case, or else a title that a reader asks for, in lines that fit a width in inches."""
+    title = asked if isinstance(asked, str) else ""
+    return head_text(width, title, said, MOST_LINES)
+
+
+def write_case(ax: Axes, said: str, note: str = "") -> None:
+    """Write the values of a case above axes, in lines that fit their width, and a note below them."""
+    figure: Any = ax.get_figure(root=True)
+    width = ax.get_window_extent().width / figure.dpi * SIZE / large(SIZE)
+    lines = [title_text(width, said)]
+    if note != said:
+        lines.append(head_text(width, note, ""))
+    ax.set_title("\n".join(filter(None, lines)), loc="left", fontsize=large(SIZE))
+    _WRITTEN[ax] = in_a_row(ax.get_title(loc="left"))
+
+
+def rewrite_case(ax: Axes, said: str) -> None:
+    """Write other values above axes, if those of a case stand there."""
+    if case_above(ax):
+        write_case(ax, said)
+
+
+def case_above(ax: Axes) -> list[Text]:
+    """The title of axes, if it has the values of a case; none if its reader has set another since."""
+    title = ax.get_title(loc="left")
+    if not title or in_a_row(title) != _WRITTEN.get(ax):
+        return []
+    return [text for text in titles_of(ax) if text.get_text() == title]
