@@ -126,21 +126,26 @@ def _named_values(result: Any) -> Mapping[str, Any]:
     if isinstance(result, Result):
         return result.scalars()
     if is_dataclass(result):
-        names = [field.name for field in fields(result) if not field.name.startswith("_")]
-        values = {name: getattr(result, name) for name in names}
-        for name in BY_METHODS:
-            if hasattr(result, name):
-                values[name] = getattr(result, name)
-        if _lacks_cycle(result):
-            values |= dict.fromkeys(OF_A_CYCLE, math.nan)
-        if "near_motion" in values and values["near_motion"] is None:
-            values["near_motion"] = math.nan
-        if hasattr(result, "sliding"):
-            values["sliding_growth_rate"] = result.sliding.growth_rate
-        return values
+        return _values_of_fields(result)
     if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
         return {str(name): value for name, value in result.to_dict().items()}
     return result if isinstance(result, Mapping) else {"value": result}
+
+
+def _values_of_fields(result: Any) -> dict[str, Any]:
+    """The values of a result of this package by name; nan where one has no cycle."""
+    names = [field.name for field in fields(result) if not field.name.startswith("_")]
+    values = {name: getattr(result, name) for name in names}
+    for name in BY_METHODS:
+        if hasattr(result, name):
+            values[name] = getattr(result, name)
+    if _lacks_cycle(result):
+        values |= dict.fromkeys(OF_A_CYCLE, math.nan)
+    if "near_motion" in values and values["near_motion"] is None:
+        values["near_motion"] = math.nan
+    if hasattr(result, "sliding"):
+        values["sliding_growth_rate"] = result.sliding.growth_rate
+    return values
 
 
 def _lacks_cycle(result: Any) -> bool:
