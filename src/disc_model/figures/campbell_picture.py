@@ -1,12 +1,11 @@
 """A Campbell diagram of a study on a reader's axes."""
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.errors import Fault, raise_faults, require, violations
+from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.campbell import (
     FREQUENCY,
     RATE,
@@ -18,10 +17,9 @@ from disc_model.figures.campbell import (
 )
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN
-from disc_model.figures.named_axes import Quantities, shown_on
+from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_choice import values_of
-from disc_model.figures.types import Axes
 from disc_model.figures.words import SPEED, what_case
 from disc_model.units import in_si, is_number
 
@@ -44,13 +42,12 @@ def plot_campbell(
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""
     is_study = isinstance(study, xr.Dataset) and all(name in study for name in NEEDED)
-    given = highest
-    faults: list[Fault] = []
-    highest = in_si(highest, "Hz", faults, ("highest",))
-    known = bool(faults) or highest is None or (is_number(highest) and highest > 0)
+    faults: list[Any] = []
+    limit: Any = in_si(highest, "Hz", faults, ("highest",))
+    known = bool(faults) or limit is None or (is_number(limit) and limit > 0)
     faults += violations(
         (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
-        (known, "highest", given, "must be a number > 0, in Hz"),
+        (known, "highest", highest, "must be a number > 0, in Hz"),
     )
     raise_faults(faults)
     drawn = without_single(study, *OTHERS).transpose("Omega", ...)
@@ -63,23 +60,15 @@ def plot_campbell(
     )
 
     column = column_of(drawn)
-    shown = highest or highest_of([column])
+    shown = limit or highest_of([column])
     wishes = Wishes(ax, legend, labels, title)
     case = what_case(values_of(drawn))
     shared: dict[str, Any] = {"sharex": True, "height_ratios": [3, 2]}
     with page_for(wishes, COLUMN, HEIGHT, 2, 1, title=case, **shared) as page:
-        _check_free(page.axes)
+        check_free(page.axes, FREQUENCY, "a Campbell diagram")
         page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
         top, bottom = page.axes
         draw_panels([top], [bottom], [column], shown)
         name_peaks(top, bottom, column, shown)
         page.explain(entries_of([column], shown), beside="below")
     return np.array(page.axes, dtype=object)
-
-
-def _check_free(axes: Sequence[Axes]) -> None:
-    """Raise `ParameterError` if axes have a Campbell diagram already: nobody could tell the modes of two
-    apart."""
-    shows = any(shown_on(ax).labels.get("y") == FREQUENCY for ax in axes)
-    rule = "shows a Campbell diagram already: give each its own axes"
-    raise_faults([Fault(("ax",), "", rule)] if shows else [])

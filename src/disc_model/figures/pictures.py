@@ -177,7 +177,7 @@ def plot_modes(
     ----------
     case : the case; a disc that is given by its modes needs shapes at two radii or more
     most : number of modes that are drawn, by ascending frequency
-    ax : axes to draw on, one for each mode
+    ax : axes to draw on, one for each mode, without other modes
     labels : as in `Result.plot`
     title : of a new figure; "" for none
 
