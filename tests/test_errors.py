@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+import xarray as xr
 
 from disc_model import ParameterError
 from disc_model.errors import LONGEST_VALUE, DiscModelError, Fault, as_text, script
@@ -56,4 +57,5 @@ def test_a_value_in_a_message_is_short_and_stands_in_one_line() -> None:
     for value in ([], (), (1,), [1, "a", None], {"a": (1, 2), "b": {}}, "x  y", 1 + 2j):
         assert as_text(value) == repr(value)
     assert as_text(0.1 + 0.2) == "0.3"
+    assert as_text(xr.Dataset({"N": 1, "k": 2})) == "a dataset of 2 variables", "it was its table"
     assert as_text(2.0) == "2"

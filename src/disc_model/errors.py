@@ -236,6 +236,9 @@ def as_text(value: Any) -> str:
     without noise of rounding."""
     if isinstance(value, float):
         return repr(float(f"{value:.15g}")).removesuffix(".0")
+    if hasattr(value, "data_vars"):  # the text of a dataset is a table
+        noun = "variable" if len(value.data_vars) == 1 else "variables"
+        return f"a dataset of {len(value.data_vars)} {noun}"
     text = ""
     for piece in _pieces(value):
         text += piece

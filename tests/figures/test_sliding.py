@@ -13,7 +13,7 @@ from disc_model.figures.kinds import kind_of
 from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
-from disc_model.figures.sliding_modes import LEAST, _name_decays
+from disc_model.figures.sliding_modes import LEAST, _name_decays, lines_of
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
 from tests.figures.reading import labels
 from tests.studies.conftest import SMALL, computed
@@ -210,3 +210,19 @@ def test_names_of_decaying_modes_do_not_lie_on_each_other(rates: list[float], bl
     for i, box in enumerate(boxes):
         assert not box.count_overlaps(boxes[:i])
     pyplot.close("all")
+
+
+def test_modes_without_room_are_told_from_growth_at_rest(over_mu: xr.Dataset) -> None:
+    """The line of the most unstable mode was called "0 Hz" where the study had no room for it."""
+    few = over_mu.isel(mode=[0, 1])
+    few["largest_growth_rate"] = few["mode_growth_rate"].max("mode") + 1.0
+    few["n_modes"] = 4
+    [line] = [line for line in lines_of(few.isel(N=0)) if np.isfinite(line.rate).all()][-1:]
+    assert line.name == "not computed"
+    assert np.isnan(line.frequency).all()
+    figure = render(kind_of("sliding_modes")(highest=1.0), {"study": xr.DataTree(few)})
+    said = labels(figure)
+    assert "2 modes of 4 not computed" in said
+    assert "cut at 1 Hz: 4 modes above" in said
+    full = few.assign(n_modes=2)
+    assert lines_of(full.isel(N=0))[-1].name == "0 Hz"

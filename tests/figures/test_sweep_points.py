@@ -176,3 +176,16 @@ def test_few_values_are_a_map_on_request(wish: dict[str, Any]) -> None:
     ax = dm.plot_sweep(grid(5, 2), "time", **wish)
     assert ax.collections
     assert ax.get_ylabel() == "Preload N (N)"
+
+
+def test_points_of_modes_have_a_name() -> None:
+    """They were black lines without one; the last of four modes has no value."""
+    rates = np.full((4, 4), np.nan)
+    rates[:, :3] = [-0.1, -0.2, -0.3]
+    study = xr.Dataset(
+        {"rate": (("Omega", "mode"), rates, {"units": "s-1", "long_name": "growth rate"})},
+        {"Omega": SPEEDS, "mode": ("mode", range(4), {"long_name": "number of the mode"})},
+    )
+    ax = dm.plot_sweep(study, "rate")
+    assert labels(ax.figure) == ["3 modes"]
+    assert len(points_on(ax)) == 1

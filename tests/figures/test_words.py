@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.multipliers import period_text
-from disc_model.figures.names import name_of
+from disc_model.figures.names import name_of, named_modes
 from disc_model.figures.words import missing_text, named, named_value, value_text
 from disc_model.studies.registry import quantity_names, quantity_of
 
@@ -181,6 +181,20 @@ def test_periods_of_more_than_a_second_are_in_seconds(period: float, text: str) 
 )
 def test_modes_are_named_by_their_nodal_diameters(diameters: tuple[int, ...], name: str) -> None:
     assert name_of(*diameters) == name
+
+
+def test_partners_of_a_mode_share_a_name_where_it_would_lie_on_itself() -> None:
+    """Both had one, "l = 5" on "l = 5"."""
+    heights = np.array([100.0, 170.0, 400.0, 520.0, 900.0, 960.0, np.nan])
+    diameters = np.array([5, 5, 4, 4, 1, 2, 0])
+    found = [(part.name, part.modes.tolist()) for part in named_modes(diameters, heights, apart=50)]
+    assert found == [
+        ("l = 5", [0, 1]),
+        ("l = 4", [2]),
+        ("l = 4", [3]),
+        ("l = 1", [4]),
+        ("l = 2", [5]),
+    ]
 
 
 def test_no_two_variables_of_a_quantity_have_one_name() -> None:

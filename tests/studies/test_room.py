@@ -9,6 +9,7 @@ import disc_model as dm
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies.quantities.branches import Branches, _Found
+from disc_model.studies.quantities.campbell import Campbell
 from disc_model.studies.quantities.stability_curves import StabilityCurves
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import coordinates_of, with_cuts
@@ -63,6 +64,15 @@ def test_curves_and_branches_without_room_are_told() -> None:
     found.left_out = 2
     assert found.message.startswith("2 cycles of further branches")
     assert found.message.endswith("raise max_branches")
+
+
+def test_modes_without_room_are_told() -> None:
+    """They were lost without a word, as they are an array."""
+    few = Campbell(modes=2)
+    coordinates = coordinates_of(few.COORDINATES, few)
+    said = with_cuts("Look.", {"sliding_frequency": np.ones(3)}, few, coordinates)
+    assert said == "Look; 3 were found along mode, which has room for 2: raise modes"
+    assert with_cuts("Look.", {"sliding_frequency": np.ones(2)}, few, coordinates) == "Look."
 
 
 @pytest.mark.parametrize("name", quantity_names())

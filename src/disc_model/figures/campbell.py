@@ -5,10 +5,17 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from matplotlib.patches import Patch
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
+from disc_model.figures.campbell_bands import draw_bands, entries_of_bands
+from disc_model.figures.campbell_crossings import entries_of_unresolved
+from disc_model.figures.cut import (
+    entries_of_left_out,
+    entry_of_cut,
+    mark_cut,
+    modes_above,
+    modes_cut,
+)
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -23,6 +30,7 @@ from disc_model.figures.drawing import (
     whole_marks,
     wide,
 )
+from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import Campbell
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, named_modes
@@ -33,7 +41,6 @@ from disc_model.figures.selection import (
     doubts,
     normalizations,
     parts_along,
-    spans,
     stretches,
     titles_of,
 )
@@ -52,13 +59,14 @@ LED_TO_MEETING = tuple((across, up) for up in (22, 32, 44, 56) for across in (-1
 BETWEEN = 20  # points of each step of a line, which no name covers
 UPRIGHT = 200  # points along the line at the speed of a peak
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10), (2, 17), (-2, 17))  # and beside peaks
-BAND: dict[str, Any] = {"color": GREY, "alpha": 0.25, "linewidth": 0}
-"""Look of a stretch of speeds without a growth rate."""
 SYMBOLS = ("$f_s$", "$f_Ω$")
 """Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
-NAMES_APART = 0.035  # of the axis, least distance of the names of modes
+GROWS = 2.4  # points, width of the line of a mode that grows
+NAMES_APART = 0.045  # of the axis, least distance of the names of modes
 FREQUENCY = "Frequency in the slider's frame (Hz)"
 RATE = "Largest growth rate\nof the cycle (1/s)"
+PEAK = "peak of growth"
+NOT_CROSSED = "no crossing found at it"
 ALONE = "by itself: another cycle, or too wide a step"
 """What a point may be that differs from both neighbours."""
 EDGE = 1.0  # height of a mark at this edge, as a share of the panel
@@ -141,9 +149,13 @@ def entries_of(columns: Sequence[Column], highest: float) -> list[Artist]:
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
     studies = [column.study for column in columns]
-    above = max(modes_above(study["sliding_frequency"], highest) for study in studies)
+    if any(growing_modes(study).any() for study in studies):
+        handles.append(sample(label="mode of steady sliding that grows", **_growing_look()))
+    above = max(modes_cut(study, "sliding_frequency", highest) for study in studies)
     if above:
         handles.append(entry_of_cut(above, highest))
+    handles += entries_of_left_out(studies)
+    handles += entries_of_unresolved(studies)
     found = [peak for column in columns for peak in column.peaks]
     handles += _entries_of_peaks(found, highest)
     return handles + _entries_of_rates(studies)
@@ -160,14 +172,14 @@ def _entries_of_rates(studies: Sequence[xr.Dataset]) -> list[Artist]:
     if any((np.abs(np.diff(rate)) > LINEAR).any() for rate in followed):
         wide_step = f"line open: a step of over {LINEAR:g}/s"
         handles.append(open_line(wide_step, BLACK, wide(0.8)))
-    if any(study["growth_rate"].isnull().any() for study in studies):
-        handles.append(Patch(label="no growth rate", **BAND))
-    return handles
+    return handles + entries_of_bands(studies)
 
 
 def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
     """Entries of a legend for peaks, and for their crossings below and above the highest frequency
     shown (Hz)."""
+    if not found:
+        return []
     handles: list[Artist] = []
     crossings = [peak.crossing for peak in found if peak.crossing is not None]
     shown = [crossing for crossing in crossings if _meeting(crossing)[1] <= highest]
@@ -175,15 +187,17 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
     if crossed:
         symbols = " or ".join(sorted(crossed, key=SYMBOLS.index))
         handles.append(sample(label=f"multiple of {symbols}", **_multiple_look()))
-    if found:
-        name = "peak of growth"
-        if shown or not crossings:
-            name = f"{name}, crossing at it"
-        at_line = f"speed of a {name}"  # whose marks say that it is not resolved
-        if not all(peak.alone for peak in found):
-            handles.append(sample(label=name, **_dot(alone=False)))
-            at_line = "speed of a peak"
-        handles.append(sample(label=at_line, **_speed_look()))
+    names = {True: f"{PEAK}, crossing at it" if shown else PEAK, False: f"{PEAK}, {NOT_CROSSED}"}
+    unnamed = []
+    for is_crossed, name in names.items():
+        alike = [peak for peak in found if (peak.crossing is not None) == is_crossed]
+        resolved = any(not peak.alone for peak in alike)
+        if resolved:
+            handles.append(sample(label=name, **_dot(alone=False, crossed=is_crossed)))
+        elif alike:
+            unnamed.append(name)  # marks of points by themselves say that they are not resolved
+    at_line = " or ".join(unnamed) or "peak"
+    handles.append(sample(label=f"speed of a {at_line}", **_speed_look()))
     if len(shown) < len(crossings):
         label = f"crossing above {highest:g} Hz"
         handles.append(sample(label=label, **_beyond_look()))
@@ -200,22 +214,25 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
     _draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, followed_rates(study))
     bottom.plot(speeds[elsewhere], rate[elsewhere], **_elsewhere_look())
+    scale_rates(bottom)
     for peak in column.peaks:
         _draw_peak(top, bottom, study, peak, highest)
     if modes_above(study["sliding_frequency"], highest):
         mark_cut(top, highest)
-    for ax in (top, bottom):
-        for start, end in spans(speeds, ~np.isfinite(rate)):  # without a cycle
-            ax.axvspan(start, end, **BAND)
+    draw_bands(top, bottom, study)
     top.set_xlim(speeds[0], speeds[-1])
     bottom.set_xlabel(SPEED)
 
 
 def _draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
-    """Draw the frequencies of steady sliding's modes, with names at the right ends of those that
-    are shown."""
+    """Draw the frequencies of steady sliding's modes, thick where they grow, with names at the right
+    ends of those that are shown."""
     frequency = study["sliding_frequency"]
     ax.plot(study["Omega"], frequency, color=BLACK, linewidth=wide(0.9))
+    grows = growing_modes(study)
+    for mode in np.flatnonzero(grows.any("Omega")):
+        thick = frequency.where(grows).isel(mode=mode)
+        ax.plot(study["Omega"], thick, **_growing_look())
     ends = study.isel(Omega=-1)
     of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
     heights = ends["sliding_frequency"].where(ends["sliding_frequency"] <= highest).values
@@ -224,9 +241,18 @@ def _draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
         say_beside(ax, height, part.name, 3, fontsize=large(7))
 
 
-def _dot(alone: bool) -> dict[str, Any]:
-    """Look of a dot; hollow for a point that is joined to none beside it."""
-    look: dict[str, Any] = {"color": BLACK, "linestyle": "", "marker": "o", "markersize": mark(3.5)}
+def _growing_look() -> dict[str, Any]:
+    """Look of a mode that grows; dots within the line show it at single speeds."""
+    width = wide(GROWS)
+    dot = {"marker": "o", "markersize": 0.8 * width, "markeredgewidth": 0}
+    return {"color": BLACK, "linewidth": width, **dot}
+
+
+def _dot(alone: bool, crossed: bool = True) -> dict[str, Any]:
+    """Look of a dot; hollow for a point that is joined to none beside it, and a diamond at a peak
+    without a crossing."""
+    look: dict[str, Any] = {"color": BLACK, "linestyle": "", "markersize": mark(3.5)}
+    look["marker"] = "o" if crossed else "D"
     if alone:
         look["markerfacecolor"] = "white"
         look["markeredgewidth"] = wide(0.7)
@@ -252,7 +278,6 @@ def _draw_rates(ax: Axes, speeds: Array, rate: Array) -> None:
     joined["markersize"] = mark(1.0)
     ax.plot(speeds[~alone], rate[~alone], **joined)
     ax.plot(speeds[alone], rate[alone], **_dot(alone=True))
-    scale_rates(ax)
 
 
 def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: float) -> None:
@@ -262,7 +287,7 @@ def _draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: 
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
         ax.axvline(speed, zorder=0, **_speed_look())
-    bottom.plot(speed, rate, **_dot(peak.alone))
+    bottom.plot(speed, rate, **_dot(peak.alone, crossed=peak.crossing is not None))
     if peak.crossing is None:
         return
     place = _meeting(peak.crossing)
@@ -368,6 +393,14 @@ def _symbol(crossing: xr.Dataset) -> str:
 
 
 # ---- Selection
+
+
+def growing_modes(study: xr.Dataset) -> xr.DataArray:
+    """Modes of steady sliding that grow, at each speed; none where a study does not know it."""
+    frequency = study["sliding_frequency"]
+    if "sliding_growth_rate" not in study:
+        return xr.zeros_like(frequency, dtype=bool)
+    return (study["sliding_growth_rate"] > ROUNDING).transpose(*frequency.dims)
 
 
 def followed_rates(study: xr.Dataset) -> Array:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.errors import require
+from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.campbell import (
     FREQUENCY,
     RATE,
@@ -17,11 +17,11 @@ from disc_model.figures.campbell import (
 )
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_choice import values_of
 from disc_model.figures.words import SPEED, what_case
-from disc_model.units import is_number
+from disc_model.units import in_si, is_number
 
 NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
 """What a study has that such a diagram can show."""
@@ -33,7 +33,7 @@ HEIGHT = 5.4  # inch, with its legend
 def plot_campbell(
     study: xr.Dataset,
     *,
-    highest: float | None = None,
+    highest: float | str | None = None,
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -42,11 +42,14 @@ def plot_campbell(
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""
     is_study = isinstance(study, xr.Dataset) and all(name in study for name in NEEDED)
-    known = highest is None or (is_number(highest) and highest > 0)
-    require(
+    faults: list[Any] = []
+    limit: Any = in_si(highest, "Hz", faults, ("highest",))
+    known = bool(faults) or limit is None or (is_number(limit) and limit > 0)
+    faults += violations(
         (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
         (known, "highest", highest, "must be a number > 0, in Hz"),
     )
+    raise_faults(faults)
     drawn = without_single(study, *OTHERS).transpose("Omega", ...)
     further = [str(dim) for dim in drawn.dims if dim not in OTHERS]
     rule = f"must not vary along it: select one, as by study.isel({'=0, '.join(further)}=0)"
@@ -57,11 +60,12 @@ def plot_campbell(
     )
 
     column = column_of(drawn)
-    shown = highest or highest_of([column])
+    shown = limit or highest_of([column])
     wishes = Wishes(ax, legend, labels, title)
     case = what_case(values_of(drawn))
     shared: dict[str, Any] = {"sharex": True, "height_ratios": [3, 2]}
     with page_for(wishes, COLUMN, HEIGHT, 2, 1, title=case, **shared) as page:
+        check_free(page.axes, FREQUENCY, "a Campbell diagram")
         page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
         top, bottom = page.axes
         draw_panels([top], [bottom], [column], shown)

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.display import counted
 from disc_model.figures.bifurcation import MARKS, UNDECIDED, UNDECIDED_NAME, apart
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.curve import DOT, heights_of, set_scales
@@ -32,7 +33,7 @@ def draw_points(
 ) -> list[tuple[str, Any]]:
     """Draw all values of a variable at each place along a dimension; rings are of motions that had not
     settled, and marks above the panel of places without any value. Returns the points with the names of
-    the events at which they were sampled, or all of them, which have no name."""
+    the events at which they were sampled, or all of them, with the number of modes that they are of."""
     names, array = heights_of(study, variable)
     array = array.transpose(x, ...)
     along = measured_along(array[x]).values
@@ -64,7 +65,7 @@ def _parts_of(
     study: xr.Dataset, array: xr.DataArray, shown: Mask, look: Look, marker: str
 ) -> list[Points]:
     """The points that are shown of each event at which values were sampled, with its name and look; all
-    without a name if they were not sampled at events."""
+    of them together if they were not sampled at events."""
     size = DOT if array.size > MANY else MARK
     dots: dict[str, Any] = {"color": look.colour, "marker": marker, "markersize": mark(size)}
     if marker != ".":
@@ -74,7 +75,15 @@ def _parts_of(
         mask = _in_phase(study, array, phase) & shown
         if mask.any():
             parts.append(Points(name, mask, {**dots, **_look_at(phase, look, marker)}))
-    return parts or [Points("", shown, dots)]
+    return parts or [Points(_number_of_modes(array), shown, dots)]
+
+
+def _number_of_modes(array: xr.DataArray) -> str:
+    """How many modes the points are of, as a name; "" if they are of anything else."""
+    if "mode" not in array.dims:
+        return ""
+    along = [dim for dim in array.dims if dim != "mode"]
+    return counted(int(array.notnull().any(along).sum()), "mode")
 
 
 def _look_at(phase: str, look: Look, marker: str) -> dict[str, Any]:

@@ -12,13 +12,14 @@ from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.disc import draw_plane, plane_of
 from disc_model.figures.drawing import BLACK, COLUMN, PAGE, SLIDER, wide
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.types import Axes
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_whole
 
 IN_A_ROW = 5  # modes
 COLOURED = 1.6  # ends of the colour scale over the largest deflection, so that lines stay visible
+FROM_ABOVE = "Disc from above (mm)"
 EDGE = 0.02  # share of the ring's width beside a clamped edge, which is no nodal line
 
 
@@ -46,7 +47,8 @@ def plot_modes(
     named = usual if title is None or title is True else title
     wishes = Wishes(ax, labels=labels, title=named if ax is None else None)
     with page_for(wishes, width, 0.24 * PAGE * rows + 0.3, rows, columns) as page:
-        page.show(*(Quantities("Disc from above (mm)", "Disc from above (mm)") for _ in page.axes))
+        check_free(page.axes, FROM_ABOVE, "modes")
+        page.show(*(Quantities(FROM_ABOVE, FROM_ABOVE) for _ in page.axes))
         for spare in page.axes[count:]:
             spare.set_axis_off()
         draw_modes(page.axes[:count], p)

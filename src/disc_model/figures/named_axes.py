@@ -77,6 +77,14 @@ def check_axes(axes: Sequence[Axes], panels: Iterable[Quantities], asked: Collec
     raise_faults(dict.fromkeys(faults).keys())
 
 
+def check_free(axes: Sequence[Axes], label: str, picture: str) -> None:
+    """Raise `ParameterError` if axes have a picture already over which a second one could not be told
+    from it; it has this label along its vertical axis."""
+    shows = any(shown_on(ax).labels.get("y") == label for ax in axes)
+    rule = f"shows {picture} already: give each its own axes"
+    raise_faults([Fault(("ax",), "", rule)] if shows else [])
+
+
 def _faults(ax: Axes, along: str, label: str, alike: Collection[str]) -> Iterator[Fault]:
     """Yield what is wrong with a picture that has a label along axes."""
     own = own_label(ax, along)

@@ -235,9 +235,18 @@ def name_of(*diameters: int) -> str:
 
 def named_modes(diameters: Array, heights: Array, apart: float) -> Iterator[Named]:
     """Modes, ascending by height, and their names; those nearer than `apart` to the one below share
-    one."""
+    one, and within twice that, those that would have the same."""
     known = np.argsort(heights)[: int(np.isfinite(heights).sum())]
     steps = np.flatnonzero(np.diff(heights[known]) > apart) + 1
-    for part in np.split(known, steps):
-        if part.size:
-            yield Named(part, name_of(*diameters[part].astype(int).tolist()))
+    parts: list[Named] = []
+    for modes in np.split(known, steps):
+        if not modes.size:
+            continue
+        name = name_of(*diameters[modes].astype(int).tolist())
+        if parts and parts[-1].name == name:
+            lower = parts[-1].modes
+            if heights[modes[0]] - heights[lower[-1]] <= 2 * apart:
+                modes = np.concatenate([lower, modes])
+                parts.pop()
+        parts.append(Named(modes, name))
+    yield from parts

@@ -119,7 +119,7 @@ def plot_sweep(  # noqa: PLR0913
 def plot_campbell(
     study: xr.Dataset,
     *,
-    highest: float | None = None,
+    highest: float | str | None = None,
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -128,15 +128,17 @@ def plot_campbell(
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
 
-    At the highest peaks of growth are the multiples of a frequency that meet a mode there. What lies
-    above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the speed of
-    a crossing above it.
+    At the highest peaks of growth are the multiples of a frequency that meet a mode there; a peak
+    without such a crossing is a diamond. Lines are thick where a mode of steady sliding grows. Speeds
+    without a cycle are shaded, with what there is in its place, such as "unstable steady sliding". What
+    lies above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the
+    speed of a crossing above it.
 
     Parameters
     ----------
     study : of ``quantity: campbell``, such as `run_study` returns; along the speed only
-    highest : Hz, upper end of the axis of frequencies; all of them if not given
-    ax : two axes to draw on, that of frequencies first
+    highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
+    ax : two axes to draw on, that of frequencies first, without another Campbell diagram
     legend, labels, title : as in `Result.plot`
 
     Returns
@@ -175,7 +177,7 @@ def plot_modes(
     ----------
     case : the case; a disc that is given by its modes needs shapes at two radii or more
     most : number of modes that are drawn, by ascending frequency
-    ax : axes to draw on, one for each mode
+    ax : axes to draw on, one for each mode, without other modes
     labels : as in `Result.plot`
     title : of a new figure; "" or False for none
 

@@ -210,8 +210,11 @@ def statuses(study: xr.Dataset) -> xr.DataArray:
     if "status" not in study:
         return xr.DataArray("ok")
     words = study["status"].copy(data=flag_names(study["status"]).astype(object))
-    if "sliding_growth_rate" in study:
-        rate = study["sliding_growth_rate"]
+    name = "sliding_growth_rate"
+    if f"largest_{name}" in study:  # that of all modes, which need not all be in the study
+        name = f"largest_{name}"
+    if name in study:
+        rate = study[name]
         largest = rate.max([dim for dim in rate.dims if dim not in words.dims])
         slides = words == "no_stick_slip"
         words = words.where(~(slides & (largest < 0)), "steady_sliding")

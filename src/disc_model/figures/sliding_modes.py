@@ -6,7 +6,14 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from disc_model.figures.cut import entry_of_cut, mark_cut, modes_above
+from disc_model.figures.cut import (
+    entries_of_left_out,
+    entry_of_cut,
+    mark_cut,
+    modes_above,
+    modes_cut,
+    modes_left_out,
+)
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -102,9 +109,10 @@ def _legend(figure: Figure, columns: Sequence[xr.Dataset], lowest: float, highes
         handles.append(sample(color=GREY, linewidth=wide(DECAYS), label="mode decays"))
     if (largest > ROUNDING).any():
         handles.append(sample(color=BLACK, linewidth=wide(GROWS), label="mode grows"))
-    above = max(modes_above(column["frequency"], highest) for column in columns)
+    above = max(modes_cut(column, "frequency", highest) for column in columns)
     if above:
         handles.append(entry_of_cut(above, highest))
+    handles += entries_of_left_out(columns)
     names = [*dict.fromkeys(line.name for column in columns for line in below(column, lowest))]
     if names:
         said = names[:MOST_NAMES]
@@ -128,7 +136,8 @@ def _limits(study: xr.Dataset) -> tuple[float, float]:
 
 def lines_of(study: xr.Dataset) -> list[Line]:
     """The lines of all modes, cut where their nodal diameters change, and that of growth at 0 Hz,
-    which is of no mode, where it is the largest."""
+    which is of no mode, where it is the largest. Where the study has no room for some modes, the largest
+    may be that of one of these."""
     lines = []
     for _, mode in study.groupby("mode"):
         mode = mode.squeeze("mode")
@@ -145,7 +154,11 @@ def lines_of(study: xr.Dataset) -> list[Line]:
     of_modes = study["mode_growth_rate"].max("mode")
     diverging = (largest > of_modes + ROUNDING).values
     at_zero = np.where(diverging, 0.0, np.nan)
-    lines.append(Line("0 Hz", at_zero, np.where(diverging, largest.values, np.nan)))
+    name = "0 Hz"
+    if modes_left_out(study):
+        at_zero = np.full(at_zero.shape, np.nan)
+        name = "not computed"
+    lines.append(Line(name, at_zero, np.where(diverging, largest.values, np.nan)))
     return lines
 
 

@@ -153,7 +153,7 @@ def coordinates_of(
 
 def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Variable]) -> str:
     """A message that also says of which values a row has more than its dimensions have room for."""
-    cuts = [message] if message else []
+    cuts = [message.removesuffix(".")] if message else []
     for dim, coordinate in computed.COORDINATES.items():
         room = coords[dim].size
         found = _number_found(row, computed.COLUMNS, dim)
@@ -161,22 +161,30 @@ def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Var
             continue
         advice = f": raise {coordinate.room}" if coordinate.room else ""
         cuts.append(f"{found} were found along {dim}, which has room for {room}{advice}")
-    return "; ".join(cuts)
+    return "; ".join(cuts) if len(cuts) > 1 or not message else message
 
 
 def _number_found(row: Row, columns: Mapping[str, Variable], dim: str) -> int:
-    """The largest number of values that a row has along a dimension, in lists."""
+    """The largest number of values that a row has along a dimension, in lists and arrays."""
     found = 0
     for name, column in columns.items():
         value = row.get(name)
-        if not isinstance(value, list) or dim not in column.dims:
+        if dim not in column.dims:
             continue
         before = column.dims.index(dim)
-        lists = [value]
-        for _ in range(before):
-            lists = [inner for outer in lists for inner in outer if isinstance(inner, list)]
-        found = max([found, *map(len, lists)])
+        if isinstance(value, np.ndarray) and value.ndim > before:
+            found = max(found, value.shape[before])
+        elif isinstance(value, list):
+            found = max(found, _longest(value, before))
     return found
+
+
+def _longest(value: list[Any], depth: int) -> int:
+    """The length of the longest list at a depth of lists within lists, 0 without one."""
+    lists = [value]
+    for _ in range(depth):
+        lists = [inner for outer in lists for inner in outer if isinstance(inner, list)]
+    return max(map(len, lists), default=0)
 
 
 def variables_of(

@@ -9,6 +9,7 @@ import pytest
 import xarray as xr
 from scipy.optimize import brentq
 
+import disc_model as dm
 from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import FloquetResult
@@ -237,6 +238,8 @@ def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.Mon
             rate = np.nan
         assert values["stick_slip_frequency"] == pytest.approx(rate, nan_ok=True)
     assert values["rotation_frequency"] == pytest.approx(11 / (2 * np.pi))
+    assert values["n_modes"] == 3
+    assert values["largest_sliding_growth_rate"] == dm.steady_sliding(case).growth_rate
     assert values["diameters"].tolist() == [0, 0, 2]
     assert [KINDS[code] for code in values["mode_kind"]] == ["slider", "disc", "disc"]
     assert values["sliding_frequency"].tolist() == [71, 130, 140]
@@ -256,6 +259,30 @@ def test_turns_count_up_to_the_greatest_number_of_diameters(diameters: int, coun
     turning = made_up(rotation_frequency=5 * speeds, stick_slip_frequency=none, diameters=numbers)
     summary = Campbell().summarise(turning)
     assert summary["n_crossings"] == count
+
+
+STEEL = {
+    "N": 5000, "E": 210e9, "rho": 7850, "nu": 0.3, "h": 6e-3, "m": 0.3, "k": 5e5, "k_p": 2e5, "c_p": 20,
+    "mu_s": 0.45, "mu_k": 0.35, "damping_ratio": 5e-4, "normalization": "orthonormal",
+    "friction_offset": "surface", "contact_arc": 0.4, "n_diameters": 6,
+}  # fmt: skip
+"""A disc with 14 modes, of which the eleventh to the thirteenth may be the most unstable ones."""
+
+
+@pytest.mark.compiled
+def test_the_most_unstable_mode_is_known_whatever_the_room() -> None:
+    """Of 14 modes 12 had room, and their largest growth rate was 2.16/s; that of all is 2.39/s."""
+    largest = dm.steady_sliding(Parameters(Omega=60, **STEEL)).growth_rate
+    assert largest == pytest.approx(2.39, abs=0.005)
+    axes = {"Omega": [60, 61]}
+    found = computed(quantity="campbell", options={}, base=STEEL, axes=axes)
+    assert float(found["sliding_growth_rate"].sel(Omega=60).max()) == pytest.approx(largest)
+    few = computed(quantity="campbell", options={"modes": 12}, base=STEEL, axes=axes)
+    assert float(few["sliding_growth_rate"].sel(Omega=60).max()) < 2.2
+    assert float(few["largest_sliding_growth_rate"].sel(Omega=60)) == pytest.approx(largest)
+    for study in (found, few):
+        assert study["n_modes"].values.tolist() == [14, 14]
+    assert all(text.endswith("room for 12: raise modes") for text in few["message"].values)
 
 
 @pytest.mark.compiled

@@ -6,10 +6,10 @@ import pytest
 from disc_model import Parameters, steady_sliding
 from disc_model.studies.quantities.sliding import Sliding
 from disc_model.studies.quantity import Point
+from tests.studies.conftest import computed
 
-FALLING = Parameters(
-    N=385, Omega=15, mu_s=0.3, mu_k=0.2, friction_decay=2.0, normalization="orthonormal"
-)
+BASE = {"mu_s": 0.3, "mu_k": 0.2, "friction_decay": 2.0, "normalization": "orthonormal"}
+FALLING = Parameters(N=385, Omega=15, **BASE)
 
 
 def along(parameter: str, start: float, stop: float, p: Parameters) -> dict[str, np.ndarray]:
@@ -63,7 +63,11 @@ def test_where_there_is_no_sliding_the_message_says_at_which_value() -> None:
 def test_modes_beyond_the_room_are_left_out_and_those_within_stay() -> None:
     scan = {"start": 10, "stop": 50, "count": 3}
     every, _ = Sliding(scan=scan).compute_point(Point(FALLING))
-    few, _ = Sliding(scan=scan, modes=4).compute_point(Point(FALLING))
+    options = {"scan": scan, "modes": 4}
+    few = computed(quantity="sliding", options=options, base=BASE, axes={"N": [385]})
+    few = few.isel(N=0)
     assert few["frequency"].shape == (3, 4)
     np.testing.assert_array_equal(few["frequency"], every["frequency"][:, :4])
     np.testing.assert_array_equal(few["mode_growth_rate"], every["mode_growth_rate"][:, :4])
+    assert every["n_modes"] == few["n_modes"] == 10
+    assert few["message"] == "10 were found along mode, which has room for 4: raise modes"

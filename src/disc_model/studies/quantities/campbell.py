@@ -55,7 +55,7 @@ OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_gro
 class Campbell(Quantity):
     """Frequencies and growth rates of steady sliding and of the stick-slip cycle."""
 
-    modes: Annotated[Count, Field(ge=1, le=1000)] = 12
+    modes: Annotated[Count, Field(ge=1, le=1000)] = 24
     """room for that many modes, the lowest in frequency"""
     half_bandwidth: Annotated[Positive, Unit("Hz")] = 1.0
     """greatest difference of the frequencies that meet, in the window about a crossing"""
@@ -74,6 +74,10 @@ class Campbell(Quantity):
             "Hz", "releases of stick per second on the stick-slip cycle, f_s"
         ),
         "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
+        "n_modes": Variable("1", "number of modes of steady sliding", whole=True),
+        "largest_sliding_growth_rate": Variable(
+            "s-1", "largest growth rate of steady sliding, of all its modes"
+        ),
         "mode_kind": _each(
             "1", "what moves most: the disc, or the slider in the disc's plane", KINDS
         ),
@@ -82,7 +86,7 @@ class Campbell(Quantity):
             "1", "share of their energy in waves that travel with the slider"
         ),
         "sliding_frequency": _each("Hz", "frequency of steady sliding, in the slider's frame"),
-        "sliding_growth_rate": _each("s-1", "growth rate of that mode of steady sliding"),
+        "sliding_growth_rate": _each("s-1", "growth rate of the mode of steady sliding"),
         "cycle_frequency": _each("Hz", "frequency of the cycle's multiplier that goes to the mode"),
         "cycle_growth_rate": _each(
             "s-1", "growth rate of the cycle's multipliers that go to the mode"
@@ -91,7 +95,10 @@ class Campbell(Quantity):
     }
     COORDINATES: ClassVar = {
         "mode": Coordinate(
-            "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
+            "1",
+            "number of the mode, lowest frequency first",
+            lambda o: range(1, o.modes + 1),
+            "modes",
         )
     }
     SUMMARY_COLUMNS: ClassVar = {
@@ -132,6 +139,8 @@ class Campbell(Quantity):
             "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
             "rotation_frequency": point.parameters.Omega / (2 * math.pi),
+            "n_modes": len(modes.frequency),
+            "largest_sliding_growth_rate": cycle.sliding.growth_rate,
             "mode_kind": np.where(modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
             "diameters": np.maximum(modes.diameters, 0), "forward_wave_fraction": modes.forward,
             "sliding_frequency": modes.frequency, "sliding_growth_rate": modes.growth_rate,

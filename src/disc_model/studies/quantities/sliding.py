@@ -36,6 +36,7 @@ class Sliding(Quantity):
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
+        "n_modes": Variable("1", "number of modes", whole=True),
         "unstable_modes": Variable("1", "number of unstable modes", dims=_ONE, whole=True),
         "largest_growth_rate": Variable("s-1", "largest growth rate of steady sliding", dims=_ONE),
         "contact_force": Variable("N", "contact force of steady sliding", dims=_ONE),
@@ -57,7 +58,10 @@ class Sliding(Quantity):
     COORDINATES: ClassVar = {
         "value": Coordinate("{0.units}", "{0.parameter}", lambda o: o.scan.values),
         "mode": Coordinate(
-            "1", "number of the mode, lowest frequency first", lambda o: range(1, o.modes + 1)
+            "1",
+            "number of the mode, lowest frequency first",
+            lambda o: range(1, o.modes + 1),
+            "modes",
         ),
     }
 
@@ -83,7 +87,8 @@ class Sliding(Quantity):
         values = self.scan.values
         cases = [self._case_at(p, value) for value in values]
         followed = follow_modes(cases)
-        shape = (len(values), self.modes)
+        n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
+        shape = (len(values), max(n_modes, self.modes))
         message = ""
         columns = {
             name: column.empty(shape)
@@ -92,7 +97,6 @@ class Sliding(Quantity):
         }
         rows = []
         for i, (sliding, modes, numbers, mac) in enumerate(followed):
-            room = numbers < self.modes
             row = {
                 "frequency": modes.frequency,
                 "mode_growth_rate": modes.growth_rate,
@@ -102,7 +106,7 @@ class Sliding(Quantity):
                 "forward_wave_fraction": modes.forward,
             }
             for name, column in row.items():
-                columns[name][i, numbers[room]] = column[room]
+                columns[name][i, numbers] = column
             of_value = {
                 "unstable_modes": sliding.growing.size,
                 "contact_force": sliding.contact_force,
@@ -111,4 +115,4 @@ class Sliding(Quantity):
             rows.append(of_value)
             if sliding.status is not SlidingStatus.OK:
                 message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"
-        return {**columns, **listed(rows), "status": "ok"}, message
+        return {**columns, **listed(rows), "n_modes": n_modes, "status": "ok"}, message
