@@ -202,7 +202,8 @@ def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
 
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word; "ok" without one.
+    """The status of each point of a grid study, as a word; "ok" without one, and `EXCLUDED` where
+    xarray's where has masked it.
 
     A motion that never sticks again is "steady_sliding" or "unstable_sliding" where the study knows
     the growth rate of steady sliding.
@@ -210,6 +211,7 @@ def statuses(study: xr.Dataset) -> xr.DataArray:
     if "status" not in study:
         return xr.DataArray("ok")
     words = study["status"].copy(data=flag_names(study["status"]).astype(object))
+    words = words.where(words != "", EXCLUDED)
     if "sliding_growth_rate" in study:
         rate = study["sliding_growth_rate"]
         largest = rate.max([dim for dim in rate.dims if dim not in words.dims])
