@@ -10,7 +10,7 @@ from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
-from disc_model.figures.kinds.base import NORM
+from disc_model.figures.kinds.base import NORM, key_of
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
 
@@ -161,7 +161,7 @@ def _rank(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -
 
 def _word(data: Data, name: str, by: str, words: Mapping[str, str]) -> str:
     """The word that a file gives for the value along a dimension, "" without one."""
-    return words.get(str(data[by].item()), "") if name == by else ""
+    return words.get(key_of(data[by].item()), "") if name == by else ""
 
 
 def titles_of(parts: Sequence[Part[Any]]) -> list[str]:
