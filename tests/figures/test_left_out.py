@@ -57,3 +57,15 @@ def test_masked_words_are_empty() -> None:
     words = flag_names(masked()["status"])
     assert (words[1] == "").all()
     assert (words[0] == "ok").all()
+
+
+def test_legends_below_maps_have_letters_of_one_size() -> None:
+    """The smaller one stood beside one of usual size."""
+    figure, axes = pyplot.subplots(1, 2, figsize=(84 / 25.4, 3), layout="constrained")
+    dm.plot_sweep(masked(), "status", ax=axes[0], lines=False)
+    words = ("no cycle found", "left out", "yes")
+    named = {word: f"{word}, of several words that need room" for word in words}
+    dm.plot_sweep(masked(), "stable", ax=axes[1], lines=False, labels=named)
+    sizes = {text.get_fontsize() for ax in axes for text in ax.get_legend().get_texts()}
+    assert len(sizes) == 1
+    pyplot.close(figure)

@@ -76,3 +76,16 @@ def test_names_are_found_by_value() -> None:
     assert [*unknown("names", {1: "none"}, "by", [0.0, 0.003])]
     with pytest.raises(ParameterError, match="names"):
         drawn(data, names=3)
+
+
+def test_a_label_beside_a_panel_ends_below_a_long_title() -> None:
+    """It ran into the title of a figure in one column."""
+    data = study(np.array([300.0, 350.0]))
+    words = "growth rate of a cycle whose name is nearly as long as its panel"
+    data["growth_rate"].attrs["long_name"] = words
+    title = "A title that is so long that it spans the whole width of a column"
+    figure = drawn(data, width="column", title=title, legend=True)
+    figure.draw_without_rendering()
+    label = figure.axes[0].yaxis.label.get_window_extent()
+    [heading] = figure.texts
+    assert label.y1 <= heading.get_window_extent().y0 + 1

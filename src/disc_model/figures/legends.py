@@ -176,7 +176,7 @@ def small(share: float = SMALLER) -> dict[str, Any]:
     }
 
 
-def _draw(parent: Any, handles: Sequence[Artist], **look: Any) -> Legend:
+def _draw(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
     """Draw a legend of axes or of a figure, whose samples are so long that dashes show between marks
     where they alone tell lines apart."""
     dashed = [handle for handle in handles if _is_dashed_with_marks(handle)]
@@ -191,7 +191,7 @@ def _draw(parent: Any, handles: Sequence[Artist], **look: Any) -> Legend:
     return parent.legend(handles=list(handles), **look)
 
 
-def _joins_marks(handle: Artist) -> bool:
+def _joins_marks(handle: Any) -> bool:
     """Whether an entry of a legend is a line with marks."""
     if not isinstance(handle, Line2D):
         return False
@@ -199,14 +199,14 @@ def _joins_marks(handle: Artist) -> bool:
     return has_marks and handle.get_linestyle() != "None"
 
 
-def _share_marks(handles: Sequence[Artist]) -> bool:
+def _share_marks(handles: Sequence[Any]) -> bool:
     """Whether some lines with marks have the same ones in the same colour."""
     lines = [handle for handle in handles if _joins_marks(handle)]
     looks = {(to_hex(line.get_color()), line.get_marker()) for line in lines}
     return len(looks) < len(lines)
 
 
-def _is_dashed_with_marks(handle: Artist) -> bool:
+def _is_dashed_with_marks(handle: Any) -> bool:
     """Whether an entry of a legend is a line with gaps, and marks."""
     return _joins_marks(handle) and bool(handle.is_dashed())
 

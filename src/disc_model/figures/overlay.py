@@ -42,11 +42,11 @@ class Style(NamedTuple):
     """What sets a case apart from others, by its place in their order: colour and dashes of a line, or
     colour and shape of marks.
 
-    count : how many cases there are
+    cases : how many there are
     """
 
     place: int
-    count: int = 1
+    cases: int = 1
 
     @property
     def look(self) -> Look:
@@ -57,7 +57,7 @@ class Style(NamedTuple):
     def edge(self) -> float:
         """By how much each whole line is wider than the one before, points."""
         least, greatest = EDGES
-        alike = (WIDEST - THIN) / max(self.count - 1, 1)
+        alike = (WIDEST - THIN) / max(self.cases - 1, 1)
         return max(least, min(greatest, alike))
 
     def layered(self) -> dict[str, Any]:
