@@ -94,3 +94,13 @@ def test_a_map_without_neutral_cells_does_not_name_them() -> None:
     entries = growth_panels(figure, [ax], [plane()])
     assert "neutral" not in {entry.get_label() for entry in entries}
     pyplot.close(figure)
+
+
+def test_one_large_rate_does_not_level_all_others() -> None:
+    """The scale was linear up to it over thirty, and all other cells had one colour."""
+    rates = np.append(np.linspace(-1.6, -0.8, 15), 60.0)
+    norm = growth_norm(rates)
+    places = norm(np.array([-1.6, -0.8, 0.0]))
+    assert places[1] - places[0] > 0.05
+    assert places[2] - places[1] > 0.1
+    assert growth_norm(0.01 * rates).linear_width == growth_norm(np.array([0.1])).linear_width

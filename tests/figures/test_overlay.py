@@ -163,3 +163,30 @@ def test_both_spectra_go_on_to_the_end_of_the_axis() -> None:
     ends = [line.get_xdata()[-1] for line in ax.lines if np.size(line.get_xdata()) > 2]
     assert len(ends) == 2
     assert min(ends) >= ax.get_xlim()[1]
+
+
+@pytest.mark.parametrize("kind", ["portrait", "spectrum"])
+def test_every_line_of_many_cases_shows_below_thinner_ones(kind: str) -> None:
+    """The fourth was as thin as the first, and lay under the wide line of the third."""
+    _, ax = pyplot.subplots(layout="constrained")
+    for number in range(5):
+        DRAWN[kind](SPEEDS[number % 2], ax=ax)
+    shown = [line for line in ax.lines if np.size(line.get_xdata()) > 2]
+    from_below = sorted(shown, key=lambda line: line.get_zorder())
+    widths = [line.get_linewidth() for line in from_below]
+    assert len(widths) == 5
+    assert np.diff(widths).max() < -0.9, "an edge of 0.45 points shows on each side"
+    samples = ax.get_legend().get_lines()
+    assert sorted((line.get_linewidth() for line in samples), reverse=True) == widths
+
+
+def test_cases_of_one_name_are_told_apart() -> None:
+    """Both had one entry in the legend, in the look of the first."""
+    _, ax = pyplot.subplots(layout="constrained")
+    for speed in (*SPEEDS, SPEEDS[0]):
+        DRAWN["run"](speed, ax=ax, labels={"case": "A"})
+    assert legend_texts(ax) == [
+        f"A, {NAMES[0]}, case 1",
+        f"A, {NAMES[1]}",
+        f"A, {NAMES[0]}, case 3",
+    ]

@@ -388,7 +388,7 @@ def test_axes_that_a_bar_and_a_legend_would_squeeze_are_refused() -> None:
     _, ax = pyplot.subplots(figsize=(40 / 25.4, 40 / 25.4), layout="constrained")
     with warnings.catch_warnings():
         warnings.simplefilter("error")  # the error says it
-        with refusal(r"ax=.*: must have room beside a colour bar"):
+        with refusal(r"ax=.*: must be larger, or legend=False: a colour bar"):
             as_map(partly, ax=ax)
     figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
     as_map(partly, ax=ax)
@@ -408,7 +408,7 @@ def test_a_panel_beside_a_bar_has_eight_millimetres_at_least() -> None:
     wide = page_of_a_panel(9.0)
     check_room(wide)
     narrow = page_of_a_panel(7.0)
-    with refusal("ax='7 mm for the panel': must have room"):
+    with refusal("must be larger, or legend=False: .* leave 7 mm for the panel"):
         check_room(narrow)
 
 

@@ -209,6 +209,8 @@ def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
     they are, and "" for nan."""
     values = variable.values
+    if variable.dtype.kind == "O":  # as of words that xarray's where has masked
+        values = np.where(variable.isnull().values, "", values)
     if variable.dtype.kind in "UO":
         return np.asarray(values, dtype=str)
     known = np.array([*variable.attrs["flag_meanings"].split(), ""])

@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgba
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 
-from disc_model.data.variables import Outcome, flag_names
+from disc_model.data.variables import EXCLUDED, Outcome, flag_names
 from disc_model.figures import selection
 from disc_model.figures.classes import LOOKS, UNRESOLVED, WEIGHTS, Look, looks_of
 from disc_model.figures.drawing import DECADES, GREY, wide
@@ -102,23 +102,29 @@ def _is_ordered(values: xr.DataArray | None) -> bool:
 
 def unresolved(words: Words) -> Mask:
     """Cells between two that have one other word: single ones, and strips that are one cell
-    wide."""
-    around = np.pad(words, 1, constant_values="")  # "0" by default
+    wide; not those that are left out, or beside such."""
+    around = np.pad(_without_excluded(words), 1, constant_values="")  # "0" by default
     vertical = (around[:-2, 1:-1], around[2:, 1:-1])
     horizontal = (around[1:-1, :-2], around[1:-1, 2:])
     found = np.zeros(words.shape, dtype=bool)
     for before, after in (vertical, horizontal):
         found |= (before == after) & (before != words) & (before != "")
-    return found
+    return found & (words != EXCLUDED)
 
 
 def alone(words: Words) -> Mask:
-    """Cells whose word none of the eight cells around them has; those at an edge may go on beyond
-    it."""
+    """Cells whose word none of the eight cells around them has; those at an edge, or beside cells
+    that are left out, may go on there."""
+    words = _without_excluded(words)
     around = np.pad(words, 1, constant_values="")
     neighbours = np.lib.stride_tricks.sliding_window_view(around, (3, 3))
     like = (neighbours == words[..., None, None]).sum((2, 3))  # a cell is like itself
     return np.asarray((like == 1) & (neighbours != "").all((2, 3)))
+
+
+def _without_excluded(words: Words) -> Words:
+    """Words of cells, "" where a cell is left out."""
+    return np.where(words == EXCLUDED, "", words)
 
 
 def unresolved_motions(words: Words) -> Mask:
@@ -127,7 +133,7 @@ def unresolved_motions(words: Words) -> Mask:
     none, nothing is right."""
     if not {*words.flat} & {*Outcome}:
         return np.zeros(words.shape, dtype=bool)
-    known = ~np.isin(words, ["", Outcome.UNDECIDED, "failed"])
+    known = ~np.isin(words, ["", EXCLUDED, Outcome.UNDECIDED, "failed"])
     return known & (unresolved(words) | alone(words))
 
 

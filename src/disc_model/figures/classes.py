@@ -81,9 +81,9 @@ LOOKS: Mapping[str, Look] = {
     # phases of the motion
     "stick": Look("stick", "#009e73", 3 * "-"),
     "slip": Look("slip", "#e9c7da"),
-    # points that a study leaves out, and those that have no class
+    # points that a study's rule or xarray's where leaves out, and those that have no class
     "no_value": NO_VALUE,
-    EXCLUDED: Look("left out by the study's rule", "#ffffff"),
+    EXCLUDED: Look("left out", "#ffffff"),
     "none": Look("none", "#ffffff"),
 }
 IN_FULL = {"neimark_sacker": "Neimark-Sacker"}

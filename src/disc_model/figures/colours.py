@@ -34,6 +34,7 @@ NEAR = 0.2  # of the larger end of a scale, where another number would meet that
 GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates are larger
 COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
+LINEAR_OF_MEDIAN = 0.2  # of the median rate, up to which it is nearly linear at most
 EXTENDS = {
     (False, False): "neither",
     (True, False): "min",
@@ -172,17 +173,19 @@ def is_growth(name: object) -> bool:
 
 def growth_norm(rates: Array) -> AsinhNorm:
     """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
-    end."""
+    end, or beyond a part of the median size where a few rates are much larger."""
     sizes = np.abs(rates[np.isfinite(rates)])
-    greatest = GREATEST
-    if sizes.size and np.median(sizes) > GREATEST:
-        greatest = float(np.quantile(sizes, COMMON, method="higher"))
-    return _growth_norm_to(greatest)
+    if not sizes.size or np.median(sizes) <= GREATEST:
+        return _growth_norm_to(GREATEST)
+    greatest = float(np.quantile(sizes, COMMON, method="higher"))
+    return _growth_norm_to(greatest, LINEAR_OF_MEDIAN * float(np.median(sizes)))
 
 
-def _growth_norm_to(greatest: float) -> AsinhNorm:
-    """The scale of growth rates that ends at one of them, in 1/s."""
-    return AsinhNorm(linear_width=LINEAR_SHARE * greatest, vmin=-greatest, vmax=greatest)
+def _growth_norm_to(greatest: float, linear: float = np.inf) -> AsinhNorm:
+    """The scale of growth rates that ends at one of them, in 1/s, and is nearly linear up to a
+    thirtieth of it, or less."""
+    width = min(linear, LINEAR_SHARE * greatest)
+    return AsinhNorm(linear_width=width, vmin=-greatest, vmax=greatest)
 
 
 def growth_colours(rates: Array, wishes: ColourWishes = USUAL) -> Scale:

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
+from disc_model.data.variables import EXCLUDED
 from disc_model.figures.branch_lines import THIN, Look
 from disc_model.figures.curve_marks import (
     choose_marks,
@@ -29,6 +30,7 @@ from disc_model.figures.drawing import (
     row_of_panels,
 )
 from disc_model.figures.heat_map import as_classes, scale
+from disc_model.figures.kinds.base import key_of
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
 from disc_model.figures.rate_scale import (
@@ -48,6 +50,7 @@ from disc_model.figures.selection import (
     parts_along,
     picked,
     remaining,
+    statuses_like,
     titles_of,
 )
 from disc_model.figures.types import Array, Axes, Figure, Mask
@@ -88,7 +91,7 @@ def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     chosen = [study.sel({plot.by: [*values]}) for values in plot.panels] or [study]
     if plot.names:
         words = [str(value) for value in study[plot.by].values]
-        renamed = {word: plot.names.get(word, word) for word in words}
+        renamed = {word: plot.names.get(key_of(word), word) for word in words}
         chosen = [
             part.assign_coords({plot.by: [renamed[str(x)] for x in part[plot.by].values]})
             for part in chosen
@@ -132,8 +135,10 @@ def draw_lines(  # noqa: PLR0913
     steps = open_steps(study, array, by, log) if joined else {}
     line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
+    titles = _titles_of_shown(study, array, by)
     drawn = []
-    for part, title in zip(parts, titles_of(parts), strict=True):
+    for part in parts:
+        title = titles.get(part.name)
         look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
         heights = _draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
         pieces = [along, heights]
@@ -144,7 +149,8 @@ def draw_lines(  # noqa: PLR0913
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
-        drawn.append((title, first))
+        if title is not None:
+            drawn.append((title, first))
 
     set_scales(ax, study, names, array, x, log)
 
@@ -154,6 +160,18 @@ def draw_lines(  # noqa: PLR0913
     mark_gaps(ax, study, array, x, looks)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
+
+
+def _titles_of_shown(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, str]:
+    """What the legend calls each line, by the names of lines; without those of which all points are left
+    out."""
+    included = array.copy(data=statuses_like(study, array) != EXCLUDED)
+    parts = parts_along(included, by)
+    shown = [part for part in parts if part.data.any()]
+    if len(parts) > 1 and len(shown) == 1:
+        return {part.name: part.name for part in shown}
+    names = [part.name for part in shown]
+    return dict(zip(names, titles_of(shown), strict=True))
 
 
 def heights_of(study: xr.Dataset, variable: str) -> tuple[list[str], xr.DataArray]:

@@ -78,16 +78,26 @@ def name_in(labels: Any, word: str) -> tuple[str, Any]:
 
 
 def names_of(family: Sequence[Member], word: str) -> list[str]:
-    """Names of members, each of which is what a word says: those that a reader gives, or what differs
-    between them, or numbers."""
+    """Names of members, each of which is what a word says: those that a reader gives, with what differs
+    between members of one name, or what differs between all, or numbers."""
     names = []
     for number, each in enumerate(family):
-        names.append(each.name or _what_differs(each, family) or f"{word} {number + 1}")
+        name = _given_name(each, family)
+        names.append(name or _what_differs(each, family) or f"{word} {number + 1}")
     distinct = []
     for number, name in enumerate(names):
-        alike = names.count(name) > 1 and not family[number].name
+        alike = names.count(name) > 1
         distinct.append(f"{name}, {word} {number + 1}" if alike else name)
     return distinct
+
+
+def _given_name(member: Member, family: Sequence[Member]) -> str:
+    """The name that a reader gives a member, with what sets it apart from others of this name; "" for
+    none."""
+    namesakes = [each for each in family if each.name == member.name]
+    if not member.name or len(namesakes) < 2:
+        return member.name
+    return ", ".join(filter(None, (member.name, _what_differs(member, namesakes))))
 
 
 def _what_differs(member: Member, family: Sequence[Member]) -> str:

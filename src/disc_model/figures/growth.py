@@ -8,7 +8,7 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.colors import to_hex
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import EXCLUDED, flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import (
@@ -90,6 +90,7 @@ def stability_of(plane: xr.Dataset) -> Words:
     `regions` where there is none."""
     rate = plane["growth_rate"].values
     words = flag_names(plane["cycle"]).astype(object)
+    words[statuses_like(plane, plane["growth_rate"]) == EXCLUDED] = EXCLUDED
     words[rate < 0] = "stable"
     words[rate > 0] = "unstable"
     return words.astype(str)
@@ -98,10 +99,10 @@ def stability_of(plane: xr.Dataset) -> Words:
 def classes_without_rate(plane: xr.Dataset, name: str = "growth_rate") -> Words:
     """Classes of points that have no growth rate, keys of `MAP_LOOKS`; "" where there is a rate."""
     rate = plane[name].values
+    words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
     if name == "growth_rate" and "cycle" in plane:
-        words = flag_names(plane["cycle"])
-    else:
-        words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
+        cycles = flag_names(plane["cycle"])
+        words = np.where(words == EXCLUDED, words, cycles)
     return np.where(np.isfinite(rate), "", words)
 
 

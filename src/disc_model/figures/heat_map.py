@@ -124,13 +124,20 @@ def as_classes(study: xr.Dataset, variable: str) -> xr.DataArray:
     neither, or no cycle that could be stable."""
     array = study[variable]
     of_truth = array.attrs.get("comment") == TRUTH["comment"]
-    if array.dtype.kind != "b" and not of_truth:
+    if not (of_truth or _are_truths(array)):
         return array
     words = np.where(array.values == 1, "yes", "no")
     words = np.where(array.isnull(), "", words)
     if variable == OF_CYCLES:
         words = np.where(np.isin(statuses_like(study, array), WITHOUT_CYCLE), "", words)
     return array.copy(data=words)
+
+
+def _are_truths(array: xr.DataArray) -> bool:
+    """Whether values are True or False, but where xarray's where has masked them."""
+    known = array.values[array.notnull().values]
+    of_words = array.dtype.kind == "O" and known.size > 0
+    return array.dtype.kind == "b" or (of_words and all(isinstance(x, bool) for x in known))
 
 
 def scale(coordinate: xr.DataArray) -> str:

@@ -119,7 +119,18 @@ def _room(figure: Figure, label: Breakable) -> float:
         if rows == 1:
             room = max(room, box.height + ROOM_BESIDE * page.dpi)
     middle = 0.5 * (box.min[i] + box.max[i])
-    return min(room, 2 * min(middle, page.bbox.max[i] - middle))
+    end = page.bbox.x1
+    if label.direction == "height":
+        end = _lowest_above(page, box)
+    return min(room, 2 * min(middle, end - middle))
+
+
+def _lowest_above(page: Any, box: Any) -> float:
+    """The lower edge of a title of the page above the left end of a panel, in pixels, or that of the
+    page without one."""
+    titles = [text.get_window_extent() for text in page.texts if text.get_text()]
+    above = [title.y0 for title in titles if title.x0 <= box.x0 and title.y0 >= box.y1]
+    return float(min([page.bbox.y1, *above]))
 
 
 def is_square(ax: Axes) -> bool:

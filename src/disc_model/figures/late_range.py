@@ -25,6 +25,7 @@ from disc_model.figures.drawing import (
     whole_marks,
     wide,
 )
+from disc_model.figures.kinds.base import key_of
 from disc_model.figures.kinds.motions import LateRange
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Axes, Figure
@@ -63,7 +64,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     names = study[plot.by].values
     moving = _moving(study, plot.by)
     figure, axes = row_of_panels(plot.inches, len(names) + len(moving), 3.0, 2.4, sharex=True)
-    titles = [plot.names.get(str(name), str(name)) for name in names]
+    titles = [plot.names.get(key_of(name), str(name)) for name in names]
     for ax, name in zip(axes, names, strict=False):
         chosen = {plot.by: name}
         ax.axhspan(1, 1e3, color=BEYOND, zorder=0)

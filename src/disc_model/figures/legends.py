@@ -9,7 +9,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib import rcParams
 from matplotlib.collections import Collection, PolyCollection
+from matplotlib.colors import to_hex
 from matplotlib.font_manager import FontProperties
+from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 
@@ -41,11 +43,13 @@ LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
 LEAST_HEIGHT = 0.6  # inch, that a panel keeps above its legend if a smaller one leaves it so much
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
+LEAST_CURVE = 1.2  # inch, and height that curves keep
 LEGEND_SHARE = 0.25  # of the height of a new figure, beyond which a legend makes it higher
 MOVES = 2  # of a legend below a panel after it has changed the size of the panel
 ANCHOR = "_disc_model_anchor"
 """Attribute of a legend below axes: where it hangs."""
 ROUNDING = 1.0  # pixel, to which places are rounded
+MARK_PAD = 0.3  # distance of marks at the ends of a sample from these, over the size of the text
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
 
 Legend = Any
@@ -88,7 +92,7 @@ def figure_legend(
         room = round(page.bbox.width / page.get_figure(root=True).dpi / CHARACTER)
         lines = [fill(line, room) for line in look["title"].splitlines()]
         look["title"] = "\n".join(lines)
-    draw = partial(page.legend, handles=list(handles), loc=loc, **look)
+    draw = partial(_draw, page, handles, loc=loc, **look)
     return _widest_that_fits(draw, min(columns or count, count), PAGE_SHARE * page.bbox.width)
 
 
@@ -101,12 +105,7 @@ def legend_above(
     if not entries:
         return None
     draw = partial(
-        ax.legend,
-        handles=entries,
-        loc="lower right",
-        bbox_to_anchor=(1, 1),
-        borderaxespad=0.2,
-        **look,
+        _draw, ax, entries, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, **look
     )
     return _widest_that_fits(draw, min(columns, len(entries)), _room_above(ax))
 
@@ -120,7 +119,7 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
     page: Any = ax.get_figure(root=True)
     legend: Legend = None
     for size in ({}, small()):
-        legend = ax.legend(handles=entries, loc="best", **{**size, **look})
+        legend = _draw(ax, entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
         page.draw_without_rendering()  # sets the places
@@ -175,6 +174,48 @@ def small(share: float = SMALLER) -> dict[str, Any]:
         "columnspacing": 0.9,
         "borderpad": 0.3,
     }
+
+
+def _draw(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
+    """Draw a legend of axes or of a figure, whose samples are so long that dashes show between marks
+    where they alone tell lines apart."""
+    dashed = [handle for handle in handles if _is_dashed_with_marks(handle)]
+    if dashed and _share_marks(handles):
+        usual = FontProperties(size=look.get("fontsize") or rcParams["legend.fontsize"])
+        size = usual.get_size_in_points()
+        length = max(map(_sample_length, dashed)) / size + 2 * MARK_PAD
+        given = look.get("handlelength") or rcParams["legend.handlelength"]
+        at_ends = HandlerLine2D(MARK_PAD, 2)  # one in the middle would cover a gap
+        handlers = {handle: at_ends for handle in handles if _joins_marks(handle)}
+        look = {"handler_map": handlers, **look, "handlelength": max(length, given)}
+    return parent.legend(handles=list(handles), **look)
+
+
+def _joins_marks(handle: Any) -> bool:
+    """Whether an entry of a legend is a line with marks."""
+    if not isinstance(handle, Line2D):
+        return False
+    has_marks = handle.get_marker() not in ("", "None", None)
+    return has_marks and handle.get_linestyle() != "None"
+
+
+def _share_marks(handles: Sequence[Any]) -> bool:
+    """Whether some lines with marks have the same ones in the same colour."""
+    lines = [handle for handle in handles if _joins_marks(handle)]
+    looks = {(to_hex(line.get_color()), line.get_marker()) for line in lines}
+    return len(looks) < len(lines)
+
+
+def _is_dashed_with_marks(handle: Any) -> bool:
+    """Whether an entry of a legend is a line with gaps, and marks."""
+    return _joins_marks(handle) and bool(handle.is_dashed())
+
+
+def _sample_length(line: Line2D) -> float:
+    """The length in points at which a sample with a mark at each end shows the dashes of a line: all of
+    them and the first once more."""
+    _, dashes = vars(line)["_dash_pattern"]  # points, which matplotlib tells in no other way
+    return sum(dashes) + dashes[0] + line.get_markersize()
 
 
 def _covers(legend: Legend, ax: Axes) -> bool:
@@ -259,8 +300,9 @@ def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     for size in ({}, small()):
         offset = ScaledTranslation(gap / page.dpi, 0, page.dpi_scale_trans)
         draw = partial(
-            ax.legend,
-            handles=list(handles),
+            _draw,
+            ax,
+            handles,
             loc="center left",
             bbox_to_anchor=(1, 0.5),
             bbox_transform=ax.transAxes + offset,
@@ -311,8 +353,9 @@ def legend_below(
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
         draw = partial(
-            ax.legend,
-            handles=list(handles),
+            _draw,
+            ax,
+            handles,
             loc="upper left",
             bbox_to_anchor=(0, 0),
             bbox_transform=ax.transAxes + offset,

@@ -7,11 +7,12 @@ import numpy as np
 
 from disc_model.figures.classes import AT_BOUND, NOT_NEAR, UNSETTLED
 from disc_model.figures.drawing import BLACK, large, say_beside
-from disc_model.figures.legends import figure_legend
+from disc_model.figures.legends import figure_legend, keep_share, small
 from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import CHARACTER
 
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
+MANY = 8  # names of lines in a legend beyond which their text is smaller
 LONGEST_BESIDE = 25  # characters of a name that fits there
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
 WIDEST_NAME = 0.35  # width of such a name, as a share of the page
@@ -33,7 +34,9 @@ def name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: b
     if len(unnamed) > MOST_BESIDE and longest < LONGEST_BESIDE and not several:
         figure_legend(figure, [*unnamed.values()], columns=1, loc="outside right center")
     else:
-        figure_legend(figure, [*unnamed.values()], columns=3)
+        size = small() if len(unnamed) > MANY else {}
+        legend = figure_legend(figure, [*unnamed.values()], columns=3, **size)
+        keep_share(figure, legend)
 
 
 # ---- Lines

@@ -28,30 +28,46 @@ NAME = "case"
 MARKERS = "osD^vP"
 OF_ONE_COLOUR = ("run", "spectrum")
 """Kinds of pictures in which a case alone has one line in a colour of its variable."""
-WIDTHS = (0.6, 1.8, 3.2)
-"""Of whole lines that lie on each other, points."""
+THIN = 0.6
+"""Width of the first of whole lines that lie on each other, points."""
+WIDEST = 3.8
+"""And of the last one, if its edge shows beside the others then."""
+EDGES = (0.7, 1.2)
+"""Least and greatest difference of the widths of one such line and the next, points."""
 Limits = tuple[tuple[float, float], tuple[float, float]]
 """Of the horizontal and of the vertical axis."""
 
 
 class Style(NamedTuple):
     """What sets a case apart from others, by its place in their order: colour and dashes of a line, or
-    colour and shape of marks."""
+    colour and shape of marks.
+
+    cases : how many there are
+    """
 
     place: int
+    cases: int = 1
 
     @property
     def look(self) -> Look:
         """Colour and dashes."""
         return LOOKS[self.place % len(LOOKS)]
 
+    @property
+    def edge(self) -> float:
+        """By how much each whole line is wider than the one before, points."""
+        least, greatest = EDGES
+        alike = (WIDEST - THIN) / max(self.cases - 1, 1)
+        return max(least, min(greatest, alike))
+
     def layered(self) -> dict[str, Any]:
         """Options of a whole line that is wider than the one before, and below it: dashes of lines
         that go to and fro, or around, would fill their own gaps."""
         return {
             "color": self.look.colour,
-            "linewidth": wide(WIDTHS[self.place % len(WIDTHS)]),
+            "linewidth": wide(THIN + self.place * self.edge),
             "zorder": 2 - 0.01 * self.place,
+            "solid_capstyle": "butt",  # a wide sample of a legend would reach its name
         }
 
     def marks(self, points: float) -> dict[str, Any]:
@@ -222,10 +238,11 @@ def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
     if len(family) > 1:
         limits.append((ax.get_xlim(), ax.get_ylim()))
     handles = []
+    count = 1 + max(panel.case.place for panel in family)
     for panel in family:
         _remove(ax, panel)
         before = {id(artist) for artist in ax.get_children()}
-        handles.append(panel.lines.draw(ax, Style(panel.case.place)))
+        handles.append(panel.lines.draw(ax, Style(panel.case.place, count)))
         panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
     ends = np.array(limits)
     ax.set_xlim(ends[:, 0].min(), ends[:, 0].max())

@@ -283,9 +283,9 @@ def check_room(axes: Sequence[Axes]) -> None:
     collapsed = any("collapsed to zero" in str(each.message) for each in caught)
     sides = [side for ax in axes for side in (ax.bbox.width, ax.bbox.height)]
     left = 25.4 * min(sides) / figure.dpi
-    rule = "must have room beside a colour bar and a legend: larger axes, or legend=False"
-    said = f"{left:.0f} mm for the panel"
-    if collapsed:
-        said = "nothing for the panel"
+    rest = "no room for the panel" if collapsed else f"{left:.0f} mm for the panel"
+    rule = f"must be larger, or legend=False: a colour bar and a legend leave {rest}"
+    width, height = 25.4 * np.asarray(figure.get_size_inches())
+    said = f"axes of a figure of {width:.0f} by {height:.0f} mm"
     enough = not collapsed and left >= LEAST_PANEL
     require((enough, "ax", said, rule))

@@ -32,7 +32,7 @@ from disc_model.figures import (
 from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
 from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
-from disc_model.figures.legends import keep_height
+from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
 from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, of, picked
 from disc_model.figures.style import styled
@@ -106,9 +106,10 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
             if text and not plot.caption:
                 _write_title(plot, drawn.figure, text)
             break_labels(drawn.figure)  # below the title, which leaves them less room
-            if plot.is_map:
-                maps = [ax for ax in drawn.figure.axes if ax.get_label() != COLOUR_BAR]
-                keep_height(drawn.figure, maps)
+            least = LEAST_MAP if plot.is_map else LEAST_CURVE
+            if plot.is_map or isinstance(plot, General):
+                shown = [ax for ax in drawn.figure.axes if ax.get_label() != COLOUR_BAR]
+                keep_height(drawn.figure, shown, least)
             return drawn.figure
     finally:
         UNITS.reset(token)

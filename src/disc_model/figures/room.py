@@ -1,9 +1,11 @@
 """Room for the labels and legends of pictures on a reader's figure."""
 
+from collections.abc import Sequence
 from itertools import chain
 from typing import Any
 from weakref import WeakSet
 
+from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 from disc_model.figures.case_titles import case_above
@@ -69,18 +71,34 @@ def make_room(page: Page, wishes: Wishes) -> None:
     _move_legends(figure)
 
 
-def _move_legends(figure: Any) -> None:
-    """Move legends below axes, which have other margins since they were placed, onto the page."""
-    placed = []
+def _below_axes(figure: Any) -> dict[Legend, tuple[Page, Wishes]]:
+    """The legends that were placed below axes, and the pictures to which they belong."""
+    found = {}
     for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
-        page, _ = vars(legend).get(PLACED, (None, None))
+        page, wishes = vars(legend).get(PLACED, (None, None))
         if page is not None and page.beside == "below":
-            placed.append(page)
+            found[legend] = (page, wishes)
+    return found
+
+
+def _move_legends(figure: Any) -> None:
+    """Move legends below axes, which have other margins since they were placed, onto the page, with
+    letters of one size."""
+    placed = _below_axes(figure)
     if not placed:
         return
+    _set_in_one_size([legend for legend, (_, asked) in placed.items() if asked.legend is True])
     figure.draw_without_rendering()  # sets the places
-    for page in placed:
+    for page, _ in placed.values():
         move_to_page(page.axes[-1], page.beside_last)
+
+
+def _set_in_one_size(legends: Sequence[Legend]) -> None:
+    """Set all legends in the letters of the smallest."""
+    texts = [text for legend in legends for text in (*legend.get_texts(), legend.get_title())]
+    least = min((text.get_fontsize() for text in texts), default=0.0)
+    for text in texts:
+        text.set_fontsize(least)
 
 
 def set_own_upright(figure: Any) -> None:

@@ -10,7 +10,7 @@ from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
 from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
-from disc_model.figures.kinds.base import NORM
+from disc_model.figures.kinds.base import NORM, key_of
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
 
@@ -161,7 +161,7 @@ def _rank(data: Data, by: str, names: Sequence[str], words: Mapping[str, str]) -
 
 def _word(data: Data, name: str, by: str, words: Mapping[str, str]) -> str:
     """The word that a file gives for the value along a dimension, "" without one."""
-    return words.get(str(data[by].item()), "") if name == by else ""
+    return words.get(key_of(data[by].item()), "") if name == by else ""
 
 
 def titles_of(parts: Sequence[Part[Any]]) -> list[str]:
@@ -202,7 +202,8 @@ def remaining(array: xr.DataArray, axes: Sequence[str]) -> str | None:
 
 
 def statuses(study: xr.Dataset) -> xr.DataArray:
-    """The status of each point of a grid study, as a word; "ok" without one.
+    """The status of each point of a grid study, as a word; "ok" without one, and `EXCLUDED` where
+    xarray's where has masked it.
 
     A motion that never sticks again is "steady_sliding" or "unstable_sliding" where the study knows
     the growth rate of steady sliding.
@@ -210,6 +211,7 @@ def statuses(study: xr.Dataset) -> xr.DataArray:
     if "status" not in study:
         return xr.DataArray("ok")
     words = study["status"].copy(data=flag_names(study["status"]).astype(object))
+    words = words.where(words != "", EXCLUDED)
     name = "sliding_growth_rate"
     if f"largest_{name}" in study:  # that of all modes, which need not all be in the study
         name = f"largest_{name}"

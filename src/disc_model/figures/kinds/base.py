@@ -51,6 +51,25 @@ def _joined(caption: Any) -> Any:
     return " ".join(map(str, caption)) if isinstance(caption, list) else caption
 
 
+def key_of(value: object) -> str:
+    """The text by which a value along a dimension is known, the same for all ways to write a number."""
+    try:
+        return f"{float(str(value)):.12g}"
+    except ValueError:
+        return str(value)
+
+
+def _by_key(names: Any) -> Any:
+    """Names for values along a dimension by the texts of these values, however the file writes them."""
+    if not isinstance(names, dict):
+        return names
+    return {key_of(value): name for value, name in names.items()}
+
+
+Names = Annotated[dict[str, str], BeforeValidator(_by_key)]
+"""Words for values along a dimension, by the keys of these."""
+
+
 class Kind(Strict):
     """A figure: its fields are what a study file may say of it.
 
@@ -213,7 +232,7 @@ class Compared(Plot):
     """Greatest number of values of `by`."""
 
     by: str = NORM
-    names: dict[str, str] = Field({})
+    names: Names = Field({})
 
     @property
     def allowed(self) -> tuple[str, ...]:
@@ -247,8 +266,9 @@ def unknown(
 ) -> Iterator[Fault]:
     """Faults of words of a figure's key that are none of the values along a dimension."""
     known = [str(value) for value in values]
+    keys = {key_of(value) for value in values}
     for word in words:
-        if str(word) not in known:
+        if key_of(word) not in keys:
             yield Fault.of((key,), word, f"is no value of {of}{suggestion(word, known)}")
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from disc_model.errors import Fault, as_text, suggestion
-from disc_model.figures.kinds.base import NORM, Plot, Values, unknown
+from disc_model.figures.kinds.base import NORM, Names, Plot, Values, unknown
 from disc_model.units import UNITS, Finite, Unit
 
 Dims = Mapping[str, Sequence[Any]]
@@ -35,7 +35,7 @@ class General(Plot):
     at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
     by: str | None = None
     log: bool = False
-    names: dict[str, str] = Field({})
+    names: Names = Field({})
 
     def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
         """Faults by the values along each dimension (tuples for a zip, none if it has faults), and

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
-from disc_model.figures.kinds.base import NORM, Compared, Plot, Role, Roles, Values, unknown
+from disc_model.figures.kinds.base import NORM, Compared, Names, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
@@ -53,7 +53,7 @@ class LateRange(Plot):
     kind: Literal["late_range"] = "late_range"
     by: str = "disc"
     thickness: Positive = 0.002
-    names: dict[str, str] = Field({})
+    names: Names = Field({})
 
     @property
     def dims(self) -> tuple[str, ...]:
