@@ -144,7 +144,7 @@ def test_a_cycle_of_other_separations_is_not_that_of_the_motion(
 
 
 def test_a_cycle_with_a_shorter_period_than_the_record_shows_is_that_of_the_motion() -> None:
-    releases = record(np.array([1.0, 2.0] * 4) + [0, 0, 0, 1e-7, 0, 0, 0, 1e-7], np.ones(8))
+    releases = record([*np.array([1.0, 2.0] * 4), 0, 0, 0, 1e-07, 0, 0, 0, 1e-07], np.ones(8))
     lock = locking.Lock(4, 8, 6.0, 0.0)
     cycle: Any = SimpleNamespace(counts=SimpleNamespace(releases=2, separations=4), period=3.0)
     found = locking.lock_on(cycle, releases, lock)

@@ -9,6 +9,7 @@ from collections import ChainMap, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import pydantic
@@ -175,6 +176,7 @@ class FigureEntry(NamedTuple):
     section: str
     title: str
     caption: str
+    titles: Mapping[str, str] = MappingProxyType({})  # of the cases that have one, by their names
 
 
 class Part(NamedTuple):

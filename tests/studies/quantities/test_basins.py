@@ -116,7 +116,7 @@ def test_undecided_starts_widen_the_interval_of_the_share_that_separates(
     """All four starts undecided gave an interval from 0 to 0.49, and most separated later.
 
     Of four starts, one that separates is 0.25 [0.0456, 0.6994], and three are 0.75 [0.3006, 0.9544]."""
-    results = {i: UNDECIDED for i in range(undecided)}
+    results = dict.fromkeys(range(undecided), UNDECIDED)
     monkeypatch.setattr(Made, "classes", results)
     monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0 * (i % 2)))
     table = found(energies=[0.5], n_starts=4).arrays
