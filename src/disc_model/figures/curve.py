@@ -31,6 +31,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
+from disc_model.figures.outside_limits import note_outside
 from disc_model.figures.rate_scale import (
     RATE,
     are_of_cycles,
@@ -72,10 +73,12 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
+    in_legend = plot.legend
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
+        in_legend = note_outside(axes, plot.limits) or in_legend
     letters(axes, titles_of(panels))
-    name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
+    name_lines(figure, axes, several=bool(plot.panels), in_legend=in_legend)
     return figure
 
 
