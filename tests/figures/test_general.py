@@ -284,7 +284,7 @@ def test_the_legend_says_which_lines_the_limits_leave_out(
     limits: tuple[float, float], named: list[str]
 ) -> None:
     """It listed a line of which nothing was drawn."""
-    figure, [ax] = panels(PAGE, 2.4)
+    _figure, [ax] = panels(PAGE, 2.4)
     for height in (1.0, 2.0, 3.0):
         ax.plot([0, 1], [height, height], label=f"{10 * height:g}")
     ax.plot([0, 1], [9.0, 9.0], label="_nolegend_")
@@ -295,9 +295,32 @@ def test_the_legend_says_which_lines_the_limits_leave_out(
 
 
 def test_a_single_line_outside_the_limits_is_said_and_one_across_them_is_seen() -> None:
-    figure, [ax] = panels(PAGE, 2.4)
+    _figure, [ax] = panels(PAGE, 2.4)
     ax.plot([0, 1], [14.0, 15.0])
     assert not note_outside([ax], (14.4, 14.6))
     assert note_outside([ax], (0.0, 0.2))
     [said] = ax.get_legend_handles_labels()[1]
     assert " ".join(said.split()) == "outside the limits: all values"
+
+
+@pytest.mark.parametrize("points", [4, 60])
+def test_curves_of_exponents_show_their_errors(points: int) -> None:
+    """An exponent of -0.16/s with an error of 0.53/s looked as certain as any."""
+    axes = ["Omega", "exponent_number"]
+    values = np.linspace(-0.3, -0.1, 2 * points).reshape(points, 2)
+    errors = np.full((points, 2), 0.1)
+    errors[-1] = np.nan
+    study = xr.Dataset(
+        {
+            "status": ("Omega", np.zeros(points, np.int8), {"flag_meanings": "ok failed"}),
+            "exponent": (axes, values, {"units": "s-1", "long_name": "Lyapunov exponent"}),
+            "exponent_error": (axes, errors, {"units": "s-1", "long_name": "its error"}),
+        },
+        {"Omega": np.linspace(10.0, 20.0, points), "exponent_number": [0, 1]},
+    )
+    figure = draw("curve", study, variable="exponent", x="Omega", by="exponent_number")
+    drawn = [each.get_paths() for each in figure.axes[0].collections]
+    highest = max(path.vertices[:, 1].max() for paths in drawn for path in paths)
+    assert highest == pytest.approx(values[-2].max() + 0.1)
+    names = ["largest exponent", "exponent 2", "bar or band: one error"]
+    assert [label.replace("\n", " ") for label in labels(figure)] == names

@@ -251,3 +251,16 @@ def test_windows_of_a_case_count_back_from_where_it_stops() -> None:
             {"study": "s", "record": records, "cases": {"A": other}}
         ).specs.values()
         assert spec.sections["late"] == Window(start=first, stop=2.0, rate=1000)
+
+
+def test_a_value_that_an_axis_has_twice_is_refused() -> None:
+    """A study had one value there without a word, where a sweep refuses it."""
+    raw = {"study": "s", "quantity": "floquet", "base": {"N": 385}}
+    found = faults_of(parse_study, raw | {"axes": {"Omega": [10, 12, "10.0"]}})
+    assert [str(fault) for fault in found] == [
+        "axes.Omega=10: must not be given twice along an axis"
+    ]
+    blocks = {"blocks": [[10, 12], [12, 14]]}
+    grid = parse_study(raw | {"axes": {"Omega": blocks}}).grid
+    assert grid is not None
+    assert grid.values["Omega"] == ((10.0,), (12.0,), (14.0,))

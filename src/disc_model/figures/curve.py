@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
 from disc_model.figures.branch_lines import THIN, Look
+from disc_model.figures.curve_errors import draw_errors, errors_by_part, name_errors
 from disc_model.figures.curve_marks import (
     choose_marks,
     fill_doubtful,
@@ -73,7 +74,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
-    in_legend = plot.legend
+    in_legend = name_errors(axes[0], study, plot.variable) or plot.legend
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
         in_legend = note_outside(axes, plot.limits) or in_legend
@@ -135,6 +136,7 @@ def draw_lines(  # noqa: PLR0913
     steps = open_steps(study, array, by, log) if joined else {}
     line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
+    errors = errors_by_part(study, variable, by)
     drawn = []
     for part, title in zip(parts, titles_of(parts), strict=True):
         look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
@@ -146,6 +148,7 @@ def draw_lines(  # noqa: PLR0913
             look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
+        draw_errors(ax, along, heights, errors.get(part.name), looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
