@@ -548,3 +548,15 @@ def test_a_motion_that_is_not_near_the_cycle_is_named_once(tmp_path: Path) -> No
         opened.wait_for(READY)
         entries = Explorer(opened).text("legend").split("\n")
     assert entries.count(NOT_NEAR.label) == 1
+
+
+@pytest.mark.parametrize("values", [[385.0, 385.0], [-9.695, -9.6949], [0.0, 1.0], [-3e-5, 4e-5]])
+def test_panels_of_a_motion_have_two_ticks_or_more(values: list[float], tmp_path: Path) -> None:
+    """Some had one, such as 385, from which no amplitude can be read."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents(), []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        ticks = opened.run("return rangeOf(arguments[0]).ticks", values)
+    assert len({text for _, text in ticks}) >= 2

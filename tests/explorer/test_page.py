@@ -15,7 +15,7 @@ import pytest
 import xarray as xr
 from PIL import Image
 
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import PHASES, TRUTH
 from disc_model.explorer import PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.explorer.contents import _gaps, _named, runs
@@ -513,3 +513,31 @@ def test_all_is_in_the_page_and_stays_in_its_place(tmp_path: Path) -> None:
         assert picture.convert("RGB").getpixel((9, 9)) == pytest.approx((0, 0x72, 0xB2), abs=7)
     assert text.count("<figcaption>A curve of f &lt; 0 &amp; &#34;more&#34;</figcaption>") == 2
     assert text.index("<h3>Sec. 1</h3>") < text.index("<h3>Sec. 2</h3>")
+
+
+def test_verdicts_have_the_words_and_classes_of_figures() -> None:
+    """The page had 1 for yes, and "no value" where a stable cycle is not examined."""
+    omitted = "nan if this is not examined: of a stable cycle, and without one"
+    truth = {**TRUTH, "units": "1", "long_name": f"whether the motion is near, {omitted}"}
+    study = xr.Dataset(
+        {
+            "status": ("Omega", np.zeros(3, np.int8), flagged("ok failed")),
+            "near_motion": ("Omega", [1.0, 0.0, np.nan], truth),
+        },
+        {"Omega": [10.0, 12.0, 14.0]},
+    )
+    told = {one["name"]: one for one in contents_of("s", study)["variables"]}
+    words = [told["near_motion"]["flags"][code] for code in numbers(told["near_motion"], "u1")]
+    assert words == ["yes", "no", "no_value"]
+    looks = dict(zip(told["near_motion"]["flags"], told["near_motion"]["looks"], strict=True))
+    assert looks["no_value"]["label"] == "stable: not examined"
+
+
+def test_exponents_are_called_by_their_place() -> None:
+    """It said "number of the exponent, largest first = 0"."""
+    study = xr.Dataset(
+        {"exponent": ("exponent_number", [0.1, -0.2], {"units": "s-1", "long_name": "exponent"})},
+        {"exponent_number": [0, 1]},
+    )
+    [dim] = contents_of("s", study)["dims"]
+    assert dim["shown"] == ["largest exponent", "exponent 2"]

@@ -253,3 +253,24 @@ def test_a_spectrum_in_time_at_the_start_of_a_run_begins_at_zero(
     frequency = np.zeros(0)
     spectrum = TimeFrequency(time, frequency, np.zeros((0, 50)))
     assert span_of(spectrum) == pytest.approx(span)
+
+
+def test_the_title_of_a_case_stands_above_its_figure_before_its_parameters() -> None:
+    """No figure had it, and two cases that stop at different times had the same heading."""
+    case = simulated(True).copy()
+    case.attrs = {**case.attrs, "title": "Until contact is lost"}
+    heading = asked("history", case, window="history").get_suptitle()
+    assert heading.splitlines()[0] == "Until contact is lost"
+    assert "385 N" in heading
+    own = asked("history", case, window="history", title="Seen").get_suptitle()
+    assert own.splitlines()[0] == "Seen"
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_rows_of_cases_with_equal_parameters_have_their_titles(alike: bool) -> None:
+    cases = {"A": simulated(True).copy(), "B": simulated(alike).copy()}
+    for name, case in cases.items():
+        case.attrs = {**case.attrs, "title": f"Case {name}"}
+    plot = kind_of("poincare").model_validate({"kind": "poincare", "case": "A", "below": ["B"]})
+    texts = said_in(render(plot, cases))
+    assert any("Case B" in text for text in texts) is alike

@@ -11,9 +11,11 @@ from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
 from disc_model.figures import heat_map, line_names, rate_scale, selection
+from disc_model.figures.drawing import PAGE, panels
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
+from disc_model.figures.outside_limits import note_outside
 from disc_model.figures.style import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -268,3 +270,57 @@ def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:
     for more in ({"names": {"0.01": "little"}}, {"panels": [[0.01]]}):
         ax = draw("curve", single, variable="period", x="mu_k", by="c_p", **more).axes[0]
         assert np.allclose(ax.lines[0].get_ydata()[1:], [1000.0, 1100.0])  # ms
+
+
+@pytest.mark.parametrize(
+    ("limits", "named"),
+    [
+        ((0.0, 2.5), ["10", "20", "outside the limits: 30"]),
+        ((1e3, 2e3), ["outside the limits: 10, 20, 30"]),
+        ((0.0, 4.0), ["10", "20", "30"]),
+    ],
+)
+def test_the_legend_says_which_lines_the_limits_leave_out(
+    limits: tuple[float, float], named: list[str]
+) -> None:
+    """It listed a line of which nothing was drawn."""
+    _figure, [ax] = panels(PAGE, 2.4)
+    for height in (1.0, 2.0, 3.0):
+        ax.plot([0, 1], [height, height], label=f"{10 * height:g}")
+    ax.plot([0, 1], [9.0, 9.0], label="_nolegend_")
+    is_noted = note_outside([ax], limits)
+    said = [" ".join(label.split()) for label in ax.get_legend_handles_labels()[1]]
+    assert said == named
+    assert is_noted is (limits[1] != 4.0)
+
+
+def test_a_single_line_outside_the_limits_is_said_and_one_across_them_is_seen() -> None:
+    _figure, [ax] = panels(PAGE, 2.4)
+    ax.plot([0, 1], [14.0, 15.0])
+    assert not note_outside([ax], (14.4, 14.6))
+    assert note_outside([ax], (0.0, 0.2))
+    [said] = ax.get_legend_handles_labels()[1]
+    assert " ".join(said.split()) == "outside the limits: all values"
+
+
+@pytest.mark.parametrize("points", [4, 60])
+def test_curves_of_exponents_show_their_errors(points: int) -> None:
+    """An exponent of -0.16/s with an error of 0.53/s looked as certain as any."""
+    axes = ["Omega", "exponent_number"]
+    values = np.linspace(-0.3, -0.1, 2 * points).reshape(points, 2)
+    errors = np.full((points, 2), 0.1)
+    errors[-1] = np.nan
+    study = xr.Dataset(
+        {
+            "status": ("Omega", np.zeros(points, np.int8), {"flag_meanings": "ok failed"}),
+            "exponent": (axes, values, {"units": "s-1", "long_name": "Lyapunov exponent"}),
+            "exponent_error": (axes, errors, {"units": "s-1", "long_name": "its error"}),
+        },
+        {"Omega": np.linspace(10.0, 20.0, points), "exponent_number": [0, 1]},
+    )
+    figure = draw("curve", study, variable="exponent", x="Omega", by="exponent_number")
+    drawn = [each.get_paths() for each in figure.axes[0].collections]
+    highest = max(path.vertices[:, 1].max() for paths in drawn for path in paths)
+    assert highest == pytest.approx(values[-2].max() + 0.1)
+    names = ["largest exponent", "exponent 2", "bar or band: one error"]
+    assert [label.replace("\n", " ") for label in labels(figure)] == names

@@ -16,6 +16,7 @@ from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import engine_case
 from disc_model.stability import locking
+from disc_model.stability.cycle import multipliers
 from disc_model.stability.locking import Releases, lock_of, releases_of
 from tests.references import fixed_step
 from tests.references.taylor import Problem
@@ -131,18 +132,26 @@ def test_the_multiplier_of_swings_is_that_of_the_formula() -> None:
 def test_a_cycle_of_other_separations_is_not_that_of_the_motion(
     separations: int, is_there: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    orbit = SimpleNamespace(
-        counts=SimpleNamespace(separations=separations), jacobian=np.diag([0.3, -0.7])
-    )
+    orbit = SimpleNamespace(counts=SimpleNamespace(separations=separations))
     release = SimpleNamespace(reached=True, x=np.zeros(2))
     map_ = SimpleNamespace(next_release=lambda state: release)
     monkeypatch.setattr(locking, "ReturnMap", lambda p, patient: map_)
     monkeypatch.setattr(locking, "newton", lambda *_, **__: orbit)
+    monkeypatch.setattr(locking, "run_through_once", lambda map_, orbit: orbit)
     state: Any = None
-    found = locking.multipliers_of(CASE, state, locking.Lock(2, 9, 0.06, 0.0))
-    assert (found is not None) is is_there
-    if found is not None:
-        assert found.tolist() == [-0.7, 0.3]
+    found = locking.cycle_at(CASE, state, locking.Lock(2, 9, 0.06, 0.0))
+    assert found is (orbit if is_there else None)
+
+
+def test_a_cycle_with_a_shorter_period_than_the_record_shows_is_that_of_the_motion() -> None:
+    releases = record([*np.array([1.0, 2.0] * 4), 0, 0, 0, 1e-07, 0, 0, 0, 1e-07], np.ones(8))
+    lock = locking.Lock(4, 8, 6.0, 0.0)
+    cycle: Any = SimpleNamespace(counts=SimpleNamespace(releases=2, separations=4), period=3.0)
+    found = locking.lock_on(cycle, releases, lock)
+    assert found[:3] == (2, 4, 3.0)
+    assert found.closure == pytest.approx(1e-7)
+    cycle.counts.releases = 4
+    assert locking.lock_on(cycle, releases, lock) == lock
 
 
 # ---- The motion at 200 N
@@ -202,8 +211,10 @@ def test_multipliers_are_those_of_the_disc_and_one_of_the_slider(run: Result) ->
     assert found is not None
     lock = lock_of(found)
     assert lock is not None
-    known = locking.multipliers_of(p, run.final_state, lock)
-    assert known is not None
+    cycle = locking.cycle_at(p, run.final_state, lock)
+    assert cycle is not None
+    assert cycle.counts.releases == lock.releases
+    known = multipliers(cycle.jacobian)
     assert (abs(known) < 1).all()
     rate = math.log(abs(known[0])) / lock.period
     model = engine_case(p).model

@@ -11,7 +11,8 @@ import yaml
 
 from disc_model import Parameters
 from disc_model.data.files import MissingFile, UnreadableFile
-from disc_model.simulation.case import Window
+from disc_model.simulation.case import CaseSpec, Start, Window
+from disc_model.simulation.named_case import run_case
 from disc_model.studies.reading import StudyError
 from disc_model.studies.study import inherit, load_study, parse_study, study_from_config
 from tests.studies.refused import faults_of
@@ -222,3 +223,44 @@ def test_faults_beyond_fifty_are_only_counted(count: int, last: str) -> None:
     shown = [line.strip() for line in lines]
     assert shown[49] == "fault 49"
     assert shown[-1] == last
+
+
+def test_windows_of_a_case_count_back_from_where_it_stops() -> None:
+    """They counted back from the time at which the case would have ended, and had no samples."""
+    records = {"windows": {"late": {"last": 0.5, "rate": 1000}}, "events": {"last": 0.25}}
+    case = {
+        "parameters": {"N": 385, "Omega": 15.1},
+        "t_end": 2,
+        "start": {"perturbation": {"u": 0.2}},
+    }
+    stopping = case | {"stop_at": "first_separation"}
+    [spec] = parse_study({"study": "s", "record": records, "cases": {"A": stopping}}).specs.values()
+    assert CaseSpec.model_validate_json(spec.canonical) == spec
+    assert spec.longest_sections["late"] == Window(start=1.5, stop=2.0, rate=1000)
+    tree = run_case(spec.replace(t_end=100.0, start=Start()))
+    stopped = float(tree["first_separation"])
+    late = tree["late"]["time"].values
+    assert (late[0], len(late)) == (pytest.approx(stopped - 0.5), 501)
+    assert tree["events"].attrs["kept_from"] == stopped - 0.25
+    assert float(tree["events"]["time"][0]) >= stopped - 0.25
+
+    # all of a run that is shorter, and of one that does not stop what it states
+    longer = {"windows": {"late": {"last": 5, "rate": 1000}}}
+    for other, first in ((stopping | {"record": longer}, 0.0), (case, 1.5)):
+        [spec] = parse_study(
+            {"study": "s", "record": records, "cases": {"A": other}}
+        ).specs.values()
+        assert spec.sections["late"] == Window(start=first, stop=2.0, rate=1000)
+
+
+def test_a_value_that_an_axis_has_twice_is_refused() -> None:
+    """A study had one value there without a word, where a sweep refuses it."""
+    raw = {"study": "s", "quantity": "floquet", "base": {"N": 385}}
+    found = faults_of(parse_study, raw | {"axes": {"Omega": [10, 12, "10.0"]}})
+    assert [str(fault) for fault in found] == [
+        "axes.Omega=10: must not be given twice along an axis"
+    ]
+    blocks = {"blocks": [[10, 12], [12, 14]]}
+    grid = parse_study(raw | {"axes": {"Omega": blocks}}).grid
+    assert grid is not None
+    assert grid.values["Omega"] == ((10.0,), (12.0,), (14.0,))

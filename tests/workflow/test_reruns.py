@@ -61,7 +61,7 @@ def test_a_second_run_does_nothing(project: Project) -> None:
     ("file", "old", "new", "jobs"),
     [
         (SMALL, "Omega: 15.1", "Omega: 15.2", lambda _: OF_CASE | OF_F13 | MERGED),
-        (SMALL, "title: quiet", "title: calm", lambda _: {"merge_cases"}),
+        (SMALL, "title: quiet", "title: calm", lambda _: {"merge_cases", "draw_figure:small:fig11"}),
         (SMALL, "  X: {title: another,", "  Y: {title: new,", lambda _: {"simulate_case:Y"} | MERGED),
         (MAP, "axes:\n", "base: {c: 0.1}\naxes:\n", whole_map),
         (MAP, "axes:\n", "base: {mu_k: 2.4e-1}\naxes:\n", lambda _: set()),  # the default as it was

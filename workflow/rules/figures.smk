@@ -26,9 +26,10 @@ rule draw_figure:
     params:
         # JSON is ASCII: commands can hold it in any locale. The caption itself is for the report.
         plot=lambda w: json.dumps(figure_of(w).plot.model_dump(mode="json")),
+        titles=lambda w: json.dumps(dict(figure_of(w).titles)),
         title=lambda w: json.dumps(figure_of(w).caption),
         caption=lambda w: figure_of(w).caption,
         code=lambda w: code_of("draw_figure", *drawing_of(w)),
         files=lambda w: [f"{name}={file}" for name, file in files_of(w).items()],
     shell:
-        "job draw_figure {params.plot:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"
+        "job draw_figure {params.plot:q} {params.titles:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"

@@ -1,5 +1,5 @@
-"""Draw one figure: the plot as its kind describes it, and the title of the files, as JSON; inputs
-as name=file."""
+"""Draw one figure: the plot as its kind describes it, titles of its cases by name, and the title of
+the files, as JSON; inputs as name=file."""
 
 import json
 
@@ -11,10 +11,12 @@ from disc_model.figures.style import save
 
 
 @script
-def main(plot: str, title: str, pdf: str, png: str, *inputs: str) -> None:
+def main(plot: str, titles: str, title: str, pdf: str, png: str, *inputs: str) -> None:
     options = json.loads(plot)
     names, _, files = zip(*(pair.partition("=") for pair in inputs), strict=True)
     shown = dict(zip(names, map(load_result, files), strict=True))
+    for name, text in json.loads(titles).items():
+        shown[name].attrs["title"] = text
     figure = render(kind_of(options["kind"]).model_validate(options), shown)
     for path in (png, pdf):
         save(figure, path, title=json.loads(title))

@@ -126,7 +126,8 @@ def plot_spectrum(
     title: str | bool | None = None,
 ) -> Axes:
     """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
-    its lines fall below a hundredth of the strongest.
+    its lines fall below a hundredth of the strongest, and at least to the last of the five
+    strongest.
 
     Up to five lines have their frequency beside the peak, or above it with a line to the peak: the
     strongest, and of the next four those that find room beside the names of stronger ones. A weaker

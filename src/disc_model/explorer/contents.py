@@ -16,8 +16,10 @@ from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
+from disc_model.figures.heat_map import as_classes
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.words import (
+    BY_SIZE,
     NO_VALUE,
     UNITS,
     WORDS,
@@ -27,6 +29,7 @@ from disc_model.figures.words import (
     missing_text,
     named,
     unit_text,
+    value_text,
 )
 from disc_model.parameters import RATIOS, Parameters
 
@@ -286,6 +289,8 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
     if factor != 1.0 and not isinstance(values[0], str):
         scaled = [float(f"{value * factor:.12g}") for value in values]
     shown = [_word(dim, value) for value in scaled]
+    if dim in BY_SIZE:
+        shown = [value_text(study.isel({dim: i}), dim) for i in range(len(values))]
     names = _named(dim, study[dim].attrs)
     si_unit = ""
     if known_name(study[dim]) in UNITS.get():  # the page says both
@@ -354,6 +359,9 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     described["dims"] = list(variable.dims)
     described["marks"] = _marks(study, name)
     meanings = variable.attrs.get("flag_meanings")
+    worded = as_classes(study, name)
+    if meanings is None and worded.dtype.kind == "U":
+        return {**described, **_verdicts(study, worded)}
     if meanings is None:
         described["gaps"] = _gaps(study, variable)
         described["open"] = _open(study, name)
@@ -373,6 +381,21 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     looks = [_look(look) for look in looks_of(words).values()]
     data = packed(np.searchsorted(codes, variable.values), "u1")
     return {**described, "flags": words, "looks": looks, "data": data}
+
+
+def _verdicts(study: xr.Dataset, worded: xr.DataArray) -> dict[str, Any]:
+    """The classes of a variable that is true or false, as in the figures, and the place of each
+    point's class among them."""
+    gaps = classes_of_gaps(study, study[str(worded.name)])
+    gaps = np.where(gaps == "", NO_VALUE, gaps)
+    classes = np.where(worded.values == "", gaps, worded.values)
+    words = [str(word) for word in np.unique(classes)]
+    looks = looks_of(words)
+    if NO_VALUE in looks:
+        looks[NO_VALUE] = looks[NO_VALUE]._replace(label=missing_text(study, str(worded.name)))
+    codes = np.searchsorted(words, classes)
+    in_order = [_look(looks[word]) for word in words]
+    return {"flags": words, "truth": True, "looks": in_order, "data": packed(codes, "u1")}
 
 
 def _are_whole(numbers: np.ndarray, unit: str) -> bool:

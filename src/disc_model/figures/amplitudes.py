@@ -6,6 +6,7 @@ import xarray as xr
 
 from disc_model.analysis.spectra import RESOLVED, amplitude_spectrum, highest_line, lines
 from disc_model.data.dataset import Missing
+from disc_model.figures.peak_names import MOST_NAMED
 from disc_model.figures.runs import sampled, span_of
 from disc_model.figures.types import Array
 
@@ -58,6 +59,8 @@ def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None)
                 f"lasts {span_of(samples):.3g} s, too short: lines show from {least_shown:.3g} Hz"
                 f" on, and what vibrates is below {highest:.3g} Hz"
             )
+        last_named = ROOM_BEYOND * _last_named(time, values, resolution)
+        highest = min(max(highest, last_named), float(frequency[-1]))
     shown = (frequency > 0) & (frequency <= highest)
     whole = (frequency[1:], factor * amplitude[1:])
     amplitude = factor * amplitude[shown]
@@ -66,3 +69,11 @@ def amplitudes(samples: xr.Dataset, variable: str, highest: float | None = None)
     found = lines(time, values, above=RESOLVED * resolution, below=highest)
     peaks = [(line.frequency, factor * line.amplitude) for line in found]
     return Amplitudes(frequency[shown], amplitude, resolution, peaks, whole)
+
+
+def _last_named(time: Array, values: Array, resolution: float) -> float:
+    """Frequency of the highest, Hz, of the strongest lines of the whole spectrum, which have names
+    if they are on the axis; zero without any line."""
+    found = lines(time, values, above=RESOLVED * resolution)
+    strongest = sorted(found, key=lambda line: -line.amplitude)[:MOST_NAMED]
+    return max((line.frequency for line in strongest), default=0.0)

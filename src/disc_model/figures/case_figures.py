@@ -56,13 +56,26 @@ def sections_of_cases(plot: PoincareSections, *cases: xr.DataTree) -> Figure:
     figure = new_figure(width, height * len(cases))
     rows = np.atleast_1d(np.asarray(figure.subfigures(len(cases), 1)))
     sections = [dataset.samples(case, "poincare", at_least=1) for case in cases]
-    differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
-    for row, case, samples, values in zip(rows, cases, sections, differing, strict=True):
+    for row, case, samples, heading in zip(rows, cases, sections, _headings(cases), strict=True):
         axes = list(np.ravel(row.subplots(rows_of_case, 2 // rows_of_case)))
-        handles = draw_sections(axes, case, samples, sections, values_text(values))
+        handles = draw_sections(axes, case, samples, sections, heading)
         figure_legend(row, handles, handletextpad=0.2)
     letters(figure.axes)
     return figure
+
+
+def _headings(cases: Sequence[xr.DataTree]) -> list[str]:
+    """What tells each case from the others: the parameters that they do not share, and the title of
+    a case whose parameters are those of another one."""
+    differing = _differing([json.loads(case.attrs["parameters"]) for case in cases])
+    texts = [values_text(values) for values in differing]
+    headings = []
+    for case, text in zip(cases, texts, strict=True):
+        title = ""
+        if texts.count(text) > 1:
+            title = case.attrs.get("title", "")
+        headings.append(", ".join(filter(None, [title, text])))
+    return headings
 
 
 def _differing(parameters: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:

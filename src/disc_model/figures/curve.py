@@ -9,6 +9,7 @@ from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures.branch_lines import THIN, Look
+from disc_model.figures.curve_errors import draw_errors, errors_by_part, name_errors
 from disc_model.figures.curve_marks import (
     choose_marks,
     fill_doubtful,
@@ -33,6 +34,7 @@ from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.base import key_of
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
+from disc_model.figures.outside_limits import note_outside
 from disc_model.figures.rate_scale import (
     RATE,
     are_of_cycles,
@@ -75,10 +77,12 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
+    in_legend = name_errors(axes[0], study, plot.variable) or plot.legend
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
+        in_legend = note_outside(axes, plot.limits) or in_legend
     letters(axes, titles_of(panels))
-    name_lines(figure, axes, several=bool(plot.panels), in_legend=plot.legend)
+    name_lines(figure, axes, several=bool(plot.panels), in_legend=in_legend)
     return figure
 
 
@@ -136,6 +140,7 @@ def draw_lines(  # noqa: PLR0913
     line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
     titles = _titles_of_shown(study, array, by)
+    errors = errors_by_part(study, variable, by)
     drawn = []
     for part in parts:
         title = titles.get(part.name)
@@ -148,6 +153,7 @@ def draw_lines(  # noqa: PLR0913
             look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
+        draw_errors(ax, along, heights, errors.get(part.name), looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
         if title is not None:
             drawn.append((title, first))

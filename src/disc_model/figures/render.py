@@ -144,7 +144,8 @@ def _of_cases(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Drawn:
         text = in_lines(f"not shown: the case {reason}")
         ax.text(0.5, 0.5, text, ha="center", va="center", in_layout=False)
     values = json.loads(cases[0].attrs.get("parameters", "{}"))
-    return Drawn(figure, "", with_ramps(what_case(values), values, cases[0]))
+    title = cases[0].attrs.get("title", "") if len(cases) == 1 else ""
+    return Drawn(figure, title, with_ramps(what_case(values), values, cases[0]))
 
 
 # ---- Figures of grid studies

@@ -61,6 +61,8 @@ AT_ZERO = {
     "friction_offset": "friction in the middle plane",
 }
 """What parameters mean that are zero: they name themselves."""
+BY_SIZE = {"exponent_number": "exponent {}"}
+"""Names of the values along a dimension of descending numbers, but for the first, the largest."""
 IN_WORDS = {
     "n_diameters = -1": "rigid disc",
     "n_diameters =": "nodal diameters up to",
@@ -187,6 +189,7 @@ WITHOUT = {
     "if contact is not lost": "contact is not lost",
     "without one": "no cycle",
     "if there is none": "none found",
+    "if this is not examined: of a stable cycle, and without one": "stable: not examined",
     "if at none or at the lowest": NOT_SWEPT_OVER,
     "if it still does at the lowest": NOT_SWEPT_OVER,
     "if there is none, or it continues": "none, or it continues",
@@ -502,6 +505,8 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
         return "missing"
     if by in AT_ZERO and not value:
         return AT_ZERO[by]
+    if by in BY_SIZE:
+        return BY_SIZE[by].format(value + 1) if value else f"largest {by.partition('_')[0]}"
     if by == "contact_compliance":
         return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
     if by == "contact_arc":
@@ -526,7 +531,7 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False
     """The name of a dimension, and a value along it; a word stands for itself."""
     text = value_text(data, by, short=short)
     value = data[by].item()
-    if isinstance(value, str) or by in AT_ZERO:
+    if isinstance(value, str) or by in AT_ZERO or by in BY_SIZE:
         return text
     return f"{typeset(named(data[by]).name)} = {text}"
 

@@ -467,7 +467,9 @@ class CaseSpec(Strict):
     stop_at: Literal["first_separation"] | None = None
     windows: tuple[tuple[str, Window], ...] = ()
     poincare: Poincare | None = None
-    events: tuple[float, float] | None = None
+    events: tuple[float, float] | Span | None = (
+        None  # a span if it counts back from where the run stops
+    )
     audit_every_step: bool = False
     start: Start = Start()
     modes: str = ""  # quantity and tolerance by which the run shall choose the number of modes, as JSON, if it shall
@@ -481,6 +483,17 @@ class CaseSpec(Strict):
             **dict(self.windows),
             **({} if self.poincare is None else {"poincare": self.poincare}),
         }
+
+    @property
+    def longest_sections(self) -> dict[str, Window | Poincare]:
+        """The same, with absolute times in a run that does not stop before its end."""
+        return dict(resolved_windows(self.sections, 0.0, self.t_end))
+
+    def kept_events(self, stopped: float) -> tuple[float, float] | None:
+        """From when to when (s) events are kept in a run that stopped at a time."""
+        if isinstance(self.events, Span):
+            return self.events.ends(0.0, stopped)
+        return self.events
 
     @property
     def canonical(self) -> str:

@@ -62,9 +62,10 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
         events = tree["events"].to_dataset()
         within = slice(0)
         span: dict[str, float] = {}
-        if spec.events is not None:
-            within = slice(*events["time"].values.searchsorted(spec.events))
-            span = dict(zip(("kept_from", "kept_until"), spec.events, strict=True))
+        kept = spec.kept_events(result.final_state.time)
+        if kept is not None:
+            within = slice(*events["time"].values.searchsorted(kept))
+            span = dict(zip(("kept_from", "kept_until"), kept, strict=True))
         tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())

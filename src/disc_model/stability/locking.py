@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 
 from disc_model.analysis.classify import closure, shortest_period
-from disc_model.arrays import Array, ComplexArray, Indices
+from disc_model.arrays import Array, Indices
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import multipliers
-from disc_model.stability.return_map import ReturnMap, newton
+from disc_model.stability.cycle import run_through_once
+from disc_model.stability.return_map import Orbit, ReturnMap, newton
 
 FEWEST_SEPARATIONS = 3  # in a record, whose mean interval is that of vibrations
 
@@ -94,9 +94,10 @@ def lock_of(releases: Releases) -> Lock | None:
     return Lock(n, vibrations, period, closure(intervals, n))
 
 
-def multipliers_of(p: Parameters, state: State, lock: Lock) -> ComplexArray | None:
-    """Multipliers of the cycle that a locked motion is on, by descending size, from the derivative
-    of its return map; None if Newton's method finds no cycle of this period at the motion."""
+def cycle_at(p: Parameters, state: State, lock: Lock) -> Orbit | None:
+    """The cycle that a locked motion is on, with its shortest period: while the motion still
+    settles, its record may repeat only after several of them. None if Newton's method finds no
+    cycle at the motion that repeats after as many releases and separations."""
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(state)
     if not release.reached:
@@ -104,7 +105,16 @@ def multipliers_of(p: Parameters, state: State, lock: Lock) -> ComplexArray | No
     orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
     if orbit is None or orbit.counts.separations != lock.vibrations:
         return None
-    return multipliers(orbit.jacobian)
+    return run_through_once(map_, orbit)
+
+
+def lock_on(cycle: Orbit, releases: Releases, lock: Lock) -> Lock:
+    """The lock of a motion on a cycle: that of the record, unless the cycle has a shorter period."""
+    n = cycle.counts.releases
+    if n == lock.releases:
+        return lock
+    apart = closure(np.diff(releases.times), n)
+    return Lock(n, cycle.counts.separations, cycle.period, apart)
 
 
 def swing_multiplier(p: Parameters, run: Result, lock: Lock) -> float:

@@ -5,10 +5,11 @@ inside a block: a finer axis adds batches and keeps the others.
 """
 
 import math
-from collections import ChainMap, defaultdict
+from collections import ChainMap, Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
 
 import pydantic
@@ -175,6 +176,17 @@ class FigureEntry(NamedTuple):
     section: str
     title: str
     caption: str
+    titles: Mapping[str, str] = MappingProxyType({})  # of the cases that have one, by their names
+
+
+def _given_twice(path: tuple[str, ...], blocks: Blocks) -> list[Fault]:
+    """Faults of values that a block of an axis has twice, as one of them may be a slip."""
+    rule = "must not be given twice along an axis"
+    faults = []
+    for block in blocks:
+        twice = [value for value, count in Counter(block).items() if count > 1]
+        faults += [Fault.of(path, value, rule) for value in twice]
+    return faults
 
 
 class Part(NamedTuple):
@@ -438,6 +450,7 @@ class GridStudy:
         faults: list[Fault] = []
         dims = []
         for name, blocks in self._columns(self.file.axes, ("axes",), faults).items():
+            faults += _given_twice(("axes", name), blocks)
             dims.append(Dimension([name], map(zip, blocks)))
         for i, group in enumerate(self.file.zip):
             path = ("zip", str(i))

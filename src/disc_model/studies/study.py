@@ -201,16 +201,22 @@ class NamedCase(Strict):
             stop_at=self.stop_at,
             windows=tuple((name, window) for (_, name), window in spans.items()),
             poincare=self.record.poincare,
-            events=events and (events.start, events.stop),
+            events=self._kept_events(events),
             start=_with_ratios_of(p, self.start),
             # modes that are left to be chosen are chosen when the case runs
             modes="" if request is None else json.dumps(request.model_dump(), sort_keys=True),
             ramps=self.ramps,
         )
 
+    def _kept_events(self, span: Span | None) -> tuple[float, float] | Span | None:
+        """The span of time whose events are kept, as `CaseSpec` states it."""
+        if span is None or span.last is not None:
+            return span
+        return span.start, span.stop
+
     def _spans(self) -> tuple[dict[tuple[str, ...], Any], list[Fault]]:
-        """Spans of time that are recorded, by their places in the record, resolved in the run; and
-        faults of those that are not within it."""
+        """Spans of time that are recorded, by their places in the record, resolved in the run unless
+        they count back from where it stops; and faults of those that are not within it."""
         record = self.record
         spans: dict[tuple[str, ...], Any] = {}
         for name, window in record.windows.items():
@@ -223,6 +229,9 @@ class NamedCase(Strict):
         faults = []
         for path, span in spans.items():
             start, stop = span.ends(0.0, self.t_end)
+            counts_back = self.stop_at is not None and span.last is not None and start > 0
+            if counts_back:
+                continue
             if 0 <= start < stop <= self.t_end:
                 spans[path] = span.resolved(0.0, self.t_end)
             else:
@@ -364,7 +373,7 @@ class Study(Strict):
             faults.append(
                 Fault(("quantity",), "", "is required, unless the file has cases or studies alone")
             )
-        recorded = {name: spec.sections for name, spec in self.specs.items()}
+        recorded = {name: spec.longest_sections for name, spec in self.specs.items()}
         for name, plot in self.figures.items():
             if isinstance(plot, CasePlot):
                 faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
@@ -434,6 +443,7 @@ class Study(Strict):
             section=plot.section or plot.case,
             title=title,
             caption=f"{caption} {values}; everything else as in Table 1; {modes}.",
+            titles={case: self.cases[case].title for case in plot.cases if self.cases[case].title},
         )
 
     @property

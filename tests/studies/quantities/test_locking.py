@@ -41,6 +41,20 @@ def test_a_motion_that_repeats_is_locked_on_a_stable_cycle() -> None:
 
 
 @pytest.mark.compiled
+def test_a_motion_that_still_settles_has_the_period_of_its_cycle() -> None:
+    """It had twice the period: after 80 s the intervals alternate by more than what counts as
+    repetition, and after 150 s they no longer do."""
+    options = {"transient": 80, "record": 10, "max_record": 20}
+    values, _ = Locking.model_validate(options).compute_point(
+        Point(Parameters(N=385, Omega=15.1), Start())
+    )
+    assert values["period_releases"] == 2
+    assert values["period_separations"] == 2
+    assert values["period"] == pytest.approx(0.01477058, rel=1e-6)
+    assert values["leading_multiplier"] == pytest.approx(0.99842, abs=1e-5)
+
+
+@pytest.mark.compiled
 def test_a_motion_from_another_start_never_sticks() -> None:
     after = {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}
     assert measured(after, SHORT)["motion"] == "without_stick"
@@ -68,14 +82,17 @@ def test_only_a_stable_cycle_proves_that_a_motion_is_locked(
     """A disturbance of the size 0.5 after 0.06 s decays at ln(0.5)/0.06."""
     lock = locking.Lock(3, 9, 0.06, 0.0)
     multipliers = size * np.array([1j, -1j, 0.4])
+    cycle = SimpleNamespace(jacobian=None)
     made: dict[str, Any] = {
         "releases_of": lambda run: run,
         "lock_of": lambda found: lock,
-        "multipliers_of": lambda p, state, lock: multipliers,
+        "cycle_at": lambda p, state, lock: cycle,
+        "lock_on": lambda cycle, found, lock: lock,
         "swing_multiplier": lambda p, run, lock: 0.7,
     }
     for name, function in made.items():
         monkeypatch.setattr(locking, name, function)
+    monkeypatch.setattr("disc_model.stability.cycle.multipliers", lambda jacobian: multipliers)
     monkeypatch.setattr("disc_model.simulation.api.simulate", lambda *_, **__: None)
     values: dict[str, Any] = {"motion": "locked"}
     run: Any = SimpleNamespace(parameters=Parameters(N=200, Omega=20), final_state=None)

@@ -145,7 +145,8 @@ function rangeOf(numbers) {
   const [least, greatest] = [low - room, high + room];
   const size = Math.floor(log10(middle || 1));
   const power = size < -2 || size > 4 ? 3 * Math.floor(size / 3) : 0;
-  const steps = roundTicks(least, greatest, 4);
+  let steps = [];
+  for (let most = 4; steps.length < 2; most++) steps = roundTicks(least, greatest, most);
   const digits = Math.max(2, Math.ceil(log10((middle || 1) / (greatest - least))) + 3);
   return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
 }

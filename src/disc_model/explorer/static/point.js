@@ -30,7 +30,7 @@ const isNumber = (word) => ["inf", "-inf"].includes(word) || !Number.isNaN(Numbe
 function where(place, dims = view.study.dims) {
   const valueAlong = (dim) => {
     const i = place[dim.name];
-    if (dim.words && !isNumber(dim.shown[i])) return dim.shown[i];
+    if (typeof dim.shown[i] === "string" && !isNumber(dim.shown[i])) return dim.shown[i];
     const inSI = dim.si_unit ? ` (${withUnit(number(dim.parts[dim.name][i]), dim.si_unit)})` : "";
     return `${dim.symbol} = ${withUnit(number(dim.values[i]), dim.unit)}${inSI}`;
   };
@@ -160,7 +160,7 @@ function studyOf(study, place, variable) {
   const one = `${stored}${placeWithin(study, place, variable)}.item()`;
   return {
     found: `dm.run_study(${python(given)})`,
-    number: variable.flags ? `${stored}.attrs["flag_meanings"].split()[${one}]` : one,
+    number: variable.flags && !variable.truth ? `${stored}.attrs["flag_meanings"].split()[${one}]` : one,
   };
 }
 

@@ -120,7 +120,8 @@ class HeatMap(General):
 class CurvePlot(General):
     """A variable against one dimension; a line for each value of a second, if wanted.
 
-    limits : ends of the variable's axis, so that figures can be compared
+    limits : ends of the variable's axis, in the unit that it has in the figure, so that figures can be
+        compared; the legend says which lines lie outside
     panels : values of `by` in each panel, or a panel for each
     legend : whether lines are named in a legend even where there is room at their ends
     """

@@ -2,7 +2,7 @@
 strongly it is held there."""
 
 import math
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -12,6 +12,9 @@ from disc_model.simulation.case import Start, Window
 from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
 from disc_model.units import Count, Seconds, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.stability.locking import Lock
 
 MOTIONS = ("undecided", "locked", "without_stick", "in_contact")
 RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millisecond
@@ -32,7 +35,8 @@ class Locking(Start, Quantity):
     max_record: Seconds = 160.0
     """longest time recorded"""
     multipliers: bool = True
-    """whether the motion counts as locked only if Newton's method finds a stable cycle at it"""
+    """whether the motion counts as locked only if Newton's method finds a stable cycle at it, whose
+    period is then given; without this, that of a motion which still settles may be a multiple"""
     releases: Annotated[Count, Field(ge=1, le=10_000)] = 50
     """number of releases whose phases are stored"""
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0
@@ -130,23 +134,18 @@ class Locking(Start, Quantity):
         }
         lock = lock_of(found)
         if lock is not None:
-            values |= {
-                "motion": "locked",
-                "separations_per_release": lock.vibrations / lock.releases,
-                "period_releases": lock.releases,
-                "period_separations": lock.vibrations,
-                "period": lock.period,
-                "period_residual": lock.closure,
-            }
+            values |= {"motion": "locked", **_columns_of(lock)}
         return values
 
     def _prove(self, run: Result, values: dict[str, Any]) -> str:
         """Add the multipliers of the cycle that a motion is on; without a stable one it is undecided.
         Returns a message."""
         from disc_model.simulation.api import simulate
+        from disc_model.stability.cycle import multipliers
         from disc_model.stability.locking import (
+            cycle_at,
             lock_of,
-            multipliers_of,
+            lock_on,
             releases_of,
             swing_multiplier,
         )
@@ -154,13 +153,16 @@ class Locking(Start, Quantity):
         p = run.parameters
         found = releases_of(run)
         lock = None if found is None else lock_of(found)
-        if lock is None:
+        if found is None or lock is None:
             return ""
         state = run.final_state
-        known = multipliers_of(p, state, lock)
-        if known is None or not abs(known[0]) < 1:
+        cycle = cycle_at(p, state, lock)
+        known = np.full(1, np.inf) if cycle is None else multipliers(cycle.jacobian)
+        if cycle is None or not abs(known[0]) < 1:
             values["motion"] = "undecided"
             return f"no stable cycle of {lock.releases} releases was found at the motion"
+        lock = lock_on(cycle, found, lock)
+        values |= _columns_of(lock)
         windows = {"force": Window(last=1.1 * lock.period, rate=RATE)}
         period = simulate(
             p, windows=windows, duration=1.1 * lock.period, tol=self.tol, initial_state=state
@@ -183,3 +185,14 @@ class Locking(Start, Quantity):
             "map_separations": found.vibrations.astype(float),
             "map_slope": found.slopes,
         }
+
+
+def _columns_of(lock: "Lock") -> dict[str, Any]:
+    """Columns of the period of a motion that repeats."""
+    return {
+        "separations_per_release": lock.vibrations / lock.releases,
+        "period_releases": lock.releases,
+        "period_separations": lock.vibrations,
+        "period": lock.period,
+        "period_residual": lock.closure,
+    }
