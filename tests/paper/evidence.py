@@ -154,6 +154,7 @@ WORDS = (
     "changing",
     "simulation",
     "inferred",
+    "undecided",
 )
 """Words of flags."""
 

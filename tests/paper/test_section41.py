@@ -100,15 +100,18 @@ def test_a_sweep_in_either_direction_may_separate_below_the_critical_speed(
     assert found.values["below"] == rows
 
 
-def basins(share: float) -> xr.Dataset:
-    """Return a study of 30 kicks of up to 2 J, of which a share separates at 15 rad/s."""
+def basins(share: float, undecided: int = 0) -> xr.Dataset:
+    """Return a study of 30 kicks of up to 2 J, of which some are undecided, and of the others a share
+    separates at 15 rad/s."""
     axes = {
         "normalization": ["as_published"],
         "Omega": [14.0, 15.0],
         "energy": [0.5, 1.0, 2.0],
         "start": np.arange(10),
     }
-    return grid(axes, separating_fraction=[[0.9, share]])
+    kinds = ["undecided"] * undecided + ["quiet"] * (30 - undecided)
+    both_speeds = np.reshape(2 * kinds, (1, 2, 3, 10))
+    return grid(axes, separating_fraction=[[0.9, share]], kind=both_speeds)
 
 
 def test_kicks_that_separate_are_counted() -> None:
@@ -117,6 +120,10 @@ def test_kicks_that_separate_are_counted() -> None:
     assert found.verdict == PART
     assert found.values["kicks"] == (6, 30, (0.5, 2.0))
     assert maintained_below(speeds, None, basins(0.0), within=0.1).verdict == TRUE
+    some_undecided = maintained_below(speeds, None, basins(0.25, undecided=6), within=0.1)
+    assert some_undecided.values["kicks"] == (6, 30, (0.5, 2.0))
+    all_undecided = maintained_below(speeds, None, basins(NAN, undecided=30), within=0.1)
+    assert all_undecided.verdict == TRUE
     assert maintained_below(speeds, None, None, within=0.1).verdict == TRUE
 
 

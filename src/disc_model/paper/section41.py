@@ -19,6 +19,7 @@ from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
+from disc_model.studies.quantities.basins import UNKNOWN
 
 
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
@@ -377,11 +378,21 @@ def maintained_below(study: xr.Dataset, *optional: xr.Dataset | None, within: fl
         swept = measures.facts(sweeps)
     kicks: tuple[Any, ...] = (0,)
     if basins is not None:
-        starts = basins.sizes["energy"] * basins.sizes["start"]
-        share = float(published(basins)["separating_fraction"].sel(Omega=15.0))
-        kicks = (round(starts * share), starts, extent(basins["energy"].values))
+        kicks = _separating_kicks(basins)
     verdict = PART if below or kicks[0] else TRUE
     return Answer(verdict, below=below, kicks=kicks, swept=swept)
+
+
+def _separating_kicks(basins: xr.Dataset) -> tuple[int, int, Any]:
+    """Return how many kicks at 15 rad/s are known to lead to lasting separation, how many there
+    are, and the least and the greatest of their energies (J)."""
+    kicks = basins.sizes["energy"] * basins.sizes["start"]
+    study = published(basins).sel(Omega=15.0)
+    known = float(np.mean(~np.isin(flag_names(study["kind"]), UNKNOWN)))
+    separating = 0
+    if known:
+        separating = round(kicks * known * float(study["separating_fraction"]))
+    return separating, kicks, extent(basins["energy"].values)
 
 
 def _separations_below(

@@ -295,7 +295,10 @@ def basins(  # noqa: PLR0913
     xarray.Dataset
         `basin_fraction` by class of attractor with its confidence interval, `critical_energy` (J), and the attractors.
         Of each start `kind` says what it comes to, and `lost_contact` whether contact was lost on the way, also where
-        the outcome is undecided; the attribute `message` counts the starts that are undecided within the horizon
+        the outcome is undecided: "yes", "no", or "not_yet" if the motion was followed only until it was known to come
+        to an attractor on which contact is lost. Undecided starts count as separating at the upper ends of intervals,
+        as not separating at the lower ones, and `separating_fraction` is of the other starts; the attribute `message`
+        counts the starts that are undecided within the horizon
 
     Raises
     ------

@@ -98,6 +98,48 @@ def test_intervals_of_all_shares_have_the_stated_confidence(
     assert table[f"{share}_high"][place] == pytest.approx(0.5026, abs=1e-4)
 
 
+UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
+
+
+@pytest.mark.parametrize(
+    ("undecided", "expected"),
+    [(4, (np.nan, 0.0, 1.0)), (2, (0.5, 0.0456, 0.9544)), (0, (0.5, 0.1500, 0.8500))],
+)
+@pytest.mark.parametrize("share", ["separating_fraction", "basin_fraction"])
+def test_undecided_starts_widen_the_interval_of_the_share_that_separates(
+    made: None,
+    undecided: int,
+    expected: tuple[float, float, float],
+    share: str,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """All four starts undecided gave an interval from 0 to 0.49, and most separated later.
+
+    Of four starts, one that separates is 0.25 [0.0456, 0.6994], and three are 0.75 [0.3006, 0.9544]."""
+    results = {i: UNDECIDED for i in range(undecided)}
+    monkeypatch.setattr(Made, "classes", results)
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0 * (i % 2)))
+    table = found(energies=[0.5], n_starts=4).arrays
+    names = [f"{share}{end}" for end in ("_low", "_high")]
+    place = (0, SEPARATES) if share == "basin_fraction" else (0,)
+    assert [table[name][place] for name in names] == pytest.approx(expected[1:], abs=1e-4)
+    assert table["separating_fraction"][0] == pytest.approx(expected[0], nan_ok=True)
+    assert table["basin_fraction"][0].sum() == pytest.approx(1)
+
+
+@pytest.mark.parametrize(("first", "said"), [(3.0, "yes"), (np.nan, "not_yet")])
+def test_a_start_that_will_lose_contact_does_not_keep_it(
+    made: None, first: float, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Starts that came to an attractor on which contact is lost were said to keep contact."""
+    leaves = OutcomeResult(APART.kind, 95.0, attractor=APART, first_separation=first)
+    monkeypatch.setattr(Made, "classes", {0: leaves})
+    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0))
+    table = found(energies=[0.5], n_starts=2)
+    words = AttractorBasins.COLUMNS["lost_contact"].flags
+    assert [words[code] for code in table.arrays["lost_contact"][0, 0]] == [said, "no"]
+
+
 def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
     table = found(energies=[0.05, 1.0], n_starts=3, n_bisection_directions=2, precision=0.01).arrays
     assert table["critical_energy_sampled"] == 0.05

@@ -6,7 +6,7 @@ ones unchanged.
 """
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
@@ -35,6 +35,8 @@ if TYPE_CHECKING:
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
+UNKNOWN = ("undecided", "failed")
+"""Outcomes of starts of which it is not known what they come to."""
 SHOWN = (
     "range",
     "separation_rate",
@@ -99,11 +101,18 @@ class AttractorBasins(Start, Quantity):
         ),
         "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
         "lost_contact": Variable(
-            "1", "whether contact was lost on the way", ("no", "yes"), dims=_EACH
+            "1",
+            "whether contact was lost on the way, or will only be lost later",
+            ("no", "yes", "not_yet"),
+            dims=_EACH,
         ),
         **_share("basin_fraction_by_energy", _SHARES),
         **_share("basin_fraction", ("attractor_class",)),
-        **_share("separating_fraction", (), " that keep losing contact, be it periodic or not"),
+        **_share(
+            "separating_fraction",
+            (),
+            " whose end is known that keep losing contact, be it periodic or not",
+        ),
         "critical_energy": Variable(
             "J", "least energy found that leads to lasting separation, by bisection"
         ),
@@ -212,8 +221,10 @@ class AttractorBasins(Start, Quantity):
         values = _shares("basin_fraction_by_energy", results, self.confidence)
         for name, (fractions,) in _shares("basin_fraction", [every], self.confidence).items():
             values[name] = fractions
-        separating = sum(reached.separates for reached in every)
-        shown = share(separating, len(every), confidence=self.confidence)
+        decided = [reached for reached in every if reached.attractor is not None]
+        separating = sum(reached.separates for reached in decided)
+        unknown = len(every) - len(decided)
+        shown = share(separating, len(decided), unknown, self.confidence)
         values.update(with_ends("separating_fraction", shown))
         return values
 
@@ -274,12 +285,19 @@ def _columns_of_starts(
         "lost_contact": [],
     }
     for row in results:
-        kept = [np.isnan(reached.first_separation) for reached in row]
         columns["kind"].append([reached.word for reached in row])
         columns["attractor_index"].append([numbers[reached.attractor] for reached in row])
         columns["simulated_time"].append([reached.simulated for reached in row])
-        columns["lost_contact"].append(["no" if each else "yes" for each in kept])
+        columns["lost_contact"].append([_lost_contact(reached) for reached in row])
     return columns
+
+
+def _lost_contact(reached: OutcomeResult) -> str:
+    """Whether a motion lost contact while it was followed; "not_yet" if it only comes to an
+    attractor on which contact is lost."""
+    if not np.isnan(reached.first_separation):
+        return "yes"
+    return "not_yet" if reached.separates else "no"
 
 
 def _described(attractor: Any, count: int) -> dict[str, Any]:
@@ -299,5 +317,18 @@ def _shares(
     shares = []
     for row in results:
         counts = Counter(reached.word for reached in row)
-        shares.append([share(counts[word], len(row), confidence=confidence) for word in CLASSES])
+        shares.append([_share_of(word, counts, confidence) for word in CLASSES])
     return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
+
+
+def _share_of(
+    word: str, counts: Mapping[str, int], confidence: float
+) -> tuple[float, float, float]:
+    """Fraction of the starts that come to an outcome, and its Wilson interval, at whose upper end
+    the starts of unknown outcome come to it as well."""
+    starts = sum(counts.values())
+    unknown = 0
+    if word not in UNKNOWN:
+        unknown = sum(counts[other] for other in UNKNOWN)
+    _, low, high = share(counts[word], starts - unknown, unknown, confidence)
+    return counts[word] / starts, low, high
