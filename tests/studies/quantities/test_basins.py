@@ -116,7 +116,7 @@ def test_undecided_starts_widen_the_interval_of_the_share_that_separates(
     """All four starts undecided gave an interval from 0 to 0.49, and most separated later.
 
     Of four starts, one that separates is 0.25 [0.0456, 0.6994], and three are 0.75 [0.3006, 0.9544]."""
-    results = {i: UNDECIDED for i in range(undecided)}
+    results = dict.fromkeys(range(undecided), UNDECIDED)
     monkeypatch.setattr(Made, "classes", results)
     monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0 * (i % 2)))
     table = found(energies=[0.5], n_starts=4).arrays
@@ -259,3 +259,20 @@ def test_starts_of_all_energies_cost_alike() -> None:
     one = AttractorBasins(energies=[0.1], n_starts=20)
     assert two.starts == one.starts == 20
     assert two.cost(unit) == one.cost(unit)
+
+
+def test_a_study_says_how_many_starts_are_undecided(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only the function said so, and a study's list of remarks was empty with all starts undecided."""
+    lost = OutcomeResult(Outcome.UNDECIDED, 60.0, first_separation=2.0)
+    gone = OutcomeResult(None, 1.0, failed=LOST)
+    monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: lost})
+    told = "2 of 4 starts (1 after contact was lost) undecided within the horizon: raise it"
+    assert found(energies=[0.01], n_starts=4).messages == [told]
+    monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: gone})
+    both = [
+        "1 of 4 starts failed, such as lost",
+        "1 of 4 starts undecided within the horizon: raise it",
+    ]
+    assert found(energies=[0.01], n_starts=4).messages == ["; ".join(both)]
