@@ -70,7 +70,7 @@ class Bifurcation(Start, Quantity):
             "s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"
         ),
         "least_rate": Variable(
-            "s-1", "least rate of change that the record shows, 0 where multipliers decide"
+            "s-1", "least rate of change that the record can show, 0 where multipliers decide"
         ),
         "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
         "period_events": Variable(
