@@ -176,3 +176,15 @@ def test_few_values_are_a_map_on_request(wish: dict[str, Any]) -> None:
     ax = dm.plot_sweep(grid(5, 2), "time", **wish)
     assert ax.collections
     assert ax.get_ylabel() == "Preload N (N)"
+
+
+def test_a_motion_without_samples_that_had_not_settled_is_named_so() -> None:
+    """It was said to have no further sample, as if it had come to an end, and lost contact later."""
+    study = sections().assign_attrs(quantity="bifurcation")
+    study["psi"][3] = np.nan
+    ax = dm.plot_sweep(study, "psi")
+    said = [row.words.get_text().replace("\n", " ") for row in rows_above(ax)]
+    assert said == ["no further event while sampled, not settled"]
+    study["psi"][3] = 0.2
+    ax = dm.plot_sweep(study.isel(sample=0), "psi")
+    assert "not settled" in labels(ax.figure)

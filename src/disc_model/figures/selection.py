@@ -44,6 +44,8 @@ OF_STAYS = (
     "sweep_separation_rate",
 )
 """Variables that describe the motion at the end of each stay of a sweep of the speed."""
+SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
+"""Samples of motions after a transient."""
 OF_CYCLES = (
     "growth_rate",
     "period",
@@ -337,7 +339,10 @@ def beyond_lowest_speed(study: xr.Dataset, variable: str) -> xr.DataArray | None
 
 def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of sweeps of the speed whose value describes, or rests on, a motion that had not settled
-    when its stay ended; None of other variables."""
+    when its stay ended, and samples of such motions; None of other variables."""
+    if variable in SAMPLED and "settled" in study:
+        late = study["settled"].copy(data=flag_names(study["settled"]) == "settled")
+        return ~late.broadcast_like(study[variable])
     if "sweep_settled" not in study:
         return None
     dims = {*study["sweep_settled"].dims}

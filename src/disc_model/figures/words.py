@@ -140,9 +140,9 @@ GONE: Mapping[str, Mapping[str, str]] = {
         ("critical_energy", "critical_energy_lower", "critical_energy_sampled"), _NO_START
     ),
     "bifurcation": {
-        **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further sample"),
+        **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further event while sampled"),
         "w_point": "sampled once a turn only",
-        "first_separation": "no separation",
+        "first_separation": "no separation up to the last sample",
     },
     "branches": dict.fromkeys(("sweep_range", "sweep_separation_rate"), _NOT_SWEPT),
     "campbell": {
