@@ -423,10 +423,7 @@ def test_a_motion_is_told_in_words(motion: classify.Motion, text: str) -> None:
 @pytest.mark.parametrize(
     ("settling", "text"),
     [
-        (
-            classify.Settling(Settled.CHANGING, 0.2, 0.01),
-            "changing at 0.2/s",
-        ),
+        (classify.Settling(Settled.CHANGING, 0.2, 0.01), "changing at 0.2/s"),
         (
             classify.Settling(Settled.UNDECIDED, -0.002, least=0.01),
             "undecided, since the record cannot show changes below 0.01/s",

@@ -115,7 +115,8 @@ def test_samples_once_per_turn_say_so_along_their_axis() -> None:
 def test_samples_of_a_section_are_a_map_or_lines_on_request() -> None:
     assert as_map(sections(), "psi").get_ylabel() == "Number of the turn"
     ax = dm.plot_sweep(sections(), "psi", lines="sample")
-    assert not points_on(ax)
+    filled = [line.get_xdata() for line in points_on(ax) if len(line.get_xdata())]
+    assert filled == SAMPLES * [SPEEDS[3:]], "only marks of the motion that had not settled"
 
 
 def test_arrays_of_a_function_are_points() -> None:
