@@ -230,7 +230,8 @@ def test_whether_a_motion_has_settled_does_not_depend_on_its_unit(size: float) -
 
 
 def test_the_rate_of_a_change_is_that_of_a_clear_one() -> None:
-    """The number of samples changes faster than the mean, but only by its scatter."""
+    """The number of samples changes faster than the mean, but only by its scatter, which was the least
+    rate that the record was said to show."""
     sizes = [60, 200, 60, 200, 60, 200, 60, 260]
     windows = [100 * i + 100 * np.arange(n) / n for i, n in enumerate(sizes)]
     time = np.concatenate(windows)
@@ -239,6 +240,10 @@ def test_the_rate_of_a_change_is_that_of_a_clear_one() -> None:
     assert found.answer is Settled.CHANGING
     # over the width of the motion, 2; windows of few samples have means that are a little off
     assert found.rate == pytest.approx(4e-4, rel=0.01)
+    assert found.least < found.rate
+    # an unclear change may be faster by more than 1/s
+    quick = settling(time / 4000, alternating + 8e-4 * time)
+    assert quick.rate == pytest.approx(4000 * found.rate, rel=1e-6)
 
 
 def test_the_rate_of_a_drift_is_over_the_width_of_the_motion() -> None:
@@ -418,13 +423,10 @@ def test_a_motion_is_told_in_words(motion: classify.Motion, text: str) -> None:
 @pytest.mark.parametrize(
     ("settling", "text"),
     [
+        (classify.Settling(Settled.CHANGING, 0.2, 0.01), "changing at 0.2/s"),
         (
-            classify.Settling(Settled.CHANGING, 0.2, 0.01),
-            "changing at 0.2/s, the record shows 0.01/s or more",
-        ),
-        (
-            classify.Settling(Settled.UNDECIDED, least=0.01),
-            "undecided, the record shows 0.01/s or more",
+            classify.Settling(Settled.UNDECIDED, -0.002, least=0.01),
+            "undecided, since the record cannot show changes below 0.01/s",
         ),
         (classify.Settling(), "undecided, since the record has too few events to show a change"),
     ],

@@ -205,6 +205,22 @@ def test_a_motion_has_settled_when_both_its_sections_have(
     assert found == pytest.approx(since, nan_ok=True)
 
 
+def test_points_of_a_motion_that_may_have_settled_are_divided_at_a_stated_time() -> None:
+    """They were "first half of the run" up to their mean time, wherever the window was; and a settled
+    cycle was called "not shown to have settled"."""
+    case = simulate(
+        Parameters(N=385, Omega=14, n_diameters=1), 15, windows={"poincare": Poincare(start=5)}
+    ).to_tree()
+    samples = case["poincare"].to_dataset()
+    found = stages_of(case, samples)
+    middle = round(float(samples["time"][0] + samples["time"][-1]) / 2, 1)
+    assert middle == pytest.approx(10, abs=0.5)
+    expected = [f"up to {middle:g} s", f"after {middle:g} s, undecided whether settled"]
+    assert [*found.names[:2]] == expected
+    early = samples["time"].values[found.masks["early"]]
+    assert early.max() < middle <= samples["time"].values[found.masks["later"]].min()
+
+
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     (mesh,) = (
         asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections

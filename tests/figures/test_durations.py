@@ -79,7 +79,7 @@ def test_a_critical_value_of_multipliers_has_no_horizon() -> None:
 @pytest.mark.parametrize(
     ("name", "said"),
     [
-        ("critical_energy", "no start led to separation within 60 s"),
+        ("critical_energy", "no start led to lasting separation within 60 s"),
         ("attractor_period", "no value"),
     ],
 )

@@ -296,7 +296,8 @@ def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
         ("critical", {}, {"precision": 0.01}, "precision of a millionth of the range"),
         ("own", {}, {"order": 3}, "default order"),
         ("own", {"order": None}, {"order": 3}, "default order"),
-        ("own", {"order": [1, 2]}, {"order": 3}, "sweep 1"),
+        ("own", {"order": [1, 2]}, {"order": 3}, "order = 1 and 2"),
+        ("own", {"order": {"of": 2}}, {"order": 3}, "sweep 1"),
     ],
 )
 def test_an_option_that_is_not_set_has_words_beside_one_that_is(
@@ -308,6 +309,34 @@ def test_an_option_that_is_not_set_has_words_beside_one_that_is(
     for options in (unset, option):
         attrs = {"function": function, "options": json.dumps({"name": "c_p", **options})}
         found = xr.Dataset({"value": value}, {"N": [300.0, 320.0, 340.0]}, attrs)
+        dm.plot_sweep(found, ax=ax)
+    assert named(ax)[0] == expected
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("function", "options", "expected"),
+    [
+        ("outcome", {"extrapolate": [False, True]}, "departures not extrapolated"),
+        ("outcome", {"early_end": [True, False]}, "early ends"),
+        ("own", {"refine_twice": [True, False]}, "with refine twice"),
+        ("basins", {"energies": [[0.001, 0.1], [0.1]]}, "energies 0.001 and 0.1 J"),
+        ("critical_speed", {"horizon": [[1, 2, 5], 5]}, "horizon 1, 2 and 5 s"),
+        ("critical_speed", {"bounds": [[8, 9], [8, 12]]}, "bounds 8 to 9 rad/s"),
+        ("critical_speed", {"horizon": [["1 min", "2 min"], 5]}, "horizon 1 min and 2 min"),
+        ("own", {"kinds": [["a", "b"], ["a"]]}, "kinds = a and b"),
+        ("basins", {"progress": [True, False]}, "sweep 1"),
+    ],
+)
+def test_sweeps_are_named_by_options_that_are_true_or_false_or_lists(
+    function: str, options: dict[str, list[Any]], expected: str
+) -> None:
+    """They were "sweep 1" and "sweep 2"."""
+    [(name, values)] = options.items()
+    _, ax = pyplot.subplots()
+    for value in values:
+        attrs = {"function": function, "options": json.dumps({name: value})}
+        found = xr.Dataset({"value": ("N", [1.0, 2.0])}, {"N": [300.0, 320.0]}, attrs)
         dm.plot_sweep(found, ax=ax)
     assert named(ax)[0] == expected
     pyplot.close("all")

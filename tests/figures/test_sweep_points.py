@@ -115,7 +115,8 @@ def test_samples_once_per_turn_say_so_along_their_axis() -> None:
 def test_samples_of_a_section_are_a_map_or_lines_on_request() -> None:
     assert as_map(sections(), "psi").get_ylabel() == "Number of the turn"
     ax = dm.plot_sweep(sections(), "psi", lines="sample")
-    assert not points_on(ax)
+    filled = [line.get_xdata() for line in points_on(ax) if len(line.get_xdata())]
+    assert filled == SAMPLES * [SPEEDS[3:]], "only marks of the motion that had not settled"
 
 
 def test_arrays_of_a_function_are_points() -> None:
@@ -189,3 +190,15 @@ def test_points_of_modes_have_a_name() -> None:
     ax = dm.plot_sweep(study, "rate")
     assert labels(ax.figure) == ["3 modes"]
     assert len(points_on(ax)) == 1
+
+
+def test_a_motion_without_samples_that_had_not_settled_is_named_so() -> None:
+    """It was said to have no further sample, as if it had come to an end, and lost contact later."""
+    study = sections().assign_attrs(quantity="bifurcation")
+    study["psi"][3] = np.nan
+    ax = dm.plot_sweep(study, "psi")
+    said = [row.words.get_text().replace("\n", " ") for row in rows_above(ax)]
+    assert said == ["no further event while sampled, not settled"]
+    study["psi"][3] = 0.2
+    ax = dm.plot_sweep(study.isel(sample=0), "psi")
+    assert "not settled" in labels(ax.figure)

@@ -316,7 +316,8 @@ class Settling(NamedTuple):
     ----------
     answer : `SETTLED` if the record excludes rates above `SLOWEST`, `CHANGING` if it shows such a rate
     rate : 1/s, rate of change relative to the motion's width; or growth rate of disturbances of a cycle
-    least : 1/s, least rate that the record is able to show; infinite if the record is too short, 0 with multipliers
+    least : 1/s, least rate that the record is able to show, of the part of the motion that changes if one does;
+        infinite if the record is too short, 0 with multipliers
     since : s, time from which the motion has settled
     """
 
@@ -328,10 +329,9 @@ class Settling(NamedTuple):
     def __str__(self) -> str:
         if not np.isfinite(self.least):
             return f"{self.answer}, since the record has too few events to show a change"
-        seen = f"the record shows {self.least:.2g}/s or more"
-        if np.isnan(self.rate):
-            return f"{self.answer}, {seen}"
-        return f"{self.answer} at {self.rate:.2g}/s, {seen}"
+        if self.answer is Settled.UNDECIDED:
+            return f"{self.answer}, since the record cannot show changes below {self.least:.2g}/s"
+        return f"{self.answer} at {self.rate:.2g}/s"
 
 
 def settling(
@@ -390,10 +390,11 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     # the fastest change, of those that are clear if there are any
     sizes = np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
-    fastest = float(slopes[int(np.argmax(sizes + clear))])
-    least = float(errors.max())
     if clear.any():
-        return Settling(Settled.CHANGING, fastest, least)
+        place = int(np.argmax(np.where(clear, sizes, 0.0)))
+        return Settling(Settled.CHANGING, float(slopes[place]), float(errors[place]))
+    fastest = float(slopes[int(np.argmax(sizes))])
+    least = float(errors.max())
     if max(least, sizes.max()) <= slowest:
         return Settling(Settled.SETTLED, fastest, least, float(t[0]))
     return Settling(Settled.UNDECIDED, fastest, least)

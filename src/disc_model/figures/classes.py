@@ -48,6 +48,10 @@ UNSETTLED = Look("not settled", "none", 4 * "\\")
 """Of a value that rests on a stay of a sweep at whose end the motion had not settled."""
 NOT_NEAR = Look("the motion is not near this cycle", "none", 3 * "x")
 """Of a value of an unstable cycle that was sought near the static start, where the motion from there is elsewhere."""
+UNKNOWN_STARTS = Look("outcome of some starts unknown", "none", 3 * "|")
+"""Of a value that rests on starts some of which are undecided or failed."""
+DOUBTS = (UNSETTLED, NOT_NEAR, UNKNOWN_STARTS)
+"""Marks of values that may be others than those of all motions, once they have settled."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
 

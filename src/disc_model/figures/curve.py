@@ -55,6 +55,7 @@ from disc_model.figures.selection import (
     statuses_like,
     titles_of,
 )
+from disc_model.figures.separating_share import draw_intervals_of_lines
 from disc_model.figures.types import Array, Axes, Figure, Mask
 from disc_model.figures.words import CHARACTER, as_numbers, in_lines, label_in, measured, named
 
@@ -163,6 +164,7 @@ def draw_lines(  # noqa: PLR0913
     # what is no value, or none that was found
     point_down(ax, parts, along, bounds, looks)
     fill_doubtful(ax, study, array, x, looks)
+    draw_intervals_of_lines(ax, study, array, x, looks.colours)
     mark_gaps(ax, study, array, x, looks)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn

@@ -5,9 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.figures.classes import AT_BOUND, NOT_NEAR, UNSETTLED
+from disc_model.figures.classes import AT_BOUND, DOUBTS
 from disc_model.figures.drawing import BLACK, large, say_beside
 from disc_model.figures.legends import figure_legend, keep_share, small
+from disc_model.figures.separating_share import names_interval
 from disc_model.figures.types import Artist, Axes, Figure
 from disc_model.figures.words import CHARACTER
 
@@ -27,7 +28,8 @@ def name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: b
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        marked = any(look.label in names for look in (AT_BOUND, UNSETTLED, NOT_NEAR))
+        marked = any(look.label in names for look in (AT_BOUND, *DOUBTS))
+        marked = marked or any(map(names_interval, names))
         if names and (in_legend or marked or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))
     longest = max(map(len, unnamed), default=0)

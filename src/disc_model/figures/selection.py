@@ -9,9 +9,10 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
+from disc_model.figures.classes import NOT_NEAR, UNKNOWN_STARTS, UNSETTLED, Look, name_of
 from disc_model.figures.kinds.base import NORM, key_of
 from disc_model.figures.types import Array, Mask, Words
+from disc_model.figures.unknown_starts import class_of_starts, rest_on_unknown
 from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
 
 WITHOUT_CYCLE = (
@@ -25,6 +26,8 @@ WITHOUT_CYCLE = (
 """Statuses of points that were computed, and have no stick-slip cycle."""
 ROUNDING = 1e-9
 """Relative difference of equal speeds in files."""
+UNDECIDED = "undecided"
+"""Outcome of starts that are followed to the horizon, and of which it is not known what they come to."""
 NOT_SIMULATED = "not_simulated"
 """Outcome of a sample whose motion was not simulated."""
 OF_STAYS = (
@@ -41,6 +44,8 @@ OF_STAYS = (
     "sweep_separation_rate",
 )
 """Variables that describe the motion at the end of each stay of a sweep of the speed."""
+SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
+"""Samples of motions after a transient."""
 OF_CYCLES = (
     "growth_rate",
     "period",
@@ -261,6 +266,10 @@ def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
     gone = ~np.isfinite(array.values.astype(float)) | (status == EXCLUDED)
     classes = np.vectorize(class_of_gap, otypes=[str])(status)
     classes = np.where(_not_simulated(study, array), NOT_SIMULATED, classes)
+    of_starts = class_of_starts(study, str(array.name))
+    if of_starts is not None:
+        words = of_starts.broadcast_like(array).transpose(*array.dims).values
+        classes = np.where((classes == NO_VALUE) & (words != ""), words, classes)
     return np.where(gone, classes, "")
 
 
@@ -277,13 +286,16 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the name of their class; without those that a rule
     excludes."""
     words = statuses(study)
+    of_starts = class_of_starts(study, str(variable.name))
+    if of_starts is not None:
+        words = words.where((words != "ok") | (of_starts == ""), of_starts)
     gone = variable.isnull()
     masks: dict[str, xr.DataArray] = {}
     for word in map(str, np.unique(words)):
         here = gone & (words == word)
         if word == EXCLUDED or not here.any():
             continue
-        name = name_of(class_of_gap(word))
+        name = name_of(word if word == UNDECIDED else class_of_gap(word))
         masks[name] = here | masks.get(name, False)
     return masks
 
@@ -332,7 +344,10 @@ def beyond_lowest_speed(study: xr.Dataset, variable: str) -> xr.DataArray | None
 
 def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of sweeps of the speed whose value describes, or rests on, a motion that had not settled
-    when its stay ended; None of other variables."""
+    when its stay ended, and samples of such motions; None of other variables."""
+    if variable in SAMPLED and "settled" in study:
+        late = study["settled"].copy(data=flag_names(study["settled"]) == "settled")
+        return ~late.broadcast_like(study[variable])
     if "sweep_settled" not in study:
         return None
     dims = {*study["sweep_settled"].dims}
@@ -358,7 +373,11 @@ def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
 def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     """Points whose value is another than that of a settled motion from the static start may be, by the
     look that says why."""
-    masks = {UNSETTLED: unsettled(study, variable), NOT_NEAR: not_near(study, variable)}
+    masks = {
+        UNSETTLED: unsettled(study, variable),
+        NOT_NEAR: not_near(study, variable),
+        UNKNOWN_STARTS: rest_on_unknown(study, variable),
+    }
     return {look: mask for look, mask in masks.items() if mask is not None and mask.any()}
 
 

@@ -1,21 +1,29 @@
-"""How many starts a share is of, and the confidence interval of the share that separates."""
+"""How many starts a share is of, and the confidence interval of the share that separates, on bars and on
+lines."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+import numpy as np
 import xarray as xr
 from matplotlib.path import Path
 
 from disc_model.data.variables import stated_in
 from disc_model.display import counted
-from disc_model.figures.drawing import BLACK, halo, mark, sample, wide
+from disc_model.figures.drawing import BLACK, GREY, halo, mark, sample, wide
+from disc_model.figures.selection import parts_along, remaining
 from disc_model.figures.types import Array, Artist, Axes
 from disc_model.figures.words import label_of
 
 SEPARATING = "separating"
+SHARE = "separating_fraction"
+OF_SHARE = "interval of the share that separates"
 CORNERS = [(-0.4, -1), (0.4, -1), (0, -1), (0, 1), (-0.4, 1), (0.4, 1)]
 INTERVAL = Path(CORNERS, 3 * [Path.MOVETO, Path.LINETO])
-"""Mark of an interval in a legend: a line between two short ones."""
+"""Mark of an interval in a legend: a line between two short ones,"""
+BAR = Path([(0, -1), (0, 1)], [Path.MOVETO, Path.LINETO])
+"""and a line alone, as at points of lines."""
+FAINT = 0.6  # opacity of intervals there, so that those of other lines show
 
 
 def share_of_starts(study: xr.Dataset, variable: str) -> str:
@@ -61,9 +69,41 @@ def entries_of_interval(study: xr.Dataset, variable: str, classes: Sequence[str]
     """The entry of a legend for the intervals that are drawn, with their level, if any are."""
     if interval_of(study, variable) is None or SEPARATING not in classes:
         return []
-    level = stated_in(study, "options").get("confidence")
-    name = "interval of the share that separates"
-    if level is not None:
-        name = f"{100 * level:g} % {name}"
     look: dict[str, Any] = {"color": BLACK, "markersize": mark(8), "markeredgewidth": wide(0.9)}
-    return [sample(label=name, linestyle="", marker=INTERVAL, **look)]
+    return [sample(label=_name_of_interval(study), linestyle="", marker=INTERVAL, **look)]
+
+
+def _name_of_interval(study: xr.Dataset) -> str:
+    """What legends call the intervals, with their level if the study states it."""
+    level = stated_in(study, "options").get("confidence")
+    return OF_SHARE if level is None else f"{100 * level:g} % {OF_SHARE}"
+
+
+# ---- Lines
+
+
+def draw_intervals_of_lines(
+    ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, colours: Mapping[str, Any]
+) -> None:
+    """Draw the interval of the share that separates at each point of lines, in their colours by name:
+    also where no share is known; those of a panel have one entry in the legend."""
+    ends = [f"{array.name}_low", f"{array.name}_high"]
+    if array.name != SHARE or not {*ends} <= {*study}:
+        return
+    by = remaining(array, [x])
+    along = array[x].values * label_of(array[x])[1]
+    lows, highs = (parts_along(study[end], by) for end in ends)
+    for low, high in zip(lows, highs, strict=True):
+        look: dict[str, Any] = {"linewidth": wide(0.6), "alpha": FAINT, "label": "_nolegend_"}
+        between = np.full(along.size, np.nan)  # the bars are one line with gaps
+        heights = np.column_stack([low.data.values, high.data.values, between])
+        ax.plot(np.repeat(along, 3), heights.ravel(), color=colours[low.name], **look)
+    name = _name_of_interval(study)
+    if name not in ax.get_legend_handles_labels()[1]:
+        bar: dict[str, Any] = {"markersize": mark(8), "markeredgewidth": wide(0.6)}
+        ax.plot([], [], linestyle="", marker=BAR, color=GREY, label=name, **bar)
+
+
+def names_interval(name: str) -> bool:
+    """Whether an entry of a legend is that of the intervals."""
+    return name.endswith(OF_SHARE)

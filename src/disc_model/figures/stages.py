@@ -19,8 +19,8 @@ ON_THE_WAY = {"later": "later on the way", "separated": "separated on the way"}
 BY_SEPARATION = ("in contact, before the first separation", "in contact, after it", "separated")
 SEPARATED_BEFORE = (BY_SEPARATION[0], "in contact, after the first separation", "separated")
 BY_SETTLING = ("not shown to have settled", "settled", "separated")
-BY_HALVES = ("first half of the run", "second half, not shown to have settled", "separated")
-"""Names of the stages, by what divides early from later."""
+BY_HALVES = ("up to {:g} s", "after {:g} s, undecided whether settled", "separated")
+"""Names of the stages, by what divides early from later; halves have the time between them."""
 SECTIONS = ("psi", "w_point")
 
 
@@ -37,12 +37,13 @@ class Stages:
 
 def stages_of(case: xr.DataTree, samples: xr.Dataset) -> Stages:
     """Divide the points of a section by the first separation; without one, by when the motion has
-    settled; otherwise into halves of the run."""
+    settled; otherwise into halves of the time that the points cover."""
     time = samples["time"].values
     first = float(case["first_separation"])
     since = settled_since(case, samples)
     settled = math.isfinite(since)
-    divided = stages(time, samples["phase"].values, first, since if settled else time.mean())
+    middle = round(float(time[0] + time[-1]) / 2, 1)
+    divided = stages(time, samples["phase"].values, first, since if settled else middle)
     masks = dict(zip(STAGES, divided, strict=True))
     if math.isfinite(first):
         names = BY_SEPARATION if masks["early"].any() else SEPARATED_BEFORE
@@ -53,7 +54,8 @@ def stages_of(case: xr.DataTree, samples: xr.Dataset) -> Stages:
         return Stages(masks, names, f"first separation at {first:.2f} s", final)
     p = parameters_of(case)
     fate = "separation ignored" if p.contact == "bilateral" else "no separation"
-    return Stages(masks, BY_SETTLING if settled else BY_HALVES, fate)
+    by_halves = [name.format(middle) for name in BY_HALVES]
+    return Stages(masks, BY_SETTLING if settled else by_halves, fate)
 
 
 def settled_since(case: xr.DataTree, samples: xr.Dataset) -> float:

@@ -24,9 +24,11 @@ PHRASES = {
     STAYS: Phrase("stays of {}", "s"),
     "after_separation": Phrase("{} after separation", "s"),
     "attractor_tol": Phrase("attractors within {}"),
+    "bounds": Phrase("bounds {}"),
     "confidence": Phrase("confidence {}"),
     "count": Phrase("{} exponents"),
     "duration": Phrase("over {}", "s"),
+    "energies": Phrase("energies {}", "J"),
     "evaluation_time": Phrase("last {} of stays", "s"),
     "horizon": Phrase("horizon {}", "s"),
     "interval": Phrase("intervals of {}", "s"),
@@ -47,13 +49,20 @@ PHRASES = {
 """What legends say of options,"""
 OF_FUNCTIONS = {
     "critical_speed": {
+        "bounds": Phrase("bounds {}", "rad/s"),
         "precision": Phrase("precision {}", "rad/s"),
         "step": Phrase("steps of {}", "rad/s"),
     },
-    "hysteresis": {"step": Phrase("steps of {}", "rad/s")},
+    "hysteresis": {"bounds": Phrase("bounds {}", "rad/s"), "step": Phrase("steps of {}", "rad/s")},
     "outcome": {"evaluation_time": Phrase("last {} of the motion", "s")},
 }
 """and of those that have another unit or meaning in some functions."""
+OF_TRUTH = {
+    "early_end": ("early ends", "no early ends"),
+    "extrapolate": ("departures extrapolated", "departures not extrapolated"),
+    "leave_out_trivial": ("without the trivial exponent", "with the trivial exponent"),
+}
+"""What they say of options that are true, and of those that are false."""
 UNSET = {
     "duration": "",  # which `t_end` may say
     "precision": "precision of a millionth of the range",
@@ -63,6 +72,8 @@ UNSET = {
 """What legends say of options that are not set, beside lines for which they are."""
 COMPARED = (STAYS, "horizon", "duration", "t_end")
 """Options that are said beside those of another function, which has settings of its own."""
+UNSAID = ("progress",)
+"""Options that change no result."""
 SEPARATION = "separation"
 
 
@@ -85,7 +96,7 @@ def sought_in(study: xr.Dataset) -> str:
 
 def options_of(study: xr.Dataset) -> dict[str, str]:
     """Words for the options with which a study was computed, by their names, such as the length of
-    stays: those that are numbers or words."""
+    stays: those that are numbers, words, true or false, or lists of such."""
     options = stated_in(study, "options")
     function = function_of(study)
     if {"dwell", "max_dwell"} <= {*options}:
@@ -98,7 +109,7 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
     phrases = {**PHRASES, **OF_FUNCTIONS.get(function, {})}
     said = {}
     for name, value in options.items():
-        if isinstance(value, str) or is_number(value):
+        if name not in UNSAID and _has_words(value):
             said[name] = _said(name, value, phrases.get(name))
     return said
 
@@ -115,7 +126,7 @@ def option_text(name: str, value: Any) -> str:
 
 
 def set_options(study: xr.Dataset) -> set[str]:
-    """The names of the options that are set, also those of which nothing is said, such as lists."""
+    """The names of the options that are set, also those of which nothing is said, such as tables."""
     return {name for name, value in stated_in(study, "options").items() if value is not None}
 
 
@@ -139,7 +150,29 @@ def _said(name: str, value: Any, phrase: Phrase | None) -> str:
         return KINDS.get(value, value)
     if phrase is None:
         phrase = Phrase(f"{name.replace('_', ' ')} = {{}}")
-    shown = value
-    if not isinstance(value, str):
-        shown = f"{value:g} {phrase.unit}".rstrip()
-    return phrase.words.format(shown)
+    if isinstance(value, bool):
+        return _said_of_truth(name, value)
+    values = value if isinstance(value, list) else [value]
+    unit = phrase.unit if all(map(is_number, values)) else ""
+    between = " to " if name == "bounds" else " and "
+    return phrase.words.format(f"{_listed(values, between)} {unit}".rstrip())
+
+
+def _has_words(value: Any) -> bool:
+    """Whether legends can say the value of an option."""
+    if isinstance(value, list):
+        return bool(value) and all(isinstance(each, str) or is_number(each) for each in value)
+    return isinstance(value, str | bool) or is_number(value)
+
+
+def _said_of_truth(name: str, value: bool) -> str:
+    """What is said of an option that is true or false."""
+    words = name.replace("_", " ")
+    if_true, if_false = OF_TRUTH.get(name, (f"with {words}", f"without {words}"))
+    return if_true if value else if_false
+
+
+def _listed(values: list[Any], between: str) -> str:
+    """All values of an option, the last one after the word for what is `between`."""
+    *first, last = (f"{value:g}" if is_number(value) else str(value) for value in values)
+    return f"{', '.join(first)}{between}{last}" if first else last

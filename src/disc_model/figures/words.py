@@ -138,7 +138,7 @@ _NO_MODE = "no mode of this number"
 _NO_LOCK = "no stable cycle was found at it"
 _NO_PERIOD = "it does not repeat"
 _NOT_SWEPT = "the sweep did not come here"
-_NO_START = "no start led to separation"
+_NO_START = "no start led to lasting separation"
 _NO_MULTIPLIER = "no multiplier of the mode"
 _NO_CYCLE = "no cycle is followed"
 GONE: Mapping[str, Mapping[str, str]] = {
@@ -146,9 +146,9 @@ GONE: Mapping[str, Mapping[str, str]] = {
         ("critical_energy", "critical_energy_lower", "critical_energy_sampled"), _NO_START
     ),
     "bifurcation": {
-        **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further sample"),
+        **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further event while sampled"),
         "w_point": "sampled once a turn only",
-        "first_separation": "no separation",
+        "first_separation": "no separation up to the last sample",
     },
     "branches": dict.fromkeys(("sweep_range", "sweep_separation_rate"), _NOT_SWEPT),
     "campbell": {

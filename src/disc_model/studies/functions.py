@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model.data.coded import words
 from disc_model.data.missing import explained
 from disc_model.data.swept_speeds import doubtful_contact, swept_speeds
-from disc_model.display import counted, progress_bar
+from disc_model.display import progress_bar
 from disc_model.errors import (
     Fault,
     ParameterError,
@@ -324,23 +324,7 @@ def basins(  # noqa: PLR0913
         "confidence": confidence,
         "tol": tol,
     }
-    found = _quantity("basins", case, options, start, progress=progress)
-    if not found.attrs["message"]:
-        found.attrs["message"] = _undecided_starts(found)
-    return found
-
-
-def _undecided_starts(found: xr.Dataset) -> str:
-    """How many starts are undecided, and how many of these have lost contact; "" without one."""
-    undecided = found["kind"] == "undecided"
-    count = int(undecided.sum())
-    if not count:
-        return ""
-    lost = int((undecided & (found["lost_contact"] == "yes")).sum())
-    starts = f"{count} of {counted(undecided.size, 'start')}"
-    if lost:
-        starts = f"{starts} ({lost} after contact was lost)"
-    return f"{starts} undecided within the horizon: raise it"
+    return _quantity("basins", case, options, start, progress=progress)
 
 
 @renamed(scan="bounds")

@@ -259,3 +259,20 @@ def test_starts_of_all_energies_cost_alike() -> None:
     one = AttractorBasins(energies=[0.1], n_starts=20)
     assert two.starts == one.starts == 20
     assert two.cost(unit) == one.cost(unit)
+
+
+def test_a_study_says_how_many_starts_are_undecided(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Only the function said so, and a study's list of remarks was empty with all starts undecided."""
+    lost = OutcomeResult(Outcome.UNDECIDED, 60.0, first_separation=2.0)
+    gone = OutcomeResult(None, 1.0, failed=LOST)
+    monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: lost})
+    told = "2 of 4 starts (1 after contact was lost) undecided within the horizon: raise it"
+    assert found(energies=[0.01], n_starts=4).messages == [told]
+    monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: gone})
+    both = [
+        "1 of 4 starts failed, such as lost",
+        "1 of 4 starts undecided within the horizon: raise it",
+    ]
+    assert found(energies=[0.01], n_starts=4).messages == ["; ".join(both)]

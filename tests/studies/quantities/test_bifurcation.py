@@ -1,5 +1,6 @@
 """What a motion settles to, sampled at switches or once a turn of the drive."""
 
+import dataclasses
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +10,9 @@ import pytest
 
 from disc_model.analysis.classify import Settling
 from disc_model.data.variables import Outcome
+from disc_model.errors import Status
 from disc_model.parameters import Parameters
+from disc_model.simulation import api
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Poincare, Start
 from disc_model.simulation.starts import make_initial_state
@@ -208,9 +211,60 @@ def test_all_separations_of_a_transient_are_counted_whatever_its_legs(
     first = simulate(p, 0.05, tol=options.tol, initial_state=initial)
     whole = simulate(p, 0.2, tol=options.tol, initial_state=initial)
     assert values["transient_time"] == 0.2
-    lost = values["separations"]
+    record = simulate(p, 5.2, tol=options.tol, initial_state=whole.final_state)
+    lost = values["separations"] - record.statistics["n_separations"]
     early = first.statistics["n_separations"]
     assert lost == whole.statistics["n_separations"]
     assert early > 0
     assert early < lost
     assert values["first_separation"] == first.first_separation
+
+
+@pytest.mark.compiled
+def test_separations_while_samples_are_taken_are_counted() -> None:
+    """Contact is first lost at 50.4 s: there were samples at separations, and neither number nor time of
+    any."""
+    p = Parameters(N=385, Omega=15.1)
+    options = Bifurcation(section="event", transient=50, max_transient=50)
+    values, _ = options.compute_point(Point(p))
+    assert values["phase"] == ["separation"] * options.samples
+    transient = simulate(
+        p, 50, tol=options.tol, initial_state=make_initial_state(p, Start(), 1e-10)
+    )
+    record = simulate(p, 55, tol=options.tol, initial_state=transient.final_state)
+    assert transient.statistics["n_separations"] == 0
+    assert values["separations"] == record.statistics["n_separations"]
+    assert values["first_separation"] == record.first_separation
+
+
+@pytest.mark.compiled
+def test_a_motion_without_an_event_while_samples_are_taken_says_so() -> None:
+    """It slides from 34 s on, and loses contact at 53 s."""
+    options = Bifurcation(section="event", transient=40, max_transient=40)
+    values, message = options.compute_point(Point(Parameters(N=385, Omega=15.1, c_p=1)))
+    assert len(values["psi"]) == 0
+    assert (
+        message
+        == "not settled after 40 s: changing at 0.025/s; no event in the 5 s sampled after that"
+    )
+
+
+def test_a_run_that_ends_early_while_samples_are_taken_has_none(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Its few events were samples of a complete one."""
+    p = Parameters(N=385, Omega=14, n_diameters=1)
+    ends = iter([Status.OK, Status.NON_FINITE])
+
+    def ending(*args: Any, **how: Any) -> Any:
+        run = simulate(*args, **how)
+        return dataclasses.replace(run, status=next(ends))
+
+    monkeypatch.setattr(api, "simulate", ending)
+    monkeypatch.setattr(attractors, "arrival", lambda p, legs: attractors.Arrival(Settling()))
+    options = Bifurcation(section="event", transient=0.5, max_transient=0.9, samples=4)
+    values, message = options.compute_point(Point(p))
+    assert values["status"] == Status.NON_FINITE
+    assert values["separations"] == 0
+    assert "psi" not in values
+    assert message.startswith("the simulation ended early")

@@ -14,6 +14,7 @@ from pydantic import Field, PrivateAttr
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -200,10 +201,13 @@ class AttractorBasins(Start, Quantity):
         values.update(self._fractions(results, every))
         values.update(self._critical_energy(results, follow))
         values.update(listed([_described(each, count) for each, count in attractors]))
-        if not failed:
-            return values, ""
-        message = f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
-        return values, message
+        remarks = []
+        if failed:
+            remarks.append(
+                f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
+            )
+        remarks += _undecided_starts(every)
+        return values, "; ".join(remarks)
 
     def _basins_of(self, p: Parameters) -> "Basins":
         """The attractors of a case that its own starts come to, as yet without those of others: what
@@ -298,6 +302,18 @@ def _lost_contact(reached: OutcomeResult) -> str:
     if not np.isnan(reached.first_separation):
         return "yes"
     return "not_yet" if reached.separates else "no"
+
+
+def _undecided_starts(every: Sequence[OutcomeResult]) -> list[str]:
+    """How many starts are undecided, and how many of these have lost contact; nothing without one."""
+    undecided = [reached for reached in every if reached.word == "undecided"]
+    if not undecided:
+        return []
+    lost = sum(not np.isnan(reached.first_separation) for reached in undecided)
+    starts = f"{len(undecided)} of {counted(len(every), 'start')}"
+    if lost:
+        starts = f"{starts} ({lost} after contact was lost)"
+    return [f"{starts} undecided within the horizon: raise it"]
 
 
 def _described(attractor: Any, count: int) -> dict[str, Any]:

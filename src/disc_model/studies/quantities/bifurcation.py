@@ -63,14 +63,16 @@ class Bifurcation(Start, Quantity):
             "1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)
         ),
         "first_separation": SCALARS["first_separation"],
-        "separations": Variable("1", "number of separations, transient included", whole=True),
+        "separations": Variable(
+            "1", "number of separations up to the last sample, transient included", whole=True
+        ),
         "transient_time": Variable("s", "time left out before the samples"),
         "settled": ANSWER,
         "change_rate": Variable(
             "s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"
         ),
         "least_rate": Variable(
-            "s-1", "least rate of change that the record shows, 0 where multipliers decide"
+            "s-1", "least rate of change that the record can show, 0 where multipliers decide"
         ),
         "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
         "period_events": Variable(
@@ -170,12 +172,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
             first = run.first_separation
         separations += int(run.statistics["n_separations"])
         if not run.status.complete:
-            known = {
-                "status": run.status.value,
-                "first_separation": first,
-                "separations": separations,
-            }
-            return known, f"the simulation ended early: {run.status}"
+            return _ended_early(run, first, separations)
         legs.append(run)
         state = run.final_state
         reached = arrival(p, legs)
@@ -188,7 +185,13 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         assert near.cycle.state is not None
         state = near.cycle.state
         stick = near.cycle.stick_fraction
-    events = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state).events
+    record = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state)
+    if np.isnan(first):
+        first = record.first_separation
+    separations += int(record.statistics["n_separations"])
+    if not record.status.complete:
+        return _ended_early(record, first, separations)
+    events = record.events
     kind = "stick_to_slip"
     phase = "stick"
     if (events["kind"] == "separation").any():
@@ -215,7 +218,17 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     }
     if reached.settled:
         return values, ""
-    return values, f"not settled after {transient:g} s: {reached.settling}"
+    message = f"not settled after {transient:g} s: {reached.settling}"
+    if taken.empty:
+        message = f"{message}; no event in the {FIRST_LEG:g} s sampled after that"
+    return values, message
+
+
+def _ended_early(run: Result, first: float, separations: int) -> tuple[dict[str, Any], str]:
+    """What is known of a motion whose simulation ended early: its first separation, and the number of
+    separations up to then."""
+    known = {"status": run.status.value, "first_separation": first, "separations": separations}
+    return known, f"the simulation ended early: {run.status}"
 
 
 def _motion_reached(p: Parameters, reached: Arrival, run: Result, tol: float) -> Motion:
