@@ -56,6 +56,7 @@ class Member:
     looks : its entries of the legend when it is alone
     special : those of its special points
     said : words for values of which names of parameters say nothing
+    selected : words for those at which a study was selected, which titles have as well
     """
 
     name: str
@@ -64,6 +65,7 @@ class Member:
     looks: list[Any] = field(default_factory=list)
     special: list[Any] = field(default_factory=list)
     said: Mapping[str, str] = field(default_factory=dict)
+    selected: Mapping[str, str] = field(default_factory=dict)
 
 
 def name_in(labels: Any, word: str) -> tuple[str, Any]:
@@ -109,13 +111,18 @@ def retitle(figure: Any, family: Sequence[Member], first: str = "") -> None:
     """
     width = float(figure.get_size_inches()[0])
     before = family[:-1]
-    said = what_case(_common_values(before))
+    said = _said_of_all(before)
     if first and len(before) == 1:
         said = first
     former = head_text(width, "", said, MOST_LINES)
     if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
-        said = head_text(width, "", what_case(_common_values(family)), MOST_LINES)
+        said = head_text(width, "", _said_of_all(family), MOST_LINES)
         figure.suptitle(said, fontsize=large(8))
+
+
+def _said_of_all(family: Sequence[Member]) -> str:
+    """What a title says of all members."""
+    return what_case(_common_values(family), family[0].selected)
 
 
 def _common_values(family: Sequence[Member]) -> dict[str, Any]:

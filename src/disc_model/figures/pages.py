@@ -13,6 +13,7 @@ from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.drawing import large
 from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.labels import is_square, without_font
+from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import (
     figure_legend,
     keep_share,
@@ -183,6 +184,7 @@ def restate(page: Page, wishes: Wishes) -> None:
     elif not page.own:
         page.ax.set_title(wishes.title)
     _relabel(page, wishes.labels or {})
+    keep_least_span(page.axes)
 
 
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:

@@ -5,6 +5,7 @@ import re
 from collections.abc import Collection, Mapping
 from contextvars import ContextVar
 from textwrap import fill
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -443,6 +444,8 @@ def _as_value(study: xr.Dataset, number: float) -> float:
 
 def unit_text(units: str) -> str:
     """A unit of a dataset, such as ``kg m s-2``, as labels have it: ``kg m/s²``; "" for none."""
+    if units == "kg^-1/2":
+        return "1/√kg"
     above: list[str] = []
     below: list[str] = []
     for part in units.split():
@@ -573,17 +576,22 @@ def in_lines(name: str) -> str:
 # ---- Heads of figures
 
 
-def what_case(values: Mapping[str, Any]) -> str:
+def what_case(values: Mapping[str, Any], selected: Mapping[str, str] = MappingProxyType({})) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
     sweep, in words. Choices of the model come first, and the size and the material of a disc last,
-    as a title may have no room for all."""
+    as a title may have no room for all.
+
+    selected : words for others of the values, by their names
+    """
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
     if values.get("normalization") == "orthonormal":
         words.append(MODES["orthonormal"])
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
-    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION)), *words]
+    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION))]
+    said += [text for name, text in selected.items() if name in values]
+    said += words
     said.append(_numbers_text(numbers, OF_MODEL))
     others = {*numbers} - {"N", "Omega", *OF_FRICTION, *OF_MODEL, *OF_DISC}
     said += [_numbers_text(numbers, others), values.get(STAYS, ""), _numbers_text(numbers, OF_DISC)]
