@@ -1,5 +1,7 @@
 """Words for what was selected of a sweep or of a grid study, as by ``study.sel(direction="up")``."""
 
+from typing import Any
+
 import xarray as xr
 
 from disc_model.figures.sweep_options import COMPARED, option_text
@@ -12,7 +14,7 @@ COUNTED = "number of the "
 """What long names of coordinates begin with whose values only count something."""
 
 
-def selected_of(study: xr.Dataset, varying: xr.Dataset, variable: str) -> dict[str, str]:
+def selected_of(study: Any, varying: xr.Dataset, variable: str) -> dict[str, str]:
     """Words for the values at which a study was selected, by the names of its coordinates, without
     parameters, which every title says, and times that the label of the variable says.
 

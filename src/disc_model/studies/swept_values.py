@@ -32,7 +32,10 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     checked: list[Any] = []
     impossible: list[list[Fault]] = []
     if column_of(name):
-        raw = [mode_number_in_si(name, value, faults) for value in raw]
+        for row, value in enumerate(raw):
+            of_unit: list[Fault] = []
+            raw[row] = mode_number_in_si(name, value, of_unit)
+            faults += [_at_row(each, (*within, name), row, several=several) for each in of_unit]
     for row, value in enumerate(raw):
         try:
             checked.append(getattr(model(**{name: value}), name))
