@@ -68,7 +68,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.critical_speed,
         {"case": P},
-        dict.fromkeys(("early_end", "extrapolate", "progress"), "True"),
+        {"early_end": "True", "extrapolate": "True", "progress": "True", "precision": "None"},
     ),
     (dm.basins, {"case": P}, {"start": "None", "seed": "huge", "progress": "True"}),
     (dm.hysteresis, {"case": P, "bounds": (10, 12), "dwell": 5}, {}),

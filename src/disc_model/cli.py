@@ -235,9 +235,14 @@ def print_report(report: DiscReport) -> None:
     """Print what was used of a file and what was left out."""
     if report.has_shapes:
         rows = report.table
-        columns = {str(head): map("{:.5g}".format, rows[head]) for head in rows}
+        columns = {str(head): map(_cell, rows[head]) for head in rows}
         table("Shapes of the file", columns, justify="right", overflow="fold")
     print_rows(report.summary())
+
+
+def _cell(number: float) -> str:
+    """A number of a table; "-" for none."""
+    return "-" if math.isnan(number) else f"{number:.5g}"
 
 
 def save_table(p: Parameters, path: Path) -> None:

@@ -357,7 +357,7 @@ def test_a_static_compliance_is_never_ignored(text: str, phrase: str, tmp_path: 
         ("l,pole (rad/s),amplitude (kg^-1/2)\n1,3000,0.5\n", "pole='3000': must be a complex number"),
         ("l,pole (rad/s),amplitude (kg^-1/2)\n1,4+3000j,0.5\n", "with a real part of at most 0"),
         ("l,pole (rad/s),amplitude (kg^-1/2)\n1,what,0.5\n", "pole='what': must be a complex number"),
-        ("l;f (Hz);amplitude (kg^-1/2)\n1;1.212,5;0,5\n", "decimals: not 1.212,5 and 1.212,5"),
+        ("l;f (Hz);amplitude (kg^-1/2)\n1;1.212,5;0,5\n", "for thousands: not 1.212,5"),
         ("l;f (Hz);amplitude (kg^-1/2)\n1;1212,5;0.5\n", "decimals: not 1212,5 and 0.5"),
         ('l,f (Hz),amplitude (kg^-1/2)\n1,"1,212",0.5\n', "'1,212': must be a number (mode 1)"),
         ("l,f (Hz),amplitude (kg^-1/2)\n1,551,2,0,556\n", "mode 1 has 5 values: must be as many"),

@@ -301,6 +301,60 @@ def test_the_split_of_a_pair_is_reported(tmp_path: Path) -> None:
     assert apart.diameters == (0, 2, 2)
 
 
+def shapes_of_two(frequencies: Sequence[float], degrees: Sequence[float]) -> list[Half]:
+    """Shapes of two nodal diameters, with the angles of their antinodes."""
+    found = []
+    for frequency, angle in zip(frequencies, degrees, strict=True):
+        turn = 2 * np.radians(angle)
+        found.append(Half(2, 2 * np.pi * frequency, 2e-3, 0.54, -0.13, turn=turn))
+    return found
+
+
+@pytest.mark.parametrize("apart", [0, 15, 30])
+def test_antinodes_of_a_pair_lie_between_each_other(apart: float, tmp_path: Path) -> None:
+    """Those of two nodal diameters are 45 degrees apart, give or take what a test may miss."""
+    phrase = f"antinodes are {apart} degrees apart: those of the halves of one pair are 45 degrees"
+    with pytest.warns(dm.ImplausibleValue, match=phrase):
+        disc = read(tmp_path, Dialect(), shapes_of_two((1210, 1214), (10, 10 + apart)))
+    assert disc.report is not None
+    assert len(disc.report.doubts) == 1
+    right = read(tmp_path, Dialect(), shapes_of_two((1210, 1214), (10, 60)))
+    assert right.report is not None
+    assert right.report.doubts == ()
+
+
+def test_shapes_of_one_orientation_that_are_kept_as_two_are_told(tmp_path: Path) -> None:
+    with pytest.warns(dm.ImplausibleValue, match=r"1250 Hz are kept as two, and their antinodes"):
+        disc = read(tmp_path, Dialect(), shapes_of_two((1210, 1250), (10, 10)))
+    assert disc.diameters == (2, 2)
+
+
+@pytest.mark.parametrize(
+    "frequencies", [(1210, 1213, 1217), (1210, 1240, 1241), (1210, 1211, 1240)]
+)
+def test_three_shapes_of_equal_diameters_are_told(
+    frequencies: tuple[float, ...], tmp_path: Path
+) -> None:
+    first, second, third = frequencies
+    phrase = f"3 shapes of 2 nodal diameters at {first}, {second} and {third} Hz are within 5 %"
+    with pytest.warns(dm.ImplausibleValue, match=phrase):
+        disc = read(tmp_path, Dialect(), shapes_of_two(frequencies, (10, 55, 30)))
+    assert disc.report is not None
+    assert phrase in " ".join(disc.report.doubts)
+
+
+def test_modes_without_diameters_are_no_pair(tmp_path: Path) -> None:
+    twice = [Half(0, 2 * np.pi * frequency, 2e-3, 0.43, 0.0, turn=0.0) for frequency in (929, 933)]
+    with pytest.warns(dm.ImplausibleValue, match="2 shapes of 0 nodal diameters at 929 and 933 Hz"):
+        read(tmp_path, Dialect(), twice)
+
+
+def test_measured_functions_are_named_where_a_file_has_no_modes(tmp_path: Path) -> None:
+    file = Dialect(extra=[*begin(58), "NONE", END]).write(tmp_path / "frf.unv", [])
+    with refusal("dataset 58 has measured functions, such as frequency responses, and is not read"):
+        dm.Disc.from_uff(file, R_0)
+
+
 def test_poles_in_hertz_are_noticed(tmp_path: Path) -> None:
     """By modal B, by frequencies in the texts, or by modal masses of 2 pi."""
     ways: list[dict[str, Any]] = [

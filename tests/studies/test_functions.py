@@ -53,6 +53,7 @@ def the_study(quantity: str, options: dict[str, Any]) -> dict[str, Any]:
 def test_a_function_gives_what_a_study_does(function: Any, arguments: Any, options: Any) -> None:
     of_study = run_study(the_study(function.__name__, options)).isel(c=0)
     of_function = function(P, **arguments)
+    of_function = of_function.drop_vars("at_lower_bound", errors="ignore")  # which the scan tells
     assert set(of_function) == set(of_study) - {"message"}
     for variable, values in of_function.items():
         stored = of_study[variable]
@@ -176,6 +177,7 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
     found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": "failed"})
     found["critical_speed"] = ("horizon", [5.0])
     found["horizon"] = [7.0]
+    found["scan_Omega"] = [5.0, 6.0]
 
     def take(*parts: Any, progress: bool = False) -> xr.Dataset:
         handed.extend(parts)
@@ -208,7 +210,7 @@ def test_what_a_function_is_not_told_is_as_in_a_study(function: Any) -> None:
     fields = quantity_of(function.__name__).model_fields
     compared = 0
     for name, argument in inspect.signature(function).parameters.items():
-        if name not in fields or fields[name].is_required():
+        if name not in fields or fields[name].is_required() or argument.default is None:
             continue
         compared += 1
         assert argument.default == fields[name].default, name
@@ -330,3 +332,30 @@ def test_a_result_states_its_options() -> None:
     options = json.loads(found.attrs["options"])
     assert (options["precision"], options["horizons"]) == (0.25, [1])
     assert (options["scan"]["start"], options["scan"]["stop"]) == (15, 15.5)
+
+
+def test_contact_that_is_lost_at_the_lowest_speed_is_told() -> None:
+    """By the names that `critical` has for it."""
+    case = P.replace(Omega=15)
+    lost = dm.critical_speed(case, (15.5, 16.5), [10, 60])
+    assert lost["critical_speed"].values[1] == 15.5
+    assert lost["at_lower_bound"].values.tolist() == [False, True]
+    rule = "contact is already lost within 60 s at the lower bound, 15.5 rad/s"
+    assert lost.attrs["message"].endswith(rule)
+
+
+@pytest.mark.parametrize(
+    ("step", "precision"), [("5 rpm", 0.5236 / 6), (0.25, 0.25 / 3), (0.05, 0.05), (1, 0.1)]
+)
+def test_the_precision_of_a_scan_follows_its_step(step: Any, precision: float) -> None:
+    bounds = ("130 rpm", "135 rpm")
+    if not isinstance(step, str):
+        bounds = (14.0, 14.0 + 2 * step)
+    speeds = dm.critical_speed(P, bounds, 0.01, step=step)
+    options = json.loads(speeds.attrs["options"])
+    assert options["precision"] == pytest.approx(precision, rel=1e-4)
+
+
+def test_a_step_that_is_no_multiple_of_the_precision_is_told_with_its_value() -> None:
+    with refusal("the scan's step of 0.5 rad/s must be a multiple of precision=0.2 rad/s"):
+        dm.critical_speed(P, (14, 15), 1, step=0.5, precision=0.2)

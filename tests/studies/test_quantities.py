@@ -311,7 +311,7 @@ RULES = [
     (
         "critical_speed",
         {"horizons": [1], "scan": SCAN, "precision": 3},
-        "the scan's step must be a multiple of precision=3",
+        "rad/s must be a multiple of precision=3 rad/s",
     ),
     ("basins", {"energies": [0, 1], "n_starts": 2}, "n_starts=2 must be 1 where an energy is 0"),
 ]

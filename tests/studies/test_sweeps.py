@@ -318,6 +318,34 @@ def test_branches_that_differ_in_an_option_are_named_by_it() -> None:
     assert said[:2] == ["tol = 1e-12", "tol = 1e-10"]
 
 
+@pytest.mark.parametrize(
+    ("varied", "own"),
+    [({"over": {"direction": [1, -1]}}, "direction"), ({"a": [0.044, 0.045]}, "a")],
+)
+def test_branches_are_whole_where_what_varies_has_the_name_of_a_variable(
+    varied: dict[str, Any], own: str
+) -> None:
+    """The axis took the place of the branch's variable, and pictures failed."""
+    options: dict[str, Any] = {"name": "Omega", "bounds": (13.9, 14.1)}
+    case = P.replace(N=385, Omega=14)
+    swept = sweep(dm.continue_cycle, case, **varied, **options)
+    first = varied.get("over", {}).get(own, [None])[0]
+    chosen = {} if first is None else {own: first}
+    branch = dm.continue_cycle(case, **options, **chosen).to_dataset()
+    again = dm.Branch.from_dataset(swept.isel({own: 0})).to_dataset()
+    np.testing.assert_array_equal(again[own], branch[own])
+    ax = dm.plot_branches(swept)
+    assert len(ax.figure.legends[0].get_texts()) > 2
+
+
+def test_a_variable_that_is_no_argument_is_not_taken_for_one() -> None:
+    def profile(case: dm.Parameters, count: int = 3) -> xr.Dataset:
+        return xr.Dataset({"count": ("place", np.arange(3.0))})
+
+    with refusal("returned count, which is a coordinate of the sweep: give it another name"):
+        sweep(profile, P, over={"count": [1, 2]})
+
+
 def test_branches_of_discs_with_fewer_modes_have_no_modes_of_others() -> None:
     options = {"name": "Omega", "bounds": (14.8, 15.2)}
     case = P.replace(N=300, Omega=15)

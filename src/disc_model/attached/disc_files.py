@@ -119,8 +119,9 @@ def from_uff(
     Warns
     -----
     ImplausibleValue
-        If the nodes are too few for the modes, poles seem to be in Hz, or frequencies or amplitudes are
-        implausible.
+        If the nodes are too few for the modes, antinodes of the halves of a pair do not lie between each other,
+        more than two shapes of equal diameters are within 5 %, poles seem to be in Hz, or frequencies or amplitudes
+        are implausible.
     """
     from disc_model.data.files import regular_file
     from disc_model.disc.files.place import Place

@@ -16,6 +16,9 @@ WORDS = {
 """Attributes of a branch that are variables of a sweep, by their names there."""
 ATTRIBUTES = {"branch_parameters": "parameters"}
 """Attributes whose names are others in a sweep, whose own attribute tells the case of all."""
+BESIDE = "branch_"
+"""What stands before the names of variables of a branch, such as direction, that a sweep varies by the
+same name."""
 COUNTS = ("separations", "releases", "diameters", "special_after", "direction", "special_direction")
 """Variables of whole numbers, which a sweep makes real ones, as these have a nan,"""
 VERDICTS = ("stable", "special_changes_stability")
@@ -70,8 +73,20 @@ def branch_of_sweep(data: xr.Dataset) -> xr.Dataset:
     row = data.isel(dict.fromkeys(data["status"].dims, 0))
     names = {name: ATTRIBUTES.get(name, name) for name in WORDS}
     attrs = {attribute: row[name].item() for name, attribute in names.items()}
-    own = [name for name, values in row.variables.items() if values.ndim]
-    return _of_own_types(_without_padding(row[own])).assign_attrs(attrs)
+    single = [name for name, values in row.variables.items() if not values.ndim]
+    own = _with_own_names(row.drop_vars(single))
+    return _of_own_types(_without_padding(own)).assign_attrs(attrs)
+
+
+def name_beside(name: str) -> str:
+    """The name that a variable of a branch has in a sweep over something of its own name."""
+    return f"{BESIDE}{name}"
+
+
+def _with_own_names(row: xr.Dataset) -> xr.Dataset:
+    """A branch whose variables have their own names."""
+    beside = [str(name) for name in row.variables if str(name).startswith(BESIDE)]
+    return row.rename({name: name.removeprefix(BESIDE) for name in beside})
 
 
 def _without_padding(row: xr.Dataset) -> xr.Dataset:

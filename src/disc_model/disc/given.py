@@ -112,22 +112,22 @@ class DiscReport(Summarised):
     @property
     def table(self) -> pd.DataFrame:
         """A row for each mode: diameters, frequencies (Hz), their split and those of amplitude and
-        damping (%), shapes, and of a universal
-        file the shares (%) of its motion that follow its nodal diameters and are in phase."""
+        damping (%), nan for a mode of one shape, shapes, and of a universal file the shares (%) of
+        its motion that follow its nodal diameters and are in phase."""
         import pandas as pd
 
         columns = {
             "diameters": [mode.diameters for mode in self.modes],
             "lower (Hz)": [mode.lower / math.tau for mode in self.modes],
             "upper (Hz)": [mode.upper / math.tau for mode in self.modes],
-            "split (%)": [_percent(mode.split) for mode in self.modes],
-            "amplitude split (%)": [_percent(mode.amplitude_split) for mode in self.modes],
-            "damping split (%)": [_percent(mode.damping_split) for mode in self.modes],
+            "split (%)": [_percent(mode, mode.split) for mode in self.modes],
+            "amplitude split (%)": [_percent(mode, mode.amplitude_split) for mode in self.modes],
+            "damping split (%)": [_percent(mode, mode.damping_split) for mode in self.modes],
             "shapes": [mode.shapes for mode in self.modes],
             "followed (%)": [100 * mode.followed for mode in self.modes],
             "in phase (%)": [100 * mode.in_phase for mode in self.modes],
         }
-        return pd.DataFrame(columns).dropna(axis="columns")
+        return pd.DataFrame(columns).dropna(axis="columns", how="all")
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         yield "source", f"{self.source}: {counted(len(self.modes), 'mode')}"
@@ -142,13 +142,18 @@ class DiscReport(Summarised):
         head, *lines = self.summary()
         texts = [head[1]]
         if self.has_shapes:
-            texts += self.table.to_string(index=False, float_format="{:.5g}".format).splitlines()
+            texts += self.table.to_string(
+                index=False, float_format="{:.5g}".format, na_rep="-"
+            ).splitlines()
         texts += [f"{name}: {text}" for name, text in lines]
         return "\n".join(text.rstrip() for text in texts)
 
 
-def _percent(difference: float) -> float:
-    """A relative difference in %, 0 if it is one of rounding."""
+def _percent(mode: ModeOrigin, difference: float) -> float:
+    """A relative difference of the shapes of a mode in %, 0 if it is one of rounding; nan of a mode
+    that has but one shape."""
+    if mode.shapes == 1:
+        return math.nan
     percent = 100 * difference
     return 0.0 if percent < ROUNDING else percent
 

@@ -12,6 +12,7 @@ from disc_model.errors import require
 from disc_model.figures.branch_family import NAME, NO_FURTHER, SPECIAL_MARKS, join_family, next_look
 from disc_model.figures.branch_lines import (
     FLOOR,
+    NARROW,
     STABLE,
     THIN,
     above_floor,
@@ -62,7 +63,8 @@ def plot_branch(
         stable = stable_segments(branch.refined_growth_rate())
         refined_x = branch.refined("values")[:, 0] * factor
         refined_values = _refined_upward(branch, y) * upward
-        draw_branch(axes, refined_x, above_floor(refined_values), stable, look)
+        thin = NARROW if y == "growth_rate" and not second else THIN
+        draw_branch(axes, refined_x, above_floor(refined_values), stable, look, thin=thin)
         # what lies between is not computed
         draw_dots(axes, x, above_floor(values), look)
         lowest = draw_at_floor(axes, x, look, np.isneginf(values))
@@ -71,7 +73,7 @@ def plot_branch(
         heights = axes.dataLim  # of all branches on the axes
         if y == "range" and not second and heights.y1 > WIDE * heights.minposy:
             axes.set_yscale("log")
-        looks = ((stable.any(), STABLE, "stable"), (not stable.all(), THIN, "unstable"))
+        looks = ((stable.any(), STABLE, "stable"), (not stable.all(), thin, "unstable"))
         handles = [
             sample(color=BLACK, linewidth=wide(width), label=text)
             for occurs, width, text in looks

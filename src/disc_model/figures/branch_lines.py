@@ -11,6 +11,7 @@ from disc_model.figures.words import BELOW_ANY
 
 STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
+NARROW = 0.4  # of those of growth rates: both sides of a narrow peak touch, and must not look thick
 DOT = 3.0  # points, size of the mark of a cycle computed
 # least distance of such marks along the branch, over the panel's diagonal: nearer ones would make a
 # thin line look like a thick one
@@ -48,13 +49,21 @@ class Look(NamedTuple):
 
 
 def draw_branch(
-    ax: Axes, x: Array, y: Array, stable: Mask, look: Look, factor: float = np.inf
+    ax: Axes,
+    x: Array,
+    y: Array,
+    stable: Mask,
+    look: Look,
+    factor: float = np.inf,
+    *,
+    thin: float = THIN,
 ) -> None:
     """Draw a line along a branch, with gaps where its height jumps by more than a factor.
 
     x, y : (n,), points; those behind the last one are nan
     stable : (n - 1,), whether the branch is stable, and its line thick, between each point and the
         next one
+    thin : width of the line of unstable motions, points
     """
     known = np.isfinite(x)
     x = x[known]
@@ -62,9 +71,9 @@ def draw_branch(
     stable = stable[known[1:]]
     height = np.log(y) if factor < np.inf else None
     if look.dashes:  # thin dashes would fill the gaps between thick ones
-        _draw_stretches(ax, x, y, ~stable, look.line(THIN))
+        _draw_stretches(ax, x, y, ~stable, look.line(thin))
     else:
-        ax.plot(*broken(x, y, np.log(factor), height), **look.line(THIN))
+        ax.plot(*broken(x, y, np.log(factor), height), **look.line(thin))
     _draw_stretches(ax, x, y, stable, {**look.line(STABLE), "solid_capstyle": "butt"})
 
 

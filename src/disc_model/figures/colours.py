@@ -24,6 +24,7 @@ from matplotlib.ticker import Formatter
 from disc_model.errors import require
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.drawing import parents_of_bar
+from disc_model.figures.least_span import equal_but_for_rounding
 from disc_model.figures.types import Array, Axes, FigureBase
 
 ROUNDING = 1e-9  # 1/s, growth rates of undamped modes by rounding
@@ -130,7 +131,7 @@ def colours_of(numbers: Array, array: xr.DataArray, wishes: ColourWishes = USUAL
         scale = _through_zero(usual, values, low, high)
     elif wishes.log:
         scale = _positive(usual, low, high, is_growth(array.name))
-    elif low == high:
+    elif wishes.limits is None and equal_but_for_rounding(low, high):
         scale = _constant(usual, low)
     beyond = (bool((values < low).any()), bool((values > high).any()))
     return replace(scale, cmap=_chosen(wishes, scale.cmap), open_ends=beyond)

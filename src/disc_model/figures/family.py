@@ -57,6 +57,7 @@ class Member:
     looks : its entries of the legend when it is alone
     special : those of its special points
     said : words for values of which names of parameters say nothing
+    selected : words for those at which a study was selected, which titles have as well
     """
 
     name: str
@@ -65,6 +66,7 @@ class Member:
     looks: list[Any] = field(default_factory=list)
     special: list[Any] = field(default_factory=list)
     said: Mapping[str, str] = field(default_factory=dict)
+    selected: Mapping[str, str] = field(default_factory=dict)
 
 
 def name_in(labels: Any, word: str) -> tuple[str, Any]:
@@ -118,18 +120,23 @@ def retitle(page: Page, family: Sequence[Member], first: str = "") -> None:
 
     first : what it says of the first alone, if this is more than its values
     """
-    page.case = what_case(_common_values(family))
+    page.case = _said_of_all(family)
     rewrite_case(page.ax, page.case)
     figure = page.figure
     width = float(figure.get_size_inches()[0])
     before = family[:-1]
-    said = what_case(_common_values(before))
+    said = _said_of_all(before)
     if first and len(before) == 1:
         said = first
     former = title_text(width, said)
     if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
         said = title_text(width, page.case)
         figure.suptitle(said, fontsize=large(8))
+
+
+def _said_of_all(family: Sequence[Member]) -> str:
+    """What a title says of all members."""
+    return what_case(_common_values(family), family[0].selected)
 
 
 def _common_values(family: Sequence[Member]) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from disc_model.figures.case_titles import write_case
 from disc_model.figures.drawing import large
 from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.labels import is_square, without_font
+from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import (
     figure_legend,
     keep_share,
@@ -194,6 +195,7 @@ def restate(page: Page, wishes: Wishes) -> None:
     elif not page.own:
         page.ax.set_title(str(wishes.title or ""))
     _relabel(page, wishes.labels or {})
+    keep_least_span(page.axes)
 
 
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:

@@ -32,6 +32,7 @@ from disc_model.figures import (
 from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind, Plot, table_of
 from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
+from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
 from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, of, picked
@@ -101,6 +102,7 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
                 _of_cases(plot, inputs) if isinstance(plot, CasePlot) else _of_grid(plot, inputs)
             )
             restate_axes(drawn.figure)
+            keep_least_span(drawn.figure.axes)
             width = drawn.figure.get_figwidth()
             text = head_text(width, plot.title or drawn.title, drawn.values, MOST_LINES)
             if text and not plot.caption:

@@ -1,6 +1,6 @@
 """Pictures of sweeps and of grid studies: lines along one dimension, colours over two."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal
 from weakref import ref
 
@@ -17,6 +17,7 @@ from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import set_limits
+from disc_model.figures.selected import selected_of
 from disc_model.figures.separating_share import (
     draw_interval,
     entries_of_interval,
@@ -33,6 +34,7 @@ from disc_model.figures.sweep_choice import (
 )
 from disc_model.figures.sweep_drawn import draw_each
 from disc_model.figures.sweep_lines import (
+    Lines,
     join_lines,
     lines_beside,
     lines_of,
@@ -82,14 +84,22 @@ def plot_sweep(  # noqa: PLR0913
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
     colours = ColourWishes(bool(log), cmap, limits, linear=log is False)
-    with page_for(wishes, COLUMN, 2.9, title=title_of(varying, drawn[0])) as page:
+    selected = selected_of(study, varying, drawn[0].variable)
+    with page_for(wishes, COLUMN, 2.9, title=title_of(varying, drawn[0], selected)) as page:
         for each in drawn:
-            _draw(page, varying, each, colours, called.get(each.variable, ""))
+            _draw(page, varying, each, colours, called.get(each.variable, ""), selected)
             page.remember()  # the next variable joins this one
     return page.ax
 
 
-def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, name: str) -> None:
+def _draw(
+    page: Page,
+    study: xr.Dataset,
+    drawn: Drawn,
+    wishes: ColourWishes,
+    name: str,
+    selected: Mapping[str, str],
+) -> None:
     """Draw bars of shares, lines, which have a name if the reader gives one, or a map."""
     label = label_in(study, drawn.variable)
     across = label_of(study[drawn.across])[0]
@@ -99,7 +109,8 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
         wishes.refuse(of_lines=True)
-        _draw_lines(page, study, drawn, wishes.log, name)
+        lines = _new_lines(study, drawn, name, selected)
+        _draw_lines(page, study, drawn, wishes.log, lines)
         if wishes.linear and page.ax.get_yscale() == "symlog":
             page.ax.set_yscale("linear")
         if wishes.limits is not None:
@@ -115,14 +126,20 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
             page.ax.locator_params(axis="y", integer=True)
 
 
-def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, name: str) -> None:
-    """Draw lines beside those of other variables of the same unit, and of other cases."""
-    others = lines_on(page.ax)
+def _new_lines(study: xr.Dataset, drawn: Drawn, name: str, selected: Mapping[str, str]) -> Lines:
+    """Lines that are not drawn yet, with all that may tell them from others."""
     labels = (label_of(study[drawn.across])[0], label_in(study, drawn.variable))
     options = options_of(study)
     lines = lines_of(study, drawn.variable, labels, name, {**options, **values_of(study)})
-    lines.shown.said = {**options, **said_of(study)}
+    lines.shown.said = {**options, **said_of(study), **selected}
+    lines.shown.selected = selected
     lines.options = {*options} | set_options(study)
+    return lines
+
+
+def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, lines: Lines) -> None:
+    """Draw lines beside those of other variables of the same unit, and of other cases."""
+    others = lines_on(page.ax)
     quantities = quantities_of(lines, others)
     page.show(quantities)
     lines.number = len(lines_beside(page.ax))

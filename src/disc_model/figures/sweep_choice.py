@@ -2,7 +2,7 @@
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -180,6 +180,8 @@ def _with_first_values(study: xr.Dataset) -> xr.Dataset:
     if name not in FIRST_OF_SEVERAL or name not in study:
         return study
     several = [dim for dim in study[name].dims if dim == f"{name}_index"]
+    if not several:  # a reader has selected one
+        return study
     first = study[name].isel(dict.fromkeys(several, 0))
     attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
     return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
@@ -344,10 +346,13 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
     return said
 
 
-def title_of(study: xr.Dataset, drawn: Drawn) -> str:
+def title_of(study: xr.Dataset, drawn: Drawn, selected: Mapping[str, str]) -> str:
     """What does not vary in a study, and of paired samples, what varies beside the column over which
-    they are drawn, and how many have no number there."""
-    said = [what_case({**values_of(study), **stays_in(study)})]
+    they are drawn, and how many have no number there.
+
+    selected : words for what was selected of the study
+    """
+    said = [what_case({**values_of(study), **stays_in(study)}, selected)]
     if drawn.sampled:
         said.append(_varies(_numbers_along(study, str(drawn.second))))
     else:

@@ -5,6 +5,7 @@ import re
 from collections.abc import Collection, Mapping
 from contextvars import ContextVar
 from textwrap import fill
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -439,6 +440,8 @@ def _as_value(study: xr.Dataset, number: float) -> float:
 
 def unit_text(units: str) -> str:
     """A unit of a dataset, such as ``kg m s-2``, as labels have it: ``kg m/s²``; "" for none."""
+    if units == "kg^-1/2":
+        return "1/√kg"
     above: list[str] = []
     below: list[str] = []
     for part in units.split():
@@ -571,15 +574,20 @@ def in_lines(name: str) -> str:
 # ---- Heads of figures
 
 
-def what_case(values: Mapping[str, Any]) -> str:
+def what_case(values: Mapping[str, Any], selected: Mapping[str, str] = MappingProxyType({})) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
     sweep, in words. What identifies a case comes first: its friction, and what tells its disc and slider
-    from others. How the disc is computed comes last, as a title may have no room for all."""
+    from others. How the disc is computed comes last, as a title may have no room for all.
+
+    selected : words for others of the values, by their names
+    """
     words = [
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
-    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION)), *words]
+    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION))]
+    said += [text for name, text in selected.items() if name in values]
+    said += words
     said += [_numbers_text(numbers, IDENTIFYING)]
     said += [_numbers_text(numbers, (*OF_DAMPING, *OF_CONTACT))]
     others = {*numbers} - {*ORDERED}

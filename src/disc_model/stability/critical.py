@@ -10,7 +10,7 @@ import numpy as np
 from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.display import Drawn, counted, html_table, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import raise_faults, violations, with_known_names
+from disc_model.errors import Fault, raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.continuation.problem import value_text
@@ -232,18 +232,24 @@ def critical(
     >>> sliding.crossings.round(2).tolist(), sliding.unstable_above.tolist()
     ([4.44], [False])
     """
-    ends = interval_in_si(name, bounds)
+    of_bounds: list[Fault] = []
+    ends = interval_in_si(name, bounds, of_bounds)
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     known = isinstance(kind, str) and kind in MOTIONS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (ends is not None, "bounds", bounds, "must be two ascending finite numbers"),
+        (
+            ends is not None or bool(of_bounds),
+            "bounds",
+            bounds,
+            "must be two ascending finite numbers",
+        ),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
         (known, "kind", kind, _rule_of_kind(kind)),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
-    raise_faults(foreign_case(case) or wrong + free_faults(case, [name]))
+    raise_faults(foreign_case(case) or of_bounds + wrong + free_faults(case, [name]))
     low, high = ends
     values = np.linspace(low, high, points).tolist()
     for value in values:

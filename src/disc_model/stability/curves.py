@@ -12,7 +12,7 @@ from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.display import Drawn, counted, html_table, number_text
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import ParameterError, raise_faults, violations, with_known_names
+from disc_model.errors import Fault, ParameterError, raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
@@ -169,15 +169,17 @@ def neutral_curves(
     raise_faults(foreign_case(case))
     # a curve ends where a shorter step would be needed, as where an event grazes
     steps = BORDER.replace(longest=longest, shortest=1e-5, max_points=max_points)
-    plane = _plane_in_si(bounds)
+    of_bounds: list[Fault] = []
+    plane = _plane_in_si(bounds, of_bounds)
     within = bool(plane) and all(ends is not None for ends in plane.values())
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     rule = "must be two ascending finite numbers, by the names of two parameters"
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (within, "bounds", bounds, rule),
+        (within or bool(of_bounds), "bounds", bounds, rule),
         (is_finite_array(lines), "lines", lines, "must be finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
     )
+    wrong += of_bounds
     if within and not wrong:
         low, high = list(plane.values())[1]
         beside = [line for line in lines if not low <= line <= high]
@@ -193,12 +195,12 @@ def neutral_curves(
     return NeutralCurves(case, plane, tuple(search.curves), tuple(search.failures))
 
 
-def _plane_in_si(bounds: Any) -> dict[Any, Any]:
+def _plane_in_si(bounds: Any, faults: list[Fault]) -> dict[Any, Any]:
     """Bounds of two parameters in SI units, by name, None for bounds that are not an interval;
-    empty unless there are two names."""
+    empty unless there are two names. Units of another kind are added to the faults."""
     if not isinstance(bounds, Mapping) or len(bounds) != 2:
         return {}
-    return {name: interval_in_si(name, ends) for name, ends in bounds.items()}
+    return {name: interval_in_si(name, ends, faults) for name, ends in bounds.items()}
 
 
 class _CurveSearch:

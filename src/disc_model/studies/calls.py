@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
+from disc_model.data.swept_branches import name_beside
 from disc_model.disc.plausibility import warn_of_doubts, warn_without_effect
 from disc_model.errors import (
     Fault,
@@ -90,18 +91,20 @@ class Call:
 
     def checked(self, result: Any, variables: Mapping[str, Any]) -> dict[str, Any]:
         """Return the variables of a result without arguments of the function whose names a
-        coordinate has; raises `ParameterError`, with the name of the function, if there are
-        none."""
+        coordinate has; those of branches get other names. Raises `ParameterError`, with the name of
+        the function, if there are none, or if one is something else than the argument."""
         if not variables:
             rule = f"returned {as_text(result)}, and {RETURNED}"
             raise ParameterError(Fault((self.title,), "", rule))
         kept = dict(variables)
         taken = {name for dimension in self.dimensions for name in dimension.coordinates}
         for name in taken & kept.keys():
-            if name not in self.arguments:
+            own = kept.pop(name)
+            if self.ours == "continue_cycle":
+                kept[name_beside(name)] = own
+            elif name not in self.arguments or {*own.dims} - {name}:
                 rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
                 raise ParameterError(Fault((self.title,), "", rule))
-            del kept[name]
         dims = taken | {dimension.name for dimension in self.dimensions}
         return {name: self._beside(variable, dims) for name, variable in kept.items()}
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -26,9 +27,12 @@ from disc_model.sources import versions_text
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, variables_of, with_cuts
+from disc_model.units import in_si, is_number
 
 ARGUMENTS = {"perturbation": "start", "horizons": "horizon"}
 """Arguments of functions for options of other names."""
+PRECISION = 0.1
+"""Width to which crossings are bisected unless another is asked for, rad/s."""
 OF_SCANS = {"start": "bounds", "stop": "bounds", "step": "step"}
 """Arguments of functions for the parts of an option `scan`."""
 IN_RULES = {"stop - start": "highest - lowest", "start=": "lowest=", "stop=": "highest="}
@@ -178,7 +182,7 @@ def critical_speed(  # noqa: PLR0913
     horizon: float | Sequence[float] = 1000.0,
     *,
     step: float = 1.0,
-    precision: float = 0.1,
+    precision: float | None = None,
     max_crossings: int = 12,
     early_end: bool = True,
     extrapolate: bool = True,
@@ -196,7 +200,8 @@ def critical_speed(  # noqa: PLR0913
     bounds : rad/s, the lowest and the highest speed
     horizon : s, or several, each with a critical speed of its own
     step : rad/s, of the scan
-    precision : rad/s, to which crossings are bisected; `step` must be a multiple
+    precision : rad/s, to which crossings are bisected; `step` must be a multiple; if left out, 0.1 or the next smaller
+        part of `step`
     max_crossings : largest number of crossings that are kept
     extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
         are compared with the horizon, but have no time
@@ -208,8 +213,9 @@ def critical_speed(  # noqa: PLR0913
     xarray.Dataset
         `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings by horizon; outcomes and
         first separations along the scan. Contact was lost at the critical speed, and kept at the next lower one
-        computed, which is lower by `precision`. The attribute `options` states precision, scan and horizons,
-        and `message` which horizons have no critical speed.
+        computed, which is lower by `precision`; where it was lost at the lowest speed already, `at_lower_bound` is
+        true. The attribute `options` states precision, scan and horizons, and `message` which horizons have no
+        critical speed, or one at the lower bound.
 
     Raises
     ------
@@ -226,29 +232,52 @@ def critical_speed(  # noqa: PLR0913
     options: dict[str, Any] = {
         "horizons": np.atleast_1d(horizon).tolist(),
         "scan": _scan(bounds, step),
-        "precision": precision,
+        "precision": _part_of(step) if precision is None else precision,
         "max_crossings": max_crossings,
         "early_end": early_end,
         "extrapolate": extrapolate,
         "tol": tol,
     }
     found = _quantity("critical_speed", case, options, progress=progress)
-    return _with_reason(found)
+    return _with_reason(_with_bound(found))
+
+
+def _part_of(step: Any) -> float:
+    """The usual precision of a scan in steps: of their whole parts the largest up to 0.1 rad/s."""
+    in_rad = in_si(step, "rad/s", [], ())
+    is_step = is_number(in_rad) and 0 < in_rad < math.inf
+    if not is_step:  # which is refused
+        return PRECISION
+    return float(in_rad / math.ceil(in_rad / PRECISION - 1e-9))
+
+
+def _with_bound(speeds: xr.Dataset) -> xr.Dataset:
+    """Results of a scan with whether each critical speed is the lowest one of the scan."""
+    lowest = float(speeds["scan_Omega"].min())
+    attrs = {"long_name": "whether contact is lost at the lowest speed already"}
+    at_bound = (speeds["critical_speed"] <= lowest).assign_attrs(attrs)
+    return speeds.assign(at_lower_bound=at_bound)
 
 
 def _with_reason(speeds: xr.Dataset) -> xr.Dataset:
-    """Results of a scan whose message says which horizons have no critical speed, unless it says
-    what went wrong."""
-    kept = speeds["horizon"].values[np.isnan(speeds["critical_speed"].values)]
-    if not kept.size or speeds.attrs["message"]:
+    """Results of a scan whose message says which horizons have no critical speed, or one at the lower
+    bound, unless it says what went wrong."""
+    if speeds.attrs["message"]:
         return speeds
     scan = speeds["scan_Omega"].values
-    horizons = ", ".join(f"{horizon:g}" for horizon in kept)
-    message = (
-        f"no separation within {horizons} s at {scan.size} speeds from {scan[0]:g} to"
-        f" {scan[-1]:g} rad/s"
-    )
-    return speeds.assign_attrs(message=message)
+    said = []
+    if horizons := _horizons_text(speeds, speeds["critical_speed"].isnull()):
+        speed = f"{scan.size} speeds from {scan[0]:g} to {scan[-1]:g} rad/s"
+        said.append(f"no separation within {horizons} s at {speed}")
+    if horizons := _horizons_text(speeds, speeds["at_lower_bound"]):
+        text = f"contact is already lost within {horizons} s at the lower bound, "
+        said.append(f"{text}{scan[0]:g} rad/s")
+    return speeds.assign_attrs(message="; ".join(said))
+
+
+def _horizons_text(speeds: xr.Dataset, chosen: xr.DataArray) -> str:
+    """The chosen ones of the horizons of a scan; "" of none."""
+    return ", ".join(f"{horizon:g}" for horizon in speeds["horizon"].values[chosen.values])
 
 
 @with_known_names

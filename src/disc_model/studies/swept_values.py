@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
+from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.case import SomeParameters
@@ -30,6 +31,11 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     model = _model_of(name)
     checked: list[Any] = []
     impossible: list[list[Fault]] = []
+    if column_of(name):
+        for row, value in enumerate(raw):
+            of_unit: list[Fault] = []
+            raw[row] = mode_number_in_si(name, value, of_unit)
+            faults += [_at_row(each, (*within, name), row, several=several) for each in of_unit]
     for row, value in enumerate(raw):
         try:
             checked.append(getattr(model(**{name: value}), name))

@@ -21,6 +21,7 @@ COLUMNS = {
     "damping_ratio": ("damping_ratio", 1.0),
     "circles": ("circles", 1.0),
     "tangential_per_sqrt_kg": ("tangential", 1.0),
+    "frequency_split": ("split", 1.0),
 }
 """Field of a `Disc` that each column of this package's tables gives, and the factor on its values;
 shapes have further columns."""
@@ -34,6 +35,11 @@ NAMES = {
     "amplitude": "amplitude normal_amplitude axial_amplitude",
     "tangential": "tangential tangential_amplitude",
     "damping_ratio": "damping_ratio damping modal_damping zeta xi loss_factor eta",
+    "split": "frequency_split split",
+    "q_factor": "q q_factor quality_factor",
+    "log_decrement": "log_decrement logarithmic_decrement log_dec",
+    "decay_rate": "decay_rate decay_constant",
+    "modal_mass": "modal_mass generalised_mass generalized_mass",
     "pole": "pole poles eigenvalue",
     "pole_real": "pole_real real_pole re_pole pole_re real_part eigenvalue_real",
     "pole_imag": "pole_imag imag_pole im_pole pole_im imaginary_part imag_part eigenvalue_imag",
@@ -42,13 +48,28 @@ NAMES = {
 QUANTITIES: dict[str, str] = {}
 for _name, _words in NAMES.items():
     QUANTITIES.update(dict.fromkeys(_words.split(), _name))
+OTHER_COLUMNS = (
+    "pole (rad/s)",
+    "loss_factor",
+    "q_factor",
+    "log_decrement",
+    "decay_rate (1/s)",
+    "modal_mass (kg)",
+    "shape_at_0.08_m",
+    "comment",
+)
+"""Examples of further columns, for messages."""
 LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
+
+POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 
 UNIT_NEEDED = {
     "omega": ("Hz, kHz or rad/s", "frequency_Hz or frequency (Hz)"),
     "pole": ("rad/s or Hz", "pole (rad/s)"),
     "pole_real": ("1/s, rad/s or Hz", "pole real (1/s)"),
     "pole_imag": ("rad/s or Hz", "pole imag (rad/s)"),
+    "decay_rate": ("1/s or rad/s", "decay_rate (1/s)"),
+    "modal_mass": ("kg", "modal_mass (kg)"),
     "amplitude": ("kg^-1/2", "amplitude_per_sqrt_kg or amplitude (kg^-1/2)"),
     "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
 }
@@ -58,6 +79,7 @@ _SHAPE_AT = re.compile(r"shape[ _]+at[ _]+(\d*\.?\d+(?:e-?\d+)?)[ _]*([a-zµμ]*
 _BRACKETS = re.compile(r"(.*?)\s*(?:\((.*)\)|\[(.*)\])")
 _WORD_IN = re.compile(r"(.*?)\s+in\s+(\S.*)")
 _ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?\.5)\)?")
+_CELL = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([%A-Za-zµ].*)")
 _PER_METRE = {"m": 1.0, "mm": 1e3, "cm": 1e2}
 
 
@@ -81,7 +103,7 @@ def read_head(text: str) -> Head:
         return _shape(text, match, unit)
     word, unit = _word(name, unit)
     if not word:
-        rule = f"unknown column{suggestion(text, [*COLUMNS])}"
+        rule = f"unknown column{suggestion(text, [*COLUMNS, *OTHER_COLUMNS])}"
         raise ParameterError(Fault.of(("columns",), text, rule))
     factor = _factor(text, QUANTITIES[word], unit)
     if word in LOSS_FACTORS:
@@ -99,6 +121,43 @@ def with_unit(text: str, unit: str) -> str:
         return text
     _, stated = _word(*_name_and_unit(text))
     return text if stated else f"{text} ({unit})"
+
+
+def with_units_of_cells(
+    names: list[str], body: list[list[str]]
+) -> tuple[list[str], list[list[str]]]:
+    """Heads with the units that all cells of their columns have, and cells without these."""
+    found = [*names]
+    cells = [[*row] for row in body]
+    for i, name in enumerate(names):
+        matches = [_CELL.fullmatch(row[i]) if i < len(row) else None for row in body]
+        units = {match[2] if match else "" for match in matches}
+        if len(units) != 1 or units == {""}:
+            continue
+        head = _with_unit_of_cells(name, units.pop())
+        if head:
+            found[i] = head
+            for row, match in zip(cells, matches, strict=True):
+                row[i] = match[1] if match else row[i]
+    return found, cells
+
+
+def _with_unit_of_cells(name: str, unit: str) -> str:
+    """The head of a column whose cells have a unit; "" if it states another one."""
+    stated = f"{name} ({unit})"
+    if not math.isnan(_known_factor(stated)):
+        return stated
+    word, _ = _word(*_name_and_unit(name))
+    is_same = word != "" and _known_factor(f"{word} ({unit})") == _known_factor(name)
+    return name if is_same else ""
+
+
+def _known_factor(text: str) -> float:
+    """The factor of a head to SI units; nan if the head is not known."""
+    try:
+        return read_head(text).factor
+    except ParameterError:
+        return math.nan
 
 
 def _name_and_unit(text: str) -> tuple[str, str]:
@@ -142,8 +201,10 @@ def _factor(text: str, quantity: str, unit: str) -> float:
         rule = f"must give its unit, {units}, as in {examples}"
         raise ParameterError(Fault.of(("columns",), text, rule))
     plain = unit.replace("_per_", "/").replace("per_", "1/").replace("sqrt_", "sqrt ")
-    if quantity in ("omega", "pole", "pole_real", "pole_imag"):
+    if quantity in ("omega", "decay_rate", *POLES):
         factor = _rate(plain, quantity)
+    elif quantity == "modal_mass":
+        factor = _converted(plain, "kg")
     elif quantity in ("amplitude", "tangential"):
         factor = _per_root_mass(plain)
     else:
@@ -157,7 +218,7 @@ def _factor(text: str, quantity: str, unit: str) -> float:
 def _rate(unit: str, quantity: str) -> float:
     """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s."""
     known = {"hz": math.tau, "khz": 1e3 * math.tau, "rad/s": 1.0}
-    if quantity == "pole_real":
+    if quantity in ("pole_real", "decay_rate"):
         known["1/s"] = 1.0
     if unit.lower() in known:
         return known[unit.lower()]
@@ -182,7 +243,7 @@ def _share(unit: str, quantity: str) -> float:
     """Factor to a ratio or a count without unit; nan for other units."""
     if unit in ("", "-", "1"):
         share = 1.0
-    elif unit in ("%", "percent", "per cent") and quantity == "damping_ratio":
+    elif unit in ("%", "percent", "per cent") and quantity in ("damping_ratio", "split"):
         share = 0.01
     else:
         share = math.nan

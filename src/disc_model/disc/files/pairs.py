@@ -87,11 +87,17 @@ def mean_of(groups: Halves, values: Mapping[str, Any]) -> dict[str, Any]:
     return means
 
 
-def origins_of(groups: Halves, values: Mapping[str, Any]) -> tuple[ModeOrigin, ...]:
-    """What each mode of a disc was made of."""
+def origins_of(
+    groups: Halves, values: Mapping[str, Any], splits: Sequence[float] = ()
+) -> tuple[ModeOrigin, ...]:
+    """What each mode of a disc was made of; `splits`: of rows that are pairs, if a table states
+    them."""
     origins = []
     for group in groups:
         frequencies = [values["omega"][i] for i in group]
+        if splits and len(group) == 1 and splits[group[0]] > 0:
+            half = splits[group[0]] / 2
+            frequencies = [frequencies[0] * (1 - half), frequencies[0] * (1 + half)]
         damping_split = math.nan
         if "damping_ratio" in values:
             damping_split = relative_difference([values["damping_ratio"][i] for i in group])
@@ -99,7 +105,7 @@ def origins_of(groups: Halves, values: Mapping[str, Any]) -> tuple[ModeOrigin, .
             diameters=int(values["diameters"][group[0]]),
             lower=min(frequencies),
             upper=max(frequencies),
-            shapes=len(group),
+            shapes=len(frequencies),
             amplitude_split=relative_difference([abs(values["amplitude"][i]) for i in group]),
             damping_split=damping_split,
         )

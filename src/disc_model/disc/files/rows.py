@@ -51,6 +51,10 @@ def _with_points(rows: list[list[str]]) -> list[list[str]]:
     cells = [*chain.from_iterable(rows)]
     with_comma = [cell for cell in cells if re.search(r",\d", cell)]
     with_point = [cell for cell in cells if re.search(r"\.\d", cell)]
+    with_both = [cell for cell in with_comma if cell in with_point]
+    if with_both:
+        rule = f"must have commas or points for decimals, and nothing for thousands: not {with_both[0]}"
+        raise ParameterError(Fault((), "", rule))
     if with_comma and with_point:
         rule = "all numbers must have commas, or all must have points, for decimals: not "
         raise ParameterError(Fault((), "", f"{rule}{with_comma[0]} and {with_point[0]}"))

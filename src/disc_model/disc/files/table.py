@@ -4,15 +4,22 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
-from disc_model.disc.files.heads import COLUMNS, Head, read_head, with_unit
+from disc_model.disc.files.heads import (
+    COLUMNS,
+    POLES,
+    Head,
+    read_head,
+    with_unit,
+    with_units_of_cells,
+)
 from disc_model.disc.files.pairs import Halves, check_halves, halves_in, mean_of, origins_of
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
-from disc_model.disc.given import DiscReport, doubts_of_halves
+from disc_model.disc.given import SAME_PAIR, DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import Disc
 
@@ -30,9 +37,12 @@ WRITTEN = (
     "tangential_per_sqrt_kg",
 )
 """Columns of `table_text`, in this order, before those of shapes."""
+SPLIT = "frequency_split"
+"""Column of a table with the relative difference of the frequencies of each pair, which is in the report."""
+IGNORED = ("name", "mode_name", "comment", "comments", "remark", "remarks", "description", "note")
+"""Heads of columns that are for readers, in lower case with "_" between words."""
 LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
 """Heads of a first column that only labels modes, in lower case with "_" between words."""
-POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 READ_AS = {
     "diameters": ("nodal diameters", 1.0, ""),
     "circles": ("nodal circles", 1.0, ""),
@@ -42,11 +52,20 @@ READ_AS = {
     "damping_ratio": ("damping ratio", 1.0, ""),
 }
 """Words for fields of a `Disc`, factors from their SI units to those of a report, and these."""
-FIELDS_OF_POLES = {
+DAMPING: dict[str, Callable[[float, float], float]] = {
+    "q_factor": lambda q, _: 1 / (2 * q),
+    "log_decrement": lambda decrement, _: decrement / math.hypot(math.tau, decrement),
+    "decay_rate": lambda rate, omega: rate / omega,
+}
+"""The damping ratio from what stands for it, and the natural frequency, rad/s."""
+FIELDS_OF = {
     "pole": ("omega", "damping_ratio"),
     "pole_real": ("damping_ratio",),
     "pole_imag": ("omega",),
+    "modal_mass": ("amplitude",),
+    **dict.fromkeys(DAMPING, ("damping_ratio",)),
 }
+"""Fields of a `Disc` that other quantities stand for."""
 
 
 class Column(NamedTuple):
@@ -84,6 +103,8 @@ def table_text(disc: Disc) -> str:
         values = getattr(disc, COLUMNS[name][0])
         if values:
             columns[name] = values
+    if disc.report is not None and any(disc.report.split):
+        columns[SPLIT] = disc.report.split
     for i, radius in enumerate(disc.radii):
         columns[f"shape_at_{radius}_m"] = [shape[i] for shape in disc.shapes]
     lines = [",".join(columns)]
@@ -102,6 +123,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     static = stated_compliance(lines)
     columns = _columns(rows_of([line for line in lines if not line.lstrip().startswith("#")]))
     values = _values(columns)
+    splits = _stated_splits(values, columns)
     values["static_compliance"] = static
     halves: Halves = [[i] for i in range(len(columns[0].cells))]
     fields = values
@@ -115,7 +137,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
         faults = (_of_table(fault, columns, halves) for fault in error.faults)
         raise ParameterError(*faults) from None
     check_compliance(disc)
-    origins = origins_of(halves, values)
+    origins = origins_of(halves, values, splits)
     notes = tuple(_notes(columns, disc))
     doubts = tuple(doubts_of_halves(origins))
     return disc.with_report(DiscReport(source, origins, notes=notes, doubts=doubts))
@@ -131,7 +153,10 @@ def _notes(columns: list[Column], disc: Disc) -> Iterator[str]:
         if head.quantity == "shape":
             yield f"{head.text!r} as shape at {head.radius:g} m"
             continue
-        for field in FIELDS_OF_POLES.get(head.quantity, (head.quantity,)):
+        if head.quantity == "split":
+            yield f"{head.text!r} as split of frequencies"
+            continue
+        for field in FIELDS_OF.get(head.quantity, (head.quantity,)):
             yield f"{head.text!r} as {_range(disc, field)}"
     if not any(disc.damping_ratio):
         yield "no damping"
@@ -153,9 +178,10 @@ def _range(disc: Disc, field: str) -> str:
 
 def _columns(rows: list[list[str]]) -> list[Column]:
     """The columns of a table, checked as a whole."""
-    names, *body = _without_labels(rows) or [[]]
+    names, *body = _without_remarks(_without_labels(rows)) or [[]]
     if body and _is_of_units(body[0], names):
         names = [*map(with_unit, names, body.pop(0))]
+    names, body = with_units_of_cells(names, body)
     heads, faults = _heads(names)
     raise_faults(faults or _faults_together(heads))
     rule = f"values: must be as many as columns, {len(names)}"
@@ -166,6 +192,14 @@ def _columns(rows: list[list[str]]) -> list[Column]:
     raise_faults(uneven[:3])
     cells = zip(*body, strict=True) if body else [()] * len(heads)
     return [Column(head, column) for head, column in zip(heads, cells, strict=True)]
+
+
+def _without_remarks(rows: list[list[str]]) -> list[list[str]]:
+    """The rows without columns that are for readers."""
+    if not rows:
+        return rows
+    kept = [i for i, name in enumerate(rows[0]) if joined(name).rstrip(".") not in IGNORED]
+    return [[cell for i, cell in enumerate(row) if i in kept or i >= len(rows[0])] for row in rows]
 
 
 def _is_of_units(row: list[str], names: list[str]) -> bool:
@@ -199,7 +233,9 @@ def _faults_together(heads: list[Head]) -> list[Fault]:
     """Faults of heads that are right by themselves: one that is missing, or says again what another
     one says."""
     quantities = [head.quantity for head in heads if head.quantity != "shape"]
-    needed = ["diameters", "amplitude"]
+    needed = ["diameters"]
+    if "modal_mass" not in quantities:
+        needed.append("amplitude")
     if not ("pole" in quantities or {"pole_real", "pole_imag"} <= {*quantities}):
         needed.append("omega")
     faults = []
@@ -207,7 +243,10 @@ def _faults_together(heads: list[Head]) -> list[Fault]:
         count = quantities.count(quantity)
         if count != 1:
             faults.append(_wrong_count(quantity, count))
-    for one, other in itertools.product(POLES, ("omega", "damping_ratio")):
+    same = [*itertools.product(POLES, ("omega", "damping_ratio", *DAMPING))]
+    same += itertools.combinations(("damping_ratio", *DAMPING), 2)
+    same.append(("modal_mass", "amplitude"))
+    for one, other in same:
         if one in quantities and other in quantities:
             rule = f"must not have both {one} and {other}, which say the same"
             faults.append(Fault(("columns",), "", rule))
@@ -237,7 +276,41 @@ def _values(columns: list[Column]) -> dict[str, Any]:
         values["shapes"] = [*zip(*(column.numbers for column in shapes), strict=True)]
     if any(name in values for name in POLES):
         _replace_poles(values, columns)
+    _replace_others(values)
     return values
+
+
+def _replace_others(values: dict[str, Any]) -> None:
+    """Put damping ratios and amplitudes in the place of what stands for them; raises
+    `ParameterError` for cells that are no positive numbers."""
+    for name in ("modal_mass", *DAMPING):
+        for i, value in enumerate(values.get(name, [])):
+            is_positive = isinstance(value, float) and 0 < value < math.inf
+            require((is_positive, name, value, f"must be a number > 0 (mode {i + 1})"))
+    for name, ratio_of in DAMPING.items():
+        if name in values:
+            pairs = zip(values.pop(name), values["omega"], strict=True)
+            values["damping_ratio"] = [_or_nan(ratio_of, *pair) for pair in pairs]
+    if "modal_mass" in values:
+        values["amplitude"] = [1 / math.sqrt(mass) for mass in values.pop("modal_mass")]
+
+
+def _or_nan(ratio_of: Callable[[float, float], float], value: float, omega: Any) -> float:
+    """A damping ratio, nan beside a natural frequency that is no positive number, which is
+    refused."""
+    is_positive = isinstance(omega, float) and omega > 0
+    return ratio_of(value, omega) if is_positive else math.nan
+
+
+def _stated_splits(values: dict[str, Any], columns: list[Column]) -> list[float]:
+    """The splits of pairs that a table states, taken out of its values; none if there are none."""
+    splits = values.pop("split", [])
+    for i, split in enumerate(splits):
+        is_split = isinstance(split, float) and 0 <= split < 2 * SAME_PAIR
+        head = next(column.head.text for column in columns if column.head.quantity == "split")
+        rule = f"must be a number from 0 to {2 * SAME_PAIR:g} (mode {i + 1})"
+        require((is_split, head, split, rule))
+    return splits
 
 
 def _replace_poles(values: dict[str, Any], columns: list[Column]) -> None:

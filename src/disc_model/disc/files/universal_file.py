@@ -8,7 +8,14 @@ from pathlib import Path
 
 from disc_model.disc.files.harmonics import grouped, origin_of
 from disc_model.disc.files.place import Place
-from disc_model.disc.files.universal_doubts import far_face, few_nodes, notes_on, single_halves
+from disc_model.disc.files.universal_doubts import (
+    far_face,
+    few_nodes,
+    more_than_a_pair,
+    notes_on,
+    single_halves,
+    turned_halves,
+)
 from disc_model.disc.files.universal_geometry import read_units
 from disc_model.disc.files.universal_modes import (
     FileMode,
@@ -29,6 +36,8 @@ from disc_model.disc.files.universal_waves import (
 from disc_model.disc.given import DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc
+
+FUNCTIONS = (58, 1858)  # numbers of datasets with measured functions at nodes and their properties
 
 
 def read_uff(path: str | os.PathLike[str], place: Place) -> Disc:
@@ -63,6 +72,8 @@ def _disc(sets: list[DataSet], place: Place, name: str) -> Disc:
     groups = grouped(waves)
     doubts += few_nodes(waves, placed.circle, unresolved)
     doubts += single_halves(groups)
+    doubts += turned_halves(groups)
+    doubts += more_than_a_pair(waves)
     doubts += far_face(waves, placed.circle)
 
     origins = tuple(origin_of(group) for group in groups)
@@ -91,6 +102,11 @@ def _in_radians(modes: list[FileMode], name: str) -> tuple[list[FileMode], list[
 def _nothing(rule: str, sets: Iterable[DataSet], left_out: Mapping[str, int]) -> ParameterError:
     """The error that a file does not hold what a disc needs, but other things."""
     text = f"{rule}. {contents_of(sets)}"
+    if any(data.number in FUNCTIONS for data in sets):
+        text += (
+            "; dataset 58 has measured functions, such as frequency responses, and is not read: "
+        )
+        text += "modes are found from them by modal analysis"
     if left_out:
         others = ", ".join(f"{count} x {reason}" for reason, count in left_out.items())
         text += f"; left out: {others}"

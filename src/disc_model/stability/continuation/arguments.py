@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
-from disc_model.units import in_si
+from disc_model.units import in_si, is_number, is_quantity, number
 
 UNSET = ("damping_ratio",)  # numbers that are None in a case without them
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
@@ -40,12 +41,38 @@ def values_in_si(
 ) -> Any:
     """Values of a parameter in SI units, from texts with units too. Units of another kind are added
     to the faults of the argument."""
-    unit = Parameters.unit(name) if isinstance(name, str) else ""
     found = list[Fault]()
-    converted = in_si(values, unit, found, ())
+    if column_of(name):
+        converted = values
+        if isinstance(values, list | tuple):
+            converted = [mode_number_in_si(name, value, found) for value in values]
+    else:
+        unit = Parameters.unit(name) if isinstance(name, str) else ""
+        converted = _numbers(in_si(values, unit, found, ()))
     if faults is not None:
         faults += [Fault((argument,), each.value, each.rule) for each in found]
     return converted
+
+
+def _numbers(values: Any) -> Any:
+    """Values in which texts that are numbers, such as "0.3", are these."""
+    if not isinstance(values, list | tuple):
+        return values
+    found = []
+    for value in values:
+        try:
+            found.append(number(value) if isinstance(value, str) else value)
+        except ValueError:
+            return values
+    return found
+
+
+def several(values: Any) -> Any:
+    """Values as a list, of which a single one may be given alone; as they are if they are neither."""
+    if isinstance(values, str) or is_number(values) or is_quantity(values):
+        return [values]
+    is_list = isinstance(values, Sequence | np.ndarray) and np.ndim(values) > 0
+    return list(values) if is_list else values
 
 
 def read_values(
@@ -59,13 +86,14 @@ def read_values(
     of_bounds = list[Fault]()
     of_values = list[Fault]()
     span = interval_in_si(name, bounds, of_bounds)
-    listed = isinstance(values, Sequence | np.ndarray)
-    wanted: Any = values_in_si(name, list(values), of_values) if listed else None
+    values = several(values)
+    listed = isinstance(values, list)
+    wanted: Any = values_in_si(name, values, of_values) if listed else None
     ascend = span is not None or bool(of_bounds)
     numbers = wanted == [] or is_finite_array(wanted) or bool(of_values)
     faults = violations(
         (ascend, "bounds", bounds, "must be two ascending finite numbers"),
-        (numbers, "values", values, "must be a list of finite numbers"),
+        (numbers, "values", values, "must be a finite number, or a list of these"),
     )
     faults += [*of_bounds, *of_values, *wrong]
     raise_faults(foreign_case(case) or faults + free_faults(case, [name]))

@@ -27,7 +27,9 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
-_MULTIPLE = "the scan's step must be a multiple of precision={0.precision:g}"
+_MULTIPLE = (
+    "the scan's step of {0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s"
+)
 KINDS = ("none", "begins", "ends")
 _each = along("horizon")
 _crossing = along("horizon", "crossing_number")
@@ -59,9 +61,14 @@ class CriticalSpeed(Quantity):
     )
 
     @property
+    def step(self) -> float:
+        """The scan's step, rad/s."""
+        return (self.scan.stop - self.scan.start) / self.scan.intervals
+
+    @property
     def ratio(self) -> float:
         """The scan's step as a multiple of the precision."""
-        return (self.scan.stop - self.scan.start) / self.scan.intervals / self.precision
+        return self.step / self.precision
 
     @property
     def starts(self) -> int:

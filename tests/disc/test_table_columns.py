@@ -1,0 +1,111 @@
+"""Columns of tables of modes beside those of the package: splits, remarks, damping by other names, and
+cells with units."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import disc_model as dm
+from tests.disc.test_uff import MODES, R_0
+from tests.disc.universal import Dialect, halves
+from tests.refusals import refusal
+
+HEADS = "diameters,frequency_Hz,amplitude_per_sqrt_kg"
+
+
+def table(path: Path, *lines: str) -> dm.Disc:
+    """The disc of a table of some lines."""
+    file = path / "disc.csv"
+    file.write_text("\n".join([*lines, ""]))
+    return dm.Disc.from_csv(file)
+
+
+def test_splits_are_kept_in_a_table(tmp_path: Path) -> None:
+    """Both halves of pairs are in the report alone."""
+    file = Dialect().write(tmp_path / "modes.unv", halves(MODES, split=0.004))
+    disc = dm.Disc.from_uff(file, R_0)
+    disc.to_csv(tmp_path / "disc.csv")
+    again = dm.Disc.from_csv(tmp_path / "disc.csv")
+    assert again == disc
+    assert again.report is not None
+    assert disc.report is not None
+    np.testing.assert_allclose(again.report.split, disc.report.split, rtol=1e-9)
+    pad = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "c_p": 50, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35}
+    case = dm.Parameters(N=8000, Omega=80, friction_offset="surface", disc=disc, **pad)
+    found = dm.split_growth(case.replace(disc=again)).growth_rate
+    assert found == pytest.approx(dm.split_growth(case).growth_rate, rel=1e-6)
+    with refusal("frequency_split='much': must be a number from 0 to 0.1"):
+        table(tmp_path, f"{HEADS},frequency_split", "2,1212,0.54,much")
+
+
+def test_an_unpaired_mode_has_no_split_in_the_report(tmp_path: Path) -> None:
+    file = Dialect().write(tmp_path / "modes.unv", halves(MODES))
+    report = dm.Disc.from_uff(file, R_0).report
+    assert report is not None
+    line = next(line for line in str(report).splitlines() if line.split()[0] == "0")
+    assert line.split()[3:6] == ["-", "-", "-"]
+    assert math.isnan(report.table["split (%)"][1])
+
+
+@pytest.mark.parametrize("head", ["comment", "Name", "Remarks"])
+def test_columns_for_readers_are_passed_over(head: str, tmp_path: Path) -> None:
+    disc = table(tmp_path, f"{head},{HEADS}", "first,2,1212,0.54", "second,0,929,0.43")
+    assert disc.amplitude == (0.54, 0.43)
+
+
+@pytest.mark.parametrize(
+    ("head", "cell", "ratio"),
+    [
+        ("Q factor", "250", 0.002),
+        ("decay rate (1/s)", "15.2304", 15.2304 / (math.tau * 1212)),
+        ("logarithmic decrement", "0.01", 0.01 / math.hypot(math.tau, 0.01)),
+        ("damping", "0.1%", 1e-3),
+        ("damping_ratio", "0.1 %", 1e-3),
+        ("damping in %", "0.1 %", 1e-3),
+        ("loss factor", "0.2 %", 1e-3),
+    ],
+)
+def test_damping_is_known_by_other_names(
+    head: str, cell: str, ratio: float, tmp_path: Path
+) -> None:
+    disc = table(tmp_path, f"{HEADS},{head}", f"2,1212,0.54,{cell}")
+    assert disc.damping_ratio == pytest.approx([ratio])
+
+
+@pytest.mark.parametrize("head", ["frequency", "frequency_Hz", "frequency (Hz)"])
+def test_cells_may_have_units(head: str, tmp_path: Path) -> None:
+    heads = f"diameters,{head},modal mass"
+    disc = table(tmp_path, heads, "2,1212 Hz,4 kg", "0,929 Hz,1 kg")
+    assert disc.omega == pytest.approx([math.tau * 1212, math.tau * 929])
+    assert disc.amplitude == (0.5, 1.0)
+
+
+def test_cells_of_another_unit_than_the_head_are_refused(tmp_path: Path) -> None:
+    with refusal("frequency_Hz='1.2 kHz': must be a number"):
+        table(tmp_path, HEADS, "2,1.2 kHz,0.54")
+
+
+def test_damping_said_twice_is_refused(tmp_path: Path) -> None:
+    with refusal("must not have both damping_ratio and q_factor"):
+        table(tmp_path, f"{HEADS},damping,Q", "2,1212,0.54,0.001,500")
+
+
+def test_a_zero_quality_factor_is_refused(tmp_path: Path) -> None:
+    with refusal(r"q_factor=0.*: must be a number > 0 \(mode 1\)"):
+        table(tmp_path, f"{HEADS},Q", "2,1212,0.54,0")
+
+
+def test_known_columns_are_all_named(tmp_path: Path) -> None:
+    for name in ("pole", "loss_factor", "shape_at_0.08_m", "q_factor", "comment"):
+        with refusal(f"colour.*{name}"):
+            table(tmp_path, f"{HEADS},colour", "2,1212,0.54,red")
+
+
+def test_a_cell_with_points_and_commas_is_named_once(tmp_path: Path) -> None:
+    heads = HEADS.replace(",", ";")
+    with refusal(
+        "must have commas or points for decimals, and nothing for thousands: not 1.210,5$"
+    ):
+        table(tmp_path, heads, "2;1.210,5;0,54")
