@@ -24,6 +24,7 @@ MOST_MODES = 1000  # largest number of modes in the table of a disc
 FREQUENCIES = (1e-3, 1e7)
 # of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 AMPLITUDES = (1e-6, 1e6)
+UNCERTAIN = ("omega", "amplitude", "damping_ratio", "tangential")  # columns of numbers of modes
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
     "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
@@ -201,20 +202,25 @@ class Disc(DiscFiles, Strict):
     @property
     def numbers(self) -> dict[str, float]:
         """Numbers of the modes that may be uncertain, by names such as omega_2_0: two nodal
-        diameters, no circle."""
+        diameters, no circle. A mode without nodal diameters does not move along the path."""
         numbers: dict[str, float] = {}
-        for column in ("omega", "amplitude", "damping_ratio"):
-            modes = zip(self.diameters, self.circles, getattr(self, column), strict=True)
-            numbers |= {f"{column}_{l}_{c}": value for l, c, value in modes}
+        for column in UNCERTAIN:
+            for i, value in enumerate(getattr(self, column)):
+                if column != "tangential" or self.diameters[i]:
+                    numbers[self._name_of(column, i)] = value
         return numbers
+
+    def _name_of(self, column: str, i: int) -> str:
+        """Return the name of the number of a mode, such as omega_2_0."""
+        return f"{column}_{self.diameters[i]}_{self.circles[i]}"
 
     def with_numbers(self, **changes: float) -> Disc:
         """The disc with some of its `numbers` changed."""
-        values = [*(self.numbers | changes).values()]
-        n = len(self.omega)
-        return self.replace(
-            omega=values[:n], amplitude=values[n : 2 * n], damping_ratio=values[2 * n : 3 * n]
-        )
+        columns: dict[str, list[float]] = {}
+        for column in UNCERTAIN:
+            given = enumerate(getattr(self, column))
+            columns[column] = [changes.get(self._name_of(column, i), value) for i, value in given]
+        return self.replace(**columns)
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""

@@ -312,7 +312,7 @@ class Parameters(Strict):
     @property
     def numbers(self) -> dict[str, float]:
         """All numbers of the case that may change continuously, by name: parameters, ratios and
-        `Disc.numbers`."""
+        `Disc.numbers`, tangential ones where friction acts on the surface."""
         unused: set[str] = set()
         if self.damping_ratio is not None:
             unused = {"D_star"}
@@ -332,7 +332,9 @@ class Parameters(Strict):
                 ratios[name] = numbers[upper] / numbers[lower]
         numbers |= ratios
         if self.disc is not None:
-            numbers |= self.disc.numbers
+            for name, value in self.disc.numbers.items():
+                if self.friction_offset == SURFACE or not name.startswith("tangential"):
+                    numbers[name] = value
         return numbers
 
     @property

@@ -112,7 +112,10 @@ def _plain_unit(text: str) -> str:
 
 def _converted(magnitude: float, text: str, unit: str) -> float:
     """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
-    or of Python's tokenizer, which have no common base."""
+    or of Python's tokenizer, which have no common base. The same unit may have a root, such as that of
+    amplitudes, kg^-1/2."""
+    if text.strip() == unit:
+        return magnitude
     text = _plain_unit(text)
     target = "" if unit == "1" else unit
     if not _UNIT.fullmatch(text):

@@ -28,7 +28,14 @@ def made_up(**changes: Any) -> Any:
     computed = np.array([220.0, -58.0, 0.25])
     fit = {"measurements": measurements, "computed": computed, "chi_squared": 41.25}
     fit |= {"parameters": {"mu_s": FRICTION, "k_p": STIFFNESS}, "limits": {}, "at_bounds": {}}
-    fit |= {"doubt": "", "gap": None, "converged": True, "misses": False, "confidence": 0.95}
+    fit |= {
+        "doubt": "",
+        "gap": None,
+        "converged": True,
+        "misses": False,
+        "is_wrong": False,
+        "confidence": 0.95,
+    }
     fit |= {"indistinct": (), "determined": {}, "unpredicted": {}}
     fit |= {"freedom": 1, "deviations": np.array([5.0, -4.0, 0.5])}
     return SimpleNamespace(**{**fit, **changes})
@@ -151,6 +158,14 @@ def test_rows_name_measurements_by_words_symbols_and_units(
         (
             {"doubt": "not converged", "converged": False, "at_bounds": {"k_p": 19000.7}},
             "$μ_s$ = 0.42, $k_p$ = 19 kN/m at its bound, the search has not converged",
+        ),
+        (
+            {"doubt": "wrong", "misses": True},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, model or uncertainties may be wrong",
+        ),
+        (
+            {"doubt": "wrong", "misses": True, "is_wrong": True},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, model or uncertainties are wrong",
         ),
         (
             {"determined": {"mu_s * k_p^2": Combined(400.0, 3.0, "in SI units")}, "doubt": "doubt"},

@@ -759,7 +759,6 @@ def test_a_fit_at_a_bound_shows_what_it_says() -> None:
     pyplot.close("all")
 
 
-@pytest.mark.compiled
 def damping(case: dm.Parameters) -> float:
     """A quantity that is a parameter, so that limits are known in closed form."""
     return case.c_p

@@ -253,6 +253,7 @@ _OF_A_MODE = {
     "omega": OfMode("ω", "rad/s", Variable("rad s-1", "natural frequency")),
     "amplitude": OfMode("Ψ", "1/√kg", Variable("kg^-1/2", "amplitude")),
     "damping_ratio": OfMode("ζ", "", Variable("1", "damping ratio")),
+    "tangential": OfMode("t", "kg^-1/2", Variable("kg^-1/2", "tangential amplitude")),
 }
 
 

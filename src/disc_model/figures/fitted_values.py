@@ -81,7 +81,8 @@ def _doubts(fit: Fit) -> Iterator[str]:
     if not fit.converged:
         yield "the search has not converged"
     if fit.converged and fit.misses:
-        yield "model or uncertainties may be wrong"
+        certainty = "are" if fit.is_wrong else "may be"
+        yield f"model or uncertainties {certainty} wrong"
     if fit.indistinct:
         symbols = [_symbol(name) for name in fit.indistinct]
         apart = " apart" if len(symbols) > 1 else ""

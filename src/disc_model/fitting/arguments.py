@@ -10,7 +10,7 @@ from disc_model.fitting.measured import Measurement, is_finite, measurements_of
 from disc_model.fitting.prediction import unit_of_parameter
 from disc_model.fitting.table import in_row, is_table, measurements_in
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import in_si, is_number
+from disc_model.units import in_si, is_number, number
 
 Interval = tuple[float, float]
 
@@ -46,8 +46,12 @@ def _vary_faults(p: Parameters, vary: object) -> list[str]:
         rule = "must be a list of names of parameters"
         return [Fault.of(("vary",), vary, rule)]
     faults: list[str] = []
+    of_disc = p.disc.numbers if p.disc is not None else {}
     for i, name in enumerate(vary):
-        if not isinstance(name, str) or name not in p.numbers:
+        if isinstance(name, str) and name in of_disc and name not in p.numbers:
+            rule = "acts only where friction does on the surface: friction_offset must be 'surface'"
+            faults.append(Fault.of(("vary", str(i)), name, rule))
+        elif not isinstance(name, str) or name not in p.numbers:
             rule = "is no number of this case" + suggestion(name, list(p.numbers))
             faults.append(Fault.of(("vary", str(i)), name, rule))
         elif name in vary[:i]:
@@ -89,7 +93,11 @@ def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[s
             faults.append(Fault.of(path, pair, "must be of a parameter that is varied"))
             continue
         value = p.numbers[name]
-        ends = in_si(pair, unit_of_parameter(name), [], path)
+        of_units: list[Fault] = []
+        ends = _ends_in_si(name, pair, of_units)
+        if of_units:
+            faults += of_units
+            continue
         good = isinstance(ends, tuple | list) and len(ends) == 2 and all(map(is_finite, ends))
         if not (good and ends[0] < ends[1] and ends[0] <= value <= ends[1]):
             rule = f"must be two ascending values around the start, {value:.6g}"
@@ -106,6 +114,25 @@ def limits_in_si(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> 
     found = {}
     for name in vary:
         if name in bounds:
-            low, high = in_si(bounds[name], unit_of_parameter(name), [], ("bounds", name))
+            low, high = _ends_in_si(name, bounds[name], [])
             found[name] = (float(low), float(high))
+    return found
+
+
+def _ends_in_si(name: str, pair: Any, faults: list[Fault]) -> Any:
+    """Return the bounds of a parameter with texts as numbers in its unit; texts that are none, or have
+    a unit of another kind, become faults."""
+    path = ("bounds", name)
+    unit = unit_of_parameter(name) or "1"
+    ends = in_si(pair, unit, faults, path)
+    if not isinstance(ends, tuple | list):
+        return ends
+    found = []
+    for i, end in enumerate(ends):
+        try:
+            found.append(number(end) if isinstance(end, str) else end)
+        except ValueError as error:
+            if not faults:
+                faults.append(Fault.of((*path, str(i)), end, str(error)))
+            found.append(end)
     return found

@@ -12,6 +12,7 @@ from disc_model.arrays import Array, Mask
 from disc_model.errors import Fault, ParameterError
 from disc_model.fitting.combinations import combinations_of
 from disc_model.fitting.problem import Problem
+from disc_model.fitting.result import is_unlikely
 
 SINGULAR = 1e-7
 """Least ratio of singular values of a Jacobian with columns of length 1; below it, differences no
@@ -20,7 +21,10 @@ ROUNDING = 1e-12
 """Effect of a parameter over that of the one with the largest, up to which it has none."""
 PARABOLA = (0.3, 3.0)
 """Increase of chi squared over a standard deviation of the least known combination of parameters,
-which is 1 where predictions are linear; beyond these, intervals would mislead."""
+which is 1 where predictions are linear; below the first, intervals would mislead."""
+FARTHER = (2.0, 4.0)
+"""Standard deviations away at which chi squared must still rise where it does not rise as a parabola: it
+may fall again beyond a peak."""
 WEAK = 0.3
 """Part of a parameter in that combination from which it belongs to it, of 1 in all."""
 TANGLED = 30.0
@@ -110,7 +114,7 @@ def indistinct_names(
 
     # what is known least at the end
     direction = at_end.directions[-1]
-    if _is_parabola(problem, search, direction / at_end.sizes[-1], deviations):
+    if _rises(problem, search, direction / at_end.sizes[-1], deviations):
         return ()
     return _chosen(names, np.abs(direction) > WEAK)
 
@@ -138,32 +142,46 @@ def _chosen(names: Sequence[str], mask: Mask) -> tuple[str, ...]:
 def _is_flat(search: Any, step: Array, deviations: Callable[[Array], Array]) -> bool:
     """Whether chi squared rises by no more than over a standard deviation on one side of the end,
     although derivatives there have it rise more."""
-    least = float(search.fun @ search.fun)
     expected = float(np.sum((search.jac @ step) ** 2))
-    for side in (1, -1):
-        moved = deviations(search.x + side * step)
-        rise = float(moved @ moved) - least
-        if rise <= min(PARABOLA[1], PARABOLA[0] * expected):
-            return True
-    return False
+    flat = min(PARABOLA[1], PARABOLA[0] * expected)
+    return any(_rise(search, side * step, deviations) <= flat for side in (1, -1))
 
 
-def _is_parabola(
+def _rises(
     problem: Problem, search: Any, step: Array, deviations: Callable[[Array], Array]
 ) -> bool:
     """Whether chi squared rises by about 1 over a standard deviation of the least known combination
-    of parameters on both sides of a minimum, or on the one where the measured quantities exist; at a
-    limit of a parameter that is not asked."""
+    of parameters on both sides of a minimum, or on the one where the measured quantities exist, or
+    faster, and then as far as some deviations away; at a limit of a parameter that is not asked.
+
+    Where deviations are larger than the uncertainties explain, derivatives say less of how chi squared
+    rises, and it may also rise more slowly.
+    """
     if np.any(search.active_mask):
         return True
-    least = float(search.fun @ search.fun)
     there = [side for side in (1, -1) if not _is_gone(problem, search.x + side * step)]
-    for side in there:
-        moved = deviations(search.x + side * step)
-        rise = float(moved @ moved) - least
-        if not PARABOLA[0] <= rise <= PARABOLA[1]:
+    if not there:
+        return False
+    misses = is_unlikely(float(search.fun @ search.fun), len(search.fun) - len(search.x))
+    risen = [_rise(search, side * step, deviations) for side in there]
+    is_slow = min(risen) < PARABOLA[0]
+    if np.isnan(risen).any() or (is_slow and not misses):
+        return False
+    if not is_slow and max(risen) <= PARABOLA[1]:
+        return True
+    for factor in FARTHER:
+        expected = 1.0 if misses else factor**2
+        farther = [_rise(search, side * factor * step, deviations) for side in there]
+        if not np.nanmin([*farther, np.inf]) >= PARABOLA[0] * expected:
             return False
-    return bool(there)
+    return True
+
+
+def _rise(search: Any, step: Array, deviations: Callable[[Array], Array]) -> float:
+    """Return the rise of chi squared over a step from the end of a search; nan where measured
+    quantities do not exist."""
+    moved = deviations(search.x + step)
+    return float(moved @ moved - search.fun @ search.fun)
 
 
 def _is_gone(problem: Problem, x: Array) -> bool:

@@ -12,7 +12,8 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -20,10 +21,15 @@ import pandas as pd
 from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
 from disc_model.fitting.arguments import Interval, checked_measurements, limits_in_si
-from disc_model.fitting.limits import bounds_within, limits_at_zero, passes_zero, with_limits
+from disc_model.fitting.limits import (
+    bounds_within,
+    limits_of_cases,
+    limits_of_interval,
+    with_limits,
+)
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.problem import Problem
-from disc_model.fitting.result import Fit, Fitted, Gap
+from disc_model.fitting.result import STILL_FALLING, Combined, Fit, Fitted, Gap
 from disc_model.fitting.search import Search
 from disc_model.parameters import Parameters
 
@@ -99,18 +105,9 @@ def fit(
         computed = problem.first_predictions(begin)
         named = [(each.name, each.value, each.unit) for each in measurements]
         warn_of_measured(named, computed.tolist())
-        end, gap = search.run_across_gaps(begin / problem.scale, limits)
-        indistinct = () if gap else search.indistinct(end)
-        at_zero = limits_at_zero(problem, end, limits)
-        if at_zero and {*indistinct} <= {*at_zero}:
-            limits = {**limits, **at_zero}
-            begin = _inside(problem, end.x * problem.scale, limits)
-            end, gap = search.run_across_gaps(begin / problem.scale, limits)
-            indistinct = () if gap else search.indistinct(end)
-        if len(indistinct) == 1 and passes_zero(problem, end, indistinct[0], confidence):
-            limits = {indistinct[0]: (0.0, np.inf), **limits}
-        found = _result(search, end, confidence, indistinct, limits, gap)
-        found = with_limits(found, problem, end, search.deviations)
+        outcome = _search(search, begin, limits, confidence)
+        found = _result(search, outcome, confidence)
+        found = with_limits(found, problem, outcome.end, search.deviations)
     warn_of_doubts(found.case)
     return found
 
@@ -137,18 +134,59 @@ def _predictable(problem: Problem, start: Array, begin: Array) -> Array:
     return begin
 
 
-def _result(
-    search: Search,
-    end: Any,
-    confidence: float,
-    indistinct: tuple[str, ...],
-    limits: Mapping[str, Interval],
-    gap: Gap | None,
-) -> Fit:
-    """Return the fit at the end of a search over scaled parameters within limits, of which some may be
-    indistinct, or in front of a gap."""
+class Outcome(NamedTuple):
+    """The end of a search over scaled parameters, the limits within which they were, the gap in front
+    of which it has stopped, whether it is at a minimum, the parameters that are not determined, and
+    combinations of these that are."""
+
+    end: Any
+    limits: Mapping[str, Interval]
+    gap: Gap | None
+    is_minimum: bool
+    indistinct: tuple[str, ...] = ()
+    determined: Mapping[str, Combined] = MappingProxyType({})
+
+
+def _search(
+    search: Search, begin: Array, limits: Mapping[str, Interval], confidence: float
+) -> Outcome:
+    """Return the outcome of the search from values of the parameters within limits."""
+    problem = search.problem
+    start = begin / problem.scale
+    end, gap = search.run_across_gaps(start, limits)
+    closer = {} if gap else limits_of_cases(problem, end, limits)
+    if closer and _is_led_to(closer, search, end, limits):
+        limits = {**limits, **closer}
+        begin = _inside(problem, end.x * problem.scale, limits)
+        end, gap = search.run_across_gaps(begin / problem.scale, limits)
+    if gap:
+        return Outcome(end, limits, gap, False)
+    end, is_minimum = search.to_minimum(end, limits)
+    indistinct = search.indistinct(end)
+    if len(indistinct) > 1:
+        nearer = search.near_start(start, end, indistinct, limits)
+        determined = search.combinations((nearer, end), indistinct)
+        return Outcome(nearer, limits, None, True, indistinct, determined)
+    if not is_minimum:
+        return Outcome(end, limits, None, False)
+    if indistinct:
+        limits = {**limits, **limits_of_interval(problem, end, indistinct[0], confidence, limits)}
+    return Outcome(end, limits, None, True, indistinct)
+
+
+def _is_led_to(
+    closer: Mapping[str, Interval], search: Search, end: Any, limits: Mapping[str, Interval]
+) -> bool:
+    """Whether measurements have led a search to limits of cases, and not only by chance, as they do
+    where they do not tell other parameters apart."""
+    return search.is_held_back(end, limits) or {*search.indistinct(end)} <= {*closer}
+
+
+def _result(search: Search, outcome: Outcome, confidence: float) -> Fit:
+    """Return the fit at the end of a search."""
     from scipy import stats
 
+    end, limits, gap, is_minimum, indistinct, determined = outcome
     problem = search.problem
     names = problem.names
     covariance = search.covariance(end)
@@ -161,6 +199,7 @@ def _result(
     at_bounds, passed = bounds_within(problem, fitted, deviation, reach, limits)
     if at_bounds:  # what holds one of them moves the others
         indistinct = ()
+        determined = {}
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
     unpredicted: dict[str, tuple[float, ...]] = {}
     for i, name in enumerate(names):
@@ -191,10 +230,10 @@ def _result(
         computed=computed,
         deviations=np.asarray(end.fun),
         chi_squared=float(end.fun @ end.fun),
-        converged=bool(end.success) and not gap,
-        message=_why_ended(end, gap),
+        converged=bool(end.success) and is_minimum,
+        message=_why_ended(outcome),
         indistinct=indistinct,
-        determined=search.combinations(end, indistinct),
+        determined=determined,
         unpredicted=unpredicted,
         at_bounds=at_bounds,
         passed_bounds=passed,
@@ -221,8 +260,10 @@ def _without_prediction(
     return tuple(gone)
 
 
-def _why_ended(end: Any, gap: Gap | None) -> str:
+def _why_ended(outcome: Outcome) -> str:
     """Return why a search has ended, in words."""
-    if gap:
+    if outcome.gap:
         return STOPPED
-    return str(end.message).strip("`. ").replace("`", "") + "."
+    if not outcome.is_minimum:
+        return STILL_FALLING
+    return str(outcome.end.message).strip("`. ").replace("`", "") + "."

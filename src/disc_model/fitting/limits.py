@@ -8,7 +8,7 @@ true value is near the bound."""
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -23,30 +23,53 @@ from disc_model.fitting.result import Fit
 AT_BOUND = 1e-3
 """Distance from a bound at which a parameter lies there, over its standard deviation, or over its
 scale if that is less."""
+FARTHEST = 1e3
+"""Longest way on which a value beyond which there is no case is looked for, over a parameter's scale."""
 RISE = (0.8, 3.0)
 """Rise of chi squared up to a limit over that of linear predictions; beyond these no limit is given."""
 
 
-def limits_at_zero(
+def limits_of_cases(
     problem: Problem, search: Any, limits: Mapping[str, Interval]
 ) -> dict[str, Interval]:
-    """Return limits for parameters without any that a search has led to 0, and that cannot be
-    negative: against the rules of cases it does not converge."""
+    """Return limits for parameters that a search has led to the last value of any case, such as 0 of
+    one that cannot be negative: against the rules of cases it does not converge."""
     found = {}
-    for i, name in enumerate(problem.names):
-        if name not in limits and abs(search.x[i]) <= STEP and problem.is_last(i, 0.0, 1):
-            found[name] = (0.0, math.inf)
+    for name in problem.names:
+        interval = _interval_of_cases(problem, search, name, STEP, limits)
+        if interval:
+            found[name] = interval
     return found
 
 
-def passes_zero(problem: Problem, search: Any, name: str, confidence: float) -> bool:
-    """Whether the confidence interval of a parameter that cannot be negative passes 0."""
+def limits_of_interval(
+    problem: Problem, search: Any, name: str, confidence: float, limits: Mapping[str, Interval]
+) -> dict[str, Interval]:
+    """Return limits of a parameter by its name if its confidence interval passes the last value of any
+    case; none if it does not."""
     from scipy import stats
 
     i = problem.names.index(name)
     deviation = float(np.linalg.norm(sensitivity_of(search.jac).inverse[i]))
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
-    return bool(search.x[i] <= reach) and problem.is_last(i, 0.0, 1)
+    interval = _interval_of_cases(problem, search, name, min(reach, FARTHEST), limits)
+    return {name: interval} if interval else {}
+
+
+def _interval_of_cases(
+    problem: Problem, search: Any, name: str, reach: float, limits: Mapping[str, Interval]
+) -> Interval | None:
+    """Return the given limits of a parameter, or closer ones beyond which there is no case; None if no
+    such ones are within a reach, over the parameter's scale."""
+    i = problem.names.index(name)
+    values = search.x * problem.scale
+    low, high = limits.get(name, (-math.inf, math.inf))
+    size = reach * float(problem.scale[i])
+    least = problem.last_value(values, i, max(-size, low - values[i]))
+    greatest = problem.last_value(values, i, min(size, high - values[i]))
+    if math.isnan(least) and math.isnan(greatest):
+        return None
+    return float(np.fmax(low, least)), float(np.fmin(high, greatest))
 
 
 def bounds_within(
@@ -64,17 +87,22 @@ def bounds_within(
     passed: dict[str, tuple[float, ...]] = {}
     for i, name in enumerate(problem.names):
         near = AT_BOUND * min(float(deviation[i]), float(problem.scale[i]))
-        for bound in map(float, limits.get(name, ())):
+        for bound in _farthest_first(limits.get(name, ()), float(fitted[i])):
             distance = abs(float(fitted[i]) - bound)
             side = 1 if fitted[i] >= bound else -1
             if distance > reach[i]:
                 continue
-            if distance <= near or problem.is_last(i, bound, side):
+            if distance <= near or problem.is_last(fitted, i, bound, side):
                 held[name] = bound
             else:
                 passed[name] = (*passed.get(name, ()), bound)
     others = {name: bounds for name, bounds in passed.items() if name not in held}
     return held, others
+
+
+def _farthest_first(bounds: Sequence[float], value: float) -> list[float]:
+    """Return bounds in the order of their distance from a value: the last one, the nearest, holds it."""
+    return sorted(map(float, bounds), key=lambda bound: -abs(bound - value))
 
 
 def with_limits(
@@ -85,7 +113,8 @@ def with_limits(
     for name, bound in found.at_bounds.items():
         i = problem.names.index(name)
         side = 1 if found.parameters[name].value >= bound else -1
-        if not problem.is_last(i, bound, side):
+        values = search.x * problem.scale
+        if not problem.is_last(values, i, bound, side):
             continue
         limits[name] = math.nan
         if found.converged and not found.misses and len(found.at_bounds) == 1:

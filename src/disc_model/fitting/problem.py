@@ -24,6 +24,10 @@ STEP = 1e-4
 SHORTER = (1.0, 0.1, 0.01)
 """Steps over that one, the first with predictions on a side: cycles exist in narrow intervals where
 several resonances meet. Those of the last still leave errors of 1e-6 of a derivative."""
+HALVINGS = 60
+"""Number of times that the way to a value beyond which there is no case is halved."""
+ZERO = 1e-12
+"""Size of such a value over that of the parameter, below which it is 0."""
 UNSTABLE = 0.01
 """Growth rate (1/s) from which a cycle counts as unstable: below it disturbances grow so slowly that a
 measurement of seconds ends first."""
@@ -161,19 +165,52 @@ class Problem:
                 found.append(each.name)
         return tuple(found)
 
+    def is_case(self, values: Array) -> bool:
+        """Whether a case with these values of the parameters keeps all rules."""
+        fitted = dict(zip(self.names, map(float, values), strict=True))
+        try:
+            self.case.replace(**fitted)
+        except ParameterError:
+            return False
+        return True
+
     def without(self, names: Sequence[str]) -> Problem:
         """Return the problem without the measurements of some names."""
         kept = [each for each in self.measurements if each.name not in names]
         scales = dict(zip(self.names, self.scale.tolist(), strict=True))
         return Problem(self.case, self.names, kept, scales)
 
-    def is_last(self, i: int, bound: float, side: int) -> bool:
+    def is_last(self, values: Array, i: int, bound: float, side: int) -> bool:
         """Whether no case has a value of a parameter beyond a bound, on the other side than this."""
-        try:
-            self.case.replace(**{self.names[i]: bound - side * STEP * float(self.scale[i])})
-        except ParameterError:
-            return True
-        return False
+        beyond = values.copy()
+        beyond[i] = bound - side * STEP * self.scale[i]
+        return not self.is_case(beyond)
+
+    def last_value(self, values: Array, i: int, reach: float) -> float:
+        """Return the value of a parameter beyond which there is no case, within a reach, which is
+        negative below its value; nan without one.
+
+        Parameters
+        ----------
+        values : of all parameters, of a case, (n,)
+        i : number of the parameter
+        reach : in its unit
+        """
+        tried = values.copy()
+        tried[i] = values[i] + reach
+        if self.is_case(tried):
+            return math.nan
+        inside = float(values[i])
+        outside = float(tried[i])
+        for _ in range(HALVINGS):
+            tried[i] = 0.5 * (inside + outside)
+            if self.is_case(tried):
+                inside = float(tried[i])
+            else:
+                outside = float(tried[i])
+        if abs(inside) < ZERO * self.scale[i]:
+            return 0.0
+        return float(f"{inside:.12g}")
 
     def jacobian(self, values: Array) -> Array:
         """Return derivatives of the predictions, (m, n)."""

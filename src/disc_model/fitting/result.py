@@ -32,6 +32,8 @@ ALL_BUT_IMPOSSIBLE = 1e-3
 NAMED = 3
 """Largest number of unstable cycles that a note names before others that it counts."""
 WRONG = "model or uncertainties"
+STILL_FALLING = "Chi squared still falls from where the search has ended."
+"""Message of a search that has not ended at a minimum."""
 
 
 class Fitted(NamedTuple):
@@ -77,8 +79,9 @@ class Fit(Summarised, Drawn, EqualByValue):
     chi_squared : sum of the squared deviations
     converged, message : whether and why the search ended at a minimum
     indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
-        alike and are known to 10 % at best, or a standard deviation away chi squared does not rise as linear
-        predictions would have it
+        alike and are known to 10 % at best, or up to some standard deviations away chi squared rises less than linear
+        predictions would have it. If there are several, their values are the nearest to the start with which chi
+        squared is as small
     determined : combinations of these that the measurements determine, such as "mu_s - mu_k" or "m * k_p^2": by its
         formula, the value, standard deviation and unit of each. Products hold near the fitted values
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
@@ -166,7 +169,7 @@ class Fit(Summarised, Drawn, EqualByValue):
             return _stopped(self.gap)
         reasons = []
         if not self.converged:
-            reasons.append("the search has not converged")
+            reasons.append(_unconverged(self.message))
         for name, bound in self.at_bounds.items():
             reasons.append(_is_held(name, bound, name in self.limits))
             reasons += self._limit_texts(name)
@@ -247,14 +250,17 @@ class Fit(Summarised, Drawn, EqualByValue):
     @property
     def misses(self) -> bool:
         """Whether chi squared is larger than in 95 % of fits of the right model."""
-        return self._chance < UNLIKELY
+        return is_unlikely(self.chi_squared, self.freedom)
 
     @property
     def _chance(self) -> float:
         """Share of fits of the right model whose chi squared is at least as large."""
-        from scipy import stats
+        return _chance_of(self.chi_squared, self.freedom)
 
-        return float(stats.chi2.sf(self.chi_squared, max(self.freedom, 1)))
+    @property
+    def is_wrong(self) -> bool:
+        """Whether hardly any fit of the right model has as large a chi squared."""
+        return self.freedom == 0 or self._chance < ALL_BUT_IMPOSSIBLE
 
     @property
     def _misfit(self) -> str:
@@ -266,7 +272,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         size = f"chi squared is {reduced:.3g} times its degrees of freedom"
         worst = int(np.argmax(np.abs(self.deviations)))
         most = f"{self.measurements[worst].name} deviates most"
-        if self._chance < ALL_BUT_IMPOSSIBLE:
+        if self.is_wrong:
             return f"{wrong} are wrong, {size}, and {most}"
         share = f"{100 * self._chance:.2g} % of right ones have as much"
         return f"{wrong} may be wrong, {size}: {share}, and {most}"
@@ -368,6 +374,28 @@ def _listed(names: Sequence[str]) -> str:
     rest = names[len(first) :]
     last = rest[0] if len(rest) == 1 else f"{len(rest)} others"
     return f"{', '.join(first)} and {last}"
+
+
+def is_unlikely(chi_squared: float, freedom: int) -> bool:
+    """Whether chi squared is larger than in 95 % of fits of the right model."""
+    return _chance_of(chi_squared, freedom) < UNLIKELY
+
+
+def _chance_of(chi_squared: float, freedom: int) -> float:
+    """Share of fits of the right model whose chi squared is at least as large."""
+    from scipy import stats
+
+    return float(stats.chi2.sf(chi_squared, max(freedom, 1)))
+
+
+def _unconverged(message: str) -> str:
+    """Return that a search has not converged, and what helps if it has ended before a minimum."""
+    said = "the search has not converged"
+    if message != STILL_FALLING:
+        return said
+    return (
+        f"{said}: chi squared still falls where it has ended, so start again from the fitted case"
+    )
 
 
 def _stopped(gap: Gap) -> str:

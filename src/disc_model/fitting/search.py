@@ -13,10 +13,12 @@ from typing import Any
 import numpy as np
 
 from disc_model.arrays import Array
-from disc_model.errors import ParameterError
+from disc_model.errors import Fault, ParameterError
 from disc_model.fitting.arguments import Interval
 from disc_model.fitting.combinations import combinations_of
+from disc_model.fitting.descent import decrease_over, free_of_limits, lower_point, next_step
 from disc_model.fitting.determination import indistinct_names, sensitivity_of
+from disc_model.fitting.nearness import SHARES, other_directions, undetermined_directions
 from disc_model.fitting.problem import Problem
 from disc_model.fitting.result import Combined, Gap
 
@@ -27,6 +29,14 @@ UNFINISHED = 1.0
 ended at a minimum: up to there the end is within a standard deviation of it."""
 RATIO = 1e-3
 """Such a decrease over chi squared, and that from which an end is better than another."""
+SMALL = 0.01
+"""Such a decrease up to which the end is a minimum without further steps."""
+ROUNDS = 5
+"""Number of times that a search is continued."""
+FAR, FAR_RATIO = 10.0, 0.01
+"""Such a decrease from which limits hold a search back, and over chi squared."""
+UNCHANGED = "No direction is determined."
+"""Message of a search that leaves all parameters at the start."""
 PARTS = tuple(0.5**i for i in range(15))
 """Parts of that step at which measured quantities may be missing."""
 BEYOND = (1.0, 2.0, 4.0)
@@ -72,17 +82,98 @@ class Search:
         at most, which scipy chooses for None."""
         from scipy import optimize
 
-        ends = [limits.get(name, (-np.inf, np.inf)) for name in self.problem.names]
         return optimize.least_squares(
             self.deviations,
             x,
             jac=self.slopes,
-            bounds=np.array(ends).T / self.problem.scale,
+            bounds=self._scaled(limits),
             xtol=TOLERANCE,
             ftol=TOLERANCE,
             gtol=TOLERANCE,
             max_nfev=steps,
         )
+
+    def _scaled(self, limits: Mapping[str, Interval]) -> Array:
+        """Return the lower and upper limits of the scaled parameters, (2, n)."""
+        ends = [limits.get(name, (-np.inf, np.inf)) for name in self.problem.names]
+        return np.array(ends).T / self.problem.scale
+
+    def to_minimum(self, end: Any, limits: Mapping[str, Interval]) -> tuple[Any, bool]:
+        """Return the end of a search that is continued where it has not ended at a minimum, and whether
+        it has ended at one then."""
+        low, high = self._scaled(limits)
+        for _ in range(ROUNDS):
+            free = free_of_limits(end, low, high)
+            if self.fall(end, limits) <= SMALL:
+                return end, True
+            x = lower_point(end, free, low, high, self.deviations)
+            if x is None:
+                return end, True
+            try:
+                end = self.run(x, limits, PATIENCE)
+            except ParameterError:
+                return end, False
+        return end, self.fall(end, limits) <= UNFINISHED
+
+    def fall(self, end: Any, limits: Mapping[str, Interval]) -> float:
+        """Return how much smaller chi squared would be than at an end if predictions were linear."""
+        low, high = self._scaled(limits)
+        step = next_step(end, free_of_limits(end, low, high))
+        return decrease_over(end, step)
+
+    def is_held_back(self, end: Any, limits: Mapping[str, Interval]) -> bool:
+        """Whether a search would have gone on by far if limits were not in the way."""
+        return self.fall(end, limits) > max(FAR, FAR_RATIO * 2 * end.cost)
+
+    def near_start(
+        self, start: Array, end: Any, names: Sequence[str], limits: Mapping[str, Interval]
+    ) -> Any:
+        """Return the end of a search that is as good and nearer to the start in directions of parameters
+        that are not determined; the given end where there is none.
+
+        start : scaled parameters
+        """
+        assert self.first is not None
+        places = [self.problem.names.index(name) for name in names]
+        unknown = undetermined_directions(self.first, places)
+        known = other_directions(unknown)
+        way = unknown @ (unknown.T @ (end.x - start))
+        freedom = max(len(end.fun) - len(end.x), 1)
+        enough = end.cost + 0.5 * max(1.0, 2 * end.cost / freedom)
+        for share in SHARES:
+            try:
+                found = self._run_along(start + share * way, known)
+            except ParameterError:
+                continue
+            if found.cost <= enough and self._is_within(found.x, limits):
+                return found
+        return end
+
+    def _run_along(self, x: Array, directions: Array) -> Any:
+        """Return the end of a search from scaled parameters that changes them along some directions
+        only, (n, k)."""
+        from scipy import optimize
+
+        if not np.isfinite(self.deviations(x)).all():
+            rule = "cannot be computed there"
+            raise ParameterError(Fault(("measured",), "", rule))
+        if not directions.size:
+            end = optimize.OptimizeResult(x=x, success=True, message=UNCHANGED, status=1)
+        else:
+            end = optimize.least_squares(
+                lambda moved: self.deviations(x + directions @ moved),
+                np.zeros(directions.shape[1]),
+                jac=lambda moved: self.slopes(x + directions @ moved) @ directions,
+                xtol=TOLERANCE,
+                ftol=TOLERANCE,
+                gtol=TOLERANCE,
+            )
+            end.x = x + directions @ end.x
+        end.fun = self.deviations(end.x)
+        end.jac = self.slopes(end.x)
+        end.cost = 0.5 * float(end.fun @ end.fun)
+        end.active_mask = np.zeros(len(end.x), int)
+        return end
 
     def run_across_gaps(self, x: Array, limits: Mapping[str, Interval]) -> tuple[Any, Gap | None]:
         """Return the end of a search that goes on beyond gaps, and the one at which it has stopped."""
@@ -111,25 +202,31 @@ class Search:
 
     def covariance(self, end: Any) -> Array:
         """Return the covariance of the parameters at an end, (n, n)."""
-        spread = self._spread(end)
+        spread = self._spread(end.jac)
         return np.asarray(spread @ spread.T)
 
-    def combinations(self, end: Any, names: Sequence[str]) -> dict[str, Combined]:
-        """Return what is known at an end of parameters that are not told apart, by its formula."""
-        values = end.x * self.problem.scale
-        return combinations_of(self.problem.names, names, values, self._spread(end))
+    def combinations(self, ends: Sequence[Any], names: Sequence[str]) -> dict[str, Combined]:
+        """Return what is known of parameters that are not told apart, by its formula: by derivatives at
+        ends of searches, of which the first has the values, or at the start, whichever gives the
+        simplest formula, since predictions may have kinks where others are taken."""
+        assert self.first is not None
+        values = ends[0].x * self.problem.scale
+        found = []
+        for jacobian in (*(end.jac for end in ends), self.first):
+            spread = self._spread(jacobian)
+            known = combinations_of(self.problem.names, names, values, spread)
+            if known:
+                found.append(known)
+        return min(found, key=lambda known: len("".join(known)), default={})
 
-    def _spread(self, end: Any) -> Array:
+    def _spread(self, jacobian: Array) -> Array:
         """Return what has with its transpose the covariance of the parameters as its product, (n, n)."""
-        return np.asarray(sensitivity_of(end.jac).inverse * self.problem.scale[:, None])
+        return np.asarray(sensitivity_of(jacobian).inverse * self.problem.scale[:, None])
 
     def gap_at(self, end: Any) -> Gap | None:
         """Return the gap in front of which a search has ended, None at a minimum."""
-        step = _next_step(end)
-        now = float(end.fun @ end.fun)
-        linear = end.fun + end.jac @ step
-        decrease = now - float(linear @ linear)
-        if decrease <= max(UNFINISHED, RATIO * now):
+        step = next_step(end, end.active_mask == 0)
+        if decrease_over(end, step) <= max(UNFINISHED, RATIO * 2 * end.cost):
             return None
         scale = self.problem.scale
         for part in reversed(PARTS):
@@ -151,7 +248,7 @@ class Search:
             return None
         for length in BEYOND:
             x = end.x + length * (led - end.x)
-            if not self._can_start(x, limits):
+            if not (self._is_within(x, limits) and np.isfinite(self.deviations(x)).all()):
                 continue
             try:
                 found = self.run(x, limits, PATIENCE)
@@ -161,19 +258,7 @@ class Search:
                 return found
         return None
 
-    def _can_start(self, x: Array, limits: Mapping[str, Interval]) -> bool:
-        """Whether scaled parameters lie within limits, and all measured quantities exist there."""
-        for name, value in zip(self.problem.names, x * self.problem.scale, strict=True):
-            low, high = limits.get(name, (-np.inf, np.inf))
-            if not low < value < high:
-                return False
-        return bool(np.isfinite(self.deviations(x)).all())
-
-
-def _next_step(end: Any) -> Array:
-    """Return the step of scaled parameters from the end of a search to where chi squared would be
-    least if predictions were linear, (n,); 0 for those at a limit."""
-    free = end.active_mask == 0
-    step = np.zeros(len(end.x))
-    step[free] = -np.linalg.lstsq(end.jac[:, free], end.fun, rcond=None)[0]
-    return step
+    def _is_within(self, x: Array, limits: Mapping[str, Interval]) -> bool:
+        """Whether scaled parameters lie within limits."""
+        low, high = self._scaled(limits)
+        return bool(((low < x) & (x < high)).all())
