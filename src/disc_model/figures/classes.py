@@ -48,6 +48,8 @@ UNSETTLED = Look("not settled", "none", 4 * "\\")
 """Of a value that rests on a stay of a sweep at whose end the motion had not settled."""
 NOT_NEAR = Look("the motion is not near this cycle", "none", 3 * "x")
 """Of a value of an unstable cycle that was sought near the static start, where the motion from there is elsewhere."""
+NOT_CONVERGED = Look("not converged", "none", 4 * "\\")
+"""Of an average over a time that was too short for it."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
 
@@ -85,6 +87,9 @@ LOOKS: Mapping[str, Look] = {
     "no_value": NO_VALUE,
     EXCLUDED: Look("left out by the study's rule", "#ffffff"),
     "none": Look("none", "#ffffff"),
+    "infinite": Look("infinite", "#ffffff", 2 * "O"),
+    "minus_infinite": Look("minus infinite", "#ffffff", 3 * "."),
+    "vanishing": Look("growth rate −∞", "#ffffff", 3 * "."),
 }
 IN_FULL = {"neimark_sacker": "Neimark-Sacker"}
 """Names of classes that are no plain words."""

@@ -8,6 +8,7 @@ import xarray as xr
 from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
 from disc_model.figures.branch_lines import THIN, Look
+from disc_model.figures.class_axis import join_classes, name_classes, words_along
 from disc_model.figures.curve_marks import (
     choose_marks,
     fill_doubtful,
@@ -28,6 +29,7 @@ from disc_model.figures.drawing import (
     plain_decades,
     row_of_panels,
 )
+from disc_model.figures.error_bars import draw_errors
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
@@ -51,7 +53,7 @@ from disc_model.figures.selection import (
     titles_of,
 )
 from disc_model.figures.types import Array, Axes, Figure, Mask
-from disc_model.figures.words import CHARACTER, as_numbers, in_lines, label_in, measured, named
+from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, named
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
@@ -119,7 +121,7 @@ def draw_lines(  # noqa: PLR0913
     """
     if marks is None:
         marks = {}
-    names, array = heights_of(study, variable)
+    names, array = join_classes(ax, *heights_of(study, variable))
     by = remaining(array, [x])
     along = measured_along(array[x]).values
     joined = joined and along.dtype.kind != "U"
@@ -146,6 +148,7 @@ def draw_lines(  # noqa: PLR0913
         [first, *_] = ax.plot(*pieces, **look)
         drawn.append((title, first))
 
+    draw_errors(ax, study, array, x, looks.colours)
     set_scales(ax, study, names, array, x, log)
 
     # what is no value, or none that was found
@@ -211,7 +214,7 @@ def _draw_at_bound(
 def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
     """Scale the horizontal axis for the values along it, or turn the words there."""
     if along.dtype.kind == "U":
-        _turn_words(ax, along)
+        _turn_words(ax, words_along(ax, along))
         return
     ax.set_xscale(scale(values))
     if values.dtype.kind == "i":
@@ -220,7 +223,7 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
         plain_decades(ax.xaxis)
 
 
-def _turn_words(ax: Axes, words: np.ndarray) -> None:
+def _turn_words(ax: Axes, words: Sequence[str]) -> None:
     """Turn words along the horizontal axis if they have no room beside each other, and write only some
     of them if they have none then, either."""
     page: Any = ax.get_figure(root=True)
@@ -308,7 +311,7 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
     counts; nothing where no point of any line has a value, as numbers would be made up."""
     axis: Any = ax.yaxis
     if names:
-        ax.set_yticks(range(len(names)), labels=[in_lines(name) for name in names])
+        name_classes(ax, names)
     elif not shows:
         axis.set_major_locator(NoNumbers())
         axis.set_minor_locator(NullLocator())

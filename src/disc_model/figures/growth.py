@@ -19,7 +19,7 @@ from disc_model.figures.colours import (
     growth_colours,
     growth_norm,
 )
-from disc_model.figures.selection import class_of_gap, doubts, has_values, statuses_like
+from disc_model.figures.selection import classes_of_gaps, doubts, has_values
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import NO_VALUE, label_of, missing_text
 
@@ -101,7 +101,7 @@ def classes_without_rate(plane: xr.Dataset, name: str = "growth_rate") -> Words:
     if name == "growth_rate" and "cycle" in plane:
         words = flag_names(plane["cycle"])
     else:
-        words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
+        words = classes_of_gaps(plane, plane[name])
     return np.where(np.isfinite(rate), "", words)
 
 

@@ -17,7 +17,14 @@ from disc_model.figures.cells import (
     paint,
     scale_of,
 )
-from disc_model.figures.classes import AT_BOUND, LOOKS, NOT_NEAR, UNRESOLVED, UNSETTLED
+from disc_model.figures.classes import (
+    AT_BOUND,
+    LOOKS,
+    NOT_CONVERGED,
+    NOT_NEAR,
+    UNRESOLVED,
+    UNSETTLED,
+)
 from disc_model.figures.colours import USUAL, ColourWishes, colours_of, draw_bar, is_growth
 from disc_model.figures.drawing import COLUMN, letter, panels, plain_decades, set_label
 from disc_model.figures.growth import growth_panels
@@ -189,7 +196,7 @@ def number_panels(
 
     unvalued = MARKED[NO_VALUE]._replace(label=missing_text(planes[0], variable))
     looks = {**MARKED, NO_VALUE: unvalued}
-    looks |= {look.label: look for look in (AT_BOUND, UNSETTLED, NOT_NEAR)}
+    looks |= {look.label: look for look in (AT_BOUND, UNSETTLED, NOT_NEAR, NOT_CONVERGED)}
     if not has_values(planes, variable):
         return entries(used, looks)
     draw_bar(figure, axes, mesh, colours, label_in(planes[0], variable))

@@ -12,7 +12,7 @@ from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.disc import draw_plane, plane_of
 from disc_model.figures.drawing import BLACK, COLUMN, PAGE, SLIDER, wide
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.types import Axes
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import is_whole
@@ -41,7 +41,9 @@ def plot_modes(
     named = usual if title is None else title
     wishes = Wishes(ax, labels=labels, title=named if ax is None else None)
     with page_for(wishes, width, 0.24 * PAGE * rows + 0.3, rows, columns) as page:
-        page.show(*(Quantities("Disc from above (mm)", "Disc from above (mm)") for _ in page.axes))
+        seen = Quantities("Disc from above (mm)", "Disc from above (mm)", "Shape of a mode")
+        page.show(*([seen] * len(page.axes)))
+        refuse_beside_areas(page.axes, "shapes of modes")
         for spare in page.axes[count:]:
             spare.set_axis_off()
         draw_modes(page.axes[:count], p)

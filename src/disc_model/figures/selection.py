@@ -9,10 +9,19 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.classes import NOT_NEAR, UNSETTLED, Look, name_of
+from disc_model.figures.classes import NOT_CONVERGED, NOT_NEAR, UNSETTLED, Look, name_of
 from disc_model.figures.kinds.base import NORM
 from disc_model.figures.types import Array, Mask, Words
-from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
+from disc_model.figures.words import (
+    INFINITE,
+    MINUS_INFINITE,
+    NO_VALUE,
+    VANISHING,
+    WORDS,
+    named_value,
+    rank_of,
+    value_text,
+)
 
 WITHOUT_CYCLE = (
     "no_cycle",
@@ -54,6 +63,9 @@ OF_CYCLES = (
     "cycle_growth_rate",
 )
 """Variables of a cycle."""
+
+AVERAGES = ("exponent", "exponents")
+"""Variables that are averages over a time, which may be too short."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -256,7 +268,17 @@ def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
     gone = ~np.isfinite(array.values.astype(float)) | (status == EXCLUDED)
     classes = np.vectorize(class_of_gap, otypes=[str])(status)
     classes = np.where(_not_simulated(study, array), NOT_SIMULATED, classes)
+    infinite = classes_of_infinite(array)
+    classes = np.where((status == "ok") & (infinite != ""), infinite, classes)
     return np.where(gone, classes, "")
+
+
+def classes_of_infinite(variable: xr.DataArray) -> Words:
+    """The class of each point at which a variable has an infinite value, "" elsewhere."""
+    values = variable.values.astype(float)
+    below = VANISHING if str(variable.name).endswith("growth_rate") else MINUS_INFINITE
+    classes = np.where(np.isposinf(values), INFINITE, "")
+    return np.where(np.isneginf(values), below, classes)
 
 
 def _not_simulated(study: xr.Dataset, array: xr.DataArray) -> Mask:
@@ -348,10 +370,40 @@ def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return away.broadcast_like(study[variable])
 
 
+def companion_of(study: xr.Dataset, variable: str, name: str) -> xr.DataArray | None:
+    """Another variable of the points of a variable, along the dimensions of this one; None if a study does
+    not have it for them."""
+    if name not in study:
+        return None
+    found = study[name]
+    index = f"{variable}_index"
+    own = f"{name}_index"
+    if own in found.dims and study.sizes[own] == study.sizes.get(index):
+        found = found.rename({own: index})
+    return found if {*found.dims} == {*study[variable].dims} else None
+
+
+def not_converged(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose value is an average over a time that was too short for it; None of other variables
+    and studies."""
+    if variable not in AVERAGES:
+        return None
+    converged = companion_of(study, variable, "converged")
+    if converged is None:
+        return None
+    if converged.dtype.kind in "UO" or "flag_meanings" in converged.attrs:
+        return converged.copy(data=flag_names(converged) == "no")
+    return converged == 0
+
+
 def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     """Points whose value is another than that of a settled motion from the static start may be, by the
     look that says why."""
-    masks = {UNSETTLED: unsettled(study, variable), NOT_NEAR: not_near(study, variable)}
+    masks = {
+        UNSETTLED: unsettled(study, variable),
+        NOT_NEAR: not_near(study, variable),
+        NOT_CONVERGED: not_converged(study, variable),
+    }
     return {look: mask for look, mask in masks.items() if mask is not None and mask.any()}
 
 

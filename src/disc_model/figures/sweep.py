@@ -15,7 +15,7 @@ from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.separating_share import (
     draw_interval,
@@ -44,6 +44,7 @@ from disc_model.figures.sweep_options import options_of
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_in, label_of, measured
 
+OUTCOMES = "Outcome of starts"  # what the colours of bars show
 MOST_ENERGIES = 5  # of kicks that an axis names each
 
 
@@ -95,7 +96,8 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
     across = label_of(study[drawn.across])[0]
     if drawn.variable in SHARES and not wishes.log:
         wishes.refuse()
-        page.show(Quantities(across, label_of(study[drawn.variable])[0]))
+        page.show(Quantities(across, label_of(study[drawn.variable])[0], OUTCOMES))
+        refuse_beside_areas(page.axes, "bars")
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
         wishes.refuse(of_lines=True)
@@ -106,6 +108,7 @@ def _draw(page: Page, study: xr.Dataset, drawn: Drawn, wishes: ColourWishes, nam
             set_limits(page.ax, wishes.limits)
     else:
         page.show(Quantities(across, label_of(study[drawn.second])[0], label))
+        refuse_beside_areas(page.axes, "a map")
         plane = study.transpose(drawn.second, drawn.across, ...)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, wishes)
         page.explain(key.handles, beside="below", title=key.title)

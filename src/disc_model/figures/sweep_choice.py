@@ -34,15 +34,21 @@ OF_FUNCTIONS = {
     "bifurcation": "psi",
     "choose_modes": "modes",
     "coupled_natural_frequencies": "value",
+    "lyapunov": "exponent",
     "lyapunov_exponents": "exponents",
     "simulate": "n_separations",
 }
 """Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
 FIRST_OF_SEVERAL = {
+    "exponent": "largest Lyapunov exponent",
     "exponents": "largest Lyapunov exponent",
     "value": "lowest natural frequency of disc and attached slider",
 }
 """Names of the first value of such variables that have several at each point."""
+OF_POINTS = ("status", "message")
+"""Variables that say whether points were computed."""
+ALONG_EXPONENTS = ("errors", "exponent_error", "converged")
+"""Variables that say something of each Lyapunov exponent."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 COUNT = re.compile("number of the (?!.* along )")
@@ -175,14 +181,20 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
 
 
 def _with_first_values(study: xr.Dataset) -> xr.Dataset:
-    """The study with the first value at each point of the usual variable of its function."""
-    name = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    """The study with the first value at each point of the usual variable of its function, and what is
+    known of this value."""
+    name = OF_FUNCTIONS.get(function_of(study), "")
     if name not in FIRST_OF_SEVERAL or name not in study:
         return study
-    several = [dim for dim in study[name].dims if dim == f"{name}_index"]
-    first = study[name].isel(dict.fromkeys(several, 0))
-    attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
-    return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
+    firsts = {}
+    for each in (name, *ALONG_EXPONENTS):
+        dim = "exponent_number" if name == "exponent" else f"{each}_index"
+        if each in study and dim in study[each].dims:
+            firsts[each] = study[each].isel({dim: 0}, drop=True)
+    if name not in firsts:  # one was selected
+        return study
+    firsts[name] = firsts[name].assign_attrs(long_name=FIRST_OF_SEVERAL[name])
+    return study.drop_vars([*firsts]).assign(firsts)
 
 
 def _with_one_horizon(study: xr.Dataset) -> xr.Dataset:
@@ -263,12 +275,14 @@ def _drawn_dims(study: xr.Dataset) -> list[str]:
 
 
 def _usual_variable(study: xr.Dataset, choices: Sequence[str]) -> str:
-    """The first of the variables preferred, or else of numbers, or of all; "" without any."""
+    """The first of the variables preferred, or else of numbers, or of all others than whether points were
+    computed, or of all; "" without any."""
     flat = [name for name in choices if study[name].ndim < 3]
     of_function = OF_FUNCTIONS.get(function_of(study), "")
     preferred = [name for name in (of_function, *PREFERRED) if name in flat]
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
-    return next(iter([*preferred, *numeric, *choices]), "")
+    results = [name for name in flat if name not in OF_POINTS]
+    return next(iter([*preferred, *numeric, *results, *choices]), "")
 
 
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
@@ -281,7 +295,8 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
         if dims & numbers and study[name].dtype.kind != "c" and len(dims - {*study.coords}) < 2
     ]
     single = [name for name in choices if over[name] <= {*study.coords}]
-    named = variable or _usual_variable(study, single or choices)
+    results = [name for name in single if name not in OF_POINTS]
+    named = variable or _usual_variable(study, results or choices)
     points = "must have two points or more along a number or a word"
     require((bool(numbers), "study", "a single point", points))
     real = named not in study or study[named].dtype.kind != "c"

@@ -105,6 +105,12 @@ BORDER = ("value of ", " above which the motion stays unstable")
 """What those of borders of stability say before and after it."""
 PERSONS = ("Young", "Poisson")
 """Beginnings of names that are always written with a capital."""
+INFINITE = "infinite"
+"""Class of points whose value is infinite,"""
+MINUS_INFINITE = "minus_infinite"
+"""of those whose value is below any axis,"""
+VANISHING = "vanishing"
+"""and of those where this is a growth rate."""
 BELOW_ANY = "growth rate −∞"  # of a disturbance that is gone within a period, as on a rigid disc
 NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
@@ -355,10 +361,7 @@ def label_in(study: xr.Dataset, name: str) -> str:
 
 
 def missing_text(study: xr.Dataset, name: str) -> str:
-    """What figures call points of a variable that were computed and have no value, or one that is
-    below any axis."""
-    if name in study and study[name].dtype.kind == "f" and np.isneginf(study[name]).any():
-        return BELOW_ANY
+    """What figures call points of a variable that were computed and have no value."""
     if name == "first_separation" and study.attrs.get("function") == "simulate":
         return _without_separation(study)
     horizon = horizon_text(study)
