@@ -68,6 +68,7 @@ def draw_points(
     for reason, gone in reasons_of_gaps(study, array).items():
         here = gone.transpose(x, ...).values.all(axis=1)
         if here.any():
+            reason = reason.replace("no further ", "no ")  # there is none at all
             add_row(ax, reason, along[here], **open_look(), **row)
     return drawn
 

@@ -23,6 +23,7 @@ def plot_sweep(  # noqa: PLR0913
     x: str = "",
     *,
     lines: str | Literal[False] = "",
+    points: bool = False,
     log: bool | None = None,
     cmap: str | Colormap | None = None,
     limits: tuple[float, float] | None = None,
@@ -71,6 +72,8 @@ def plot_sweep(  # noqa: PLR0913
         each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map;
         False for a map in any case, which `cmap` asks for as well
+    points : whether all values at each place along the axis are points that no line joins, as in a bifurcation diagram
+        of the turns that a function of your own returns
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. If not given, growth
         rates beyond 0.2/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of
@@ -112,7 +115,16 @@ def plot_sweep(  # noqa: PLR0913
     """
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
     return draw(
-        "plot_sweep", study, variable, x, lines=lines, log=log, cmap=cmap, limits=limits, **wishes
+        "plot_sweep",
+        study,
+        variable,
+        x,
+        lines=lines,
+        points=points,
+        log=log,
+        cmap=cmap,
+        limits=limits,
+        **wishes,
     )
 
 

@@ -310,8 +310,9 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     variables."""
     if variable == "value" and "at_lower_bound" in study:
         return study["at_lower_bound"] == 1
-    if variable == "critical_speed" and "scan_Omega" in study.coords:
-        lowest = float(study["scan_Omega"].min())
+    if variable == "critical_speed" and "scan_Omega" in study:
+        speeds = study["scan_Omega"]
+        lowest = speeds.min(str(speeds.dims[-1]))  # scans may have bounds of their own
         return study[variable] <= lowest * (1 + ROUNDING)
     return None
 
@@ -355,7 +356,8 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     dims = {*study["sweep_settled"].dims}
     if variable in OF_STAYS and dims <= {*study[variable].dims}:
         return ~has_settled(study) & study[variable].notnull()
-    if variable in ("onset_speed", "offset_speed") and dims >= {"direction", "sweep_Omega"}:
+    of_sweeps = {"direction", *study["sweep_Omega"].dims[-1:]} if "sweep_Omega" in study else set()
+    if variable in ("onset_speed", "offset_speed") and of_sweeps and dims >= of_sweeps:
         swept = swept_speeds(study)
         return swept.onset_unsettled if variable == "onset_speed" else swept.end_unsettled
     return None

@@ -21,7 +21,7 @@ from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.samples import OF_SWEEPS
-from disc_model.studies.varied_arguments import hint_of_lists
+from disc_model.studies.varied_arguments import hint_of_lists, values_along
 from disc_model.studies.workers import checked_workers
 
 FAILED = "failed"  # status of a point whose call raised an error
@@ -176,7 +176,11 @@ def _coordinates(call: Call) -> dict[str, Any]:
     for dimension in call.dimensions:
         for name, values in dimension.columns.items():
             if name in call.over:
-                coordinates[name] = (dimension.name, values, call.over[name])
+                shown = values_along(values)
+                attributes = dict(call.over[name])
+                if any(isinstance(each, str) for each in shown):
+                    attributes.pop("units", None)
+                coordinates[name] = (dimension.name, shown, attributes)
             else:
                 coordinates[name] = (dimension.name, _plain(values), _described(name))
         for name, words in dimension.labels.items():
