@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures.labels import words_of
@@ -170,3 +171,13 @@ def test_dots_and_rings_of_one_diagram_have_entries_of_their_own() -> None:
     dm.plot_sweep(sections(stiffness=25e3, settled="changing"), ax=ax)
     drawn = [(line.get_color(), line.get_marker()) for line in ax.lines]
     assert [*looks_of_entries(ax).values()] == drawn
+
+
+def test_room_on_a_plain_page_is_found_without_drawing_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All panels were drawn some sixty times for each picture."""
+    drawn = []
+    monkeypatch.setattr(Figure, "draw_without_rendering", lambda page: drawn.append(page))
+    _, axes = pyplot.subplots(2, 2)
+    for ax in axes.flat:
+        dm.plot_sweep(rates(20e3), "growth_rate", lines="N", ax=ax)
+    assert not drawn

@@ -1139,3 +1139,10 @@ def test_arguments_that_vary_are_saved(suffix: str, tmp_path: Path) -> None:
     )
     dm.save(swept, tmp_path / f"x.{suffix}")
     xr.testing.assert_equal(dm.load(tmp_path / f"x.{suffix}"), swept)
+
+
+def test_numbers_among_words_are_warned_of() -> None:
+    """The number 1 became the word "1" without a word."""
+    with pytest.warns(UserWarning, match="found is a word at some points and a number at others"):
+        found = sweep(lambda case: {"found": 1 if case.Omega < 11 else "w"}, P, Omega=[10, 12])
+    assert found["found"].values.tolist() == ["1", "w"]

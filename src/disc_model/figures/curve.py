@@ -214,7 +214,7 @@ def _draw_at_bound(
 def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
     """Scale the horizontal axis for the values along it, or turn the words there."""
     if along.dtype.kind == "U":
-        _turn_words(ax, words_along(ax, along))
+        _turn_words(ax, words_along(ax, along.astype(str).tolist()))
         return
     ax.set_xscale(scale(values))
     if values.dtype.kind == "i":

@@ -265,11 +265,12 @@ def _without_stacks(study: xr.Dataset) -> xr.Dataset:
     ]
     for dim in stacked:
         levels = study.indexes[dim]
-        columns = {name: (dim, levels.get_level_values(name).to_numpy()) for name in levels.names}
-        kept = {name: study[name].attrs for name in levels.names}
-        study = study.drop_vars([dim, *levels.names]).assign_coords(columns)
-        for name, attrs in kept.items():
-            study[name].attrs.update(attrs)
+        names = [*map(str, levels.names)]
+        columns = {}
+        for name in names:
+            values = levels.get_level_values(name).to_numpy()
+            columns[name] = (dim, values, study[name].attrs)
+        study = study.drop_vars([dim, *names]).assign_coords(columns)
     return study
 
 
@@ -312,11 +313,11 @@ def _with_coordinate(study: xr.Dataset, name: str, along: str) -> xr.Dataset:
 def _with_words(study: xr.Dataset) -> xr.Dataset:
     """The study with words for True and False along its dimensions, and with names for discs, by their order
     and frequencies."""
-    named = {}
+    named: dict[Any, Any] = {}
     for name, values in study.coords.items():
         if values.dtype.kind == "b" and values.ndim == 1:
-            words = np.where(values, "yes", "no")
-            named[name] = (values.dims, words, {**values.attrs, **TRUTH})
+            answers = np.where(values, "yes", "no")
+            named[name] = (values.dims, answers, {**values.attrs, **TRUTH})
         discs = [value for value in values.values.flat if isinstance(value, Disc)]
         if discs and values.ndim == 1:
             shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]

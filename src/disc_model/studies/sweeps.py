@@ -57,8 +57,9 @@ def sweep(  # noqa: PLR0913
     function : one that takes a case first, such as `floquet`, `simulate`, `outcome` or a function of your own
     case : values of all parameters that do not vary
     *unnamed : nothing, since arguments of the function are given by name, such as ``horizon=200``
-    over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers
-        or words. Each is a dimension, after those of the case
+    over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers,
+        words, or mappings and lists such as starts and bounds, for which words stand along the dimension. Each is one,
+        after those of the case
     zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.
         They are one dimension, whose name joins theirs. Columns of words or numbers under other names are
         coordinates along it: a warning says that such numbers have no effect, and a name like a known one is refused
