@@ -66,7 +66,8 @@ def test_a_picture_of_something_else_is_refused_and_leaves_axes_as_they_are(name
     with refusal(rf"^ax: shows “.*” {along}, and “.*” is something"):
         DRAWN[name](ax=ax)
     assert (ax.get_xlabel(), ax.get_ylabel(), len(ax.get_children()), len(figure.axes)) == before
-    DRAWN[other](ax=ax)  # the same again
+    if along != "by colour":  # which would cover the first
+        DRAWN[other](ax=ax)  # the same again
     ax.clear()
     DRAWN[name](ax=ax)
 

@@ -1098,8 +1098,8 @@ def test_an_argument_that_varies_has_its_unit_and_meaning(workers: Any) -> None:
         ({"tol": [1e-10]}, r"^over.tol: must not be given twice$"),
         ({"horizon": []}, r"^over.horizon=\[\]: must have one value or more$"),
         ({"horizon": [5, 5.0]}, r"^over.horizon\[1\]=5: must not be given twice along an axis$"),
-        ({"start": [{"u": 1}]}, r"^over.start=.*: must be numbers or words in one dimension$"),
-        ({"horizon": [1, "x"]}, r"^over.horizon=.*: must be numbers or words in one dimension$"),
+        ({"start": [{"u": 1}, 2]}, r"^over.start=.*: must be all numbers, all words, all mappings"),
+        ({"horizon": [1, "x"]}, r"^over.horizon=.*: must be all numbers, all words, all mappings"),
         ({"horizon": [-1, 5]}, r"^horizon=-1: must be > 0$"),
         ({"horizon": ["x"]}, r"^horizon='x': must be a number$"),
         ({}, r"^over=\{\}: must be values by the names of arguments"),
@@ -1179,3 +1179,10 @@ def test_arguments_that_vary_are_saved(suffix: str, tmp_path: Path) -> None:
     )
     dm.save(swept, tmp_path / f"x.{suffix}")
     xr.testing.assert_equal(dm.load(tmp_path / f"x.{suffix}"), swept)
+
+
+def test_numbers_among_words_are_warned_of() -> None:
+    """The number 1 became the word "1" without a word."""
+    with pytest.warns(UserWarning, match="found is a word at some points and a number at others"):
+        found = sweep(lambda case: {"found": 1 if case.Omega < 11 else "w"}, P, Omega=[10, 12])
+    assert found["found"].values.tolist() == ["1", "w"]

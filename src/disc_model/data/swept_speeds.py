@@ -33,23 +33,24 @@ def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
     apart = sweep["separation_rate"] > 0
     rising = apart.sel(direction="up", drop=True)
     falling = apart.sel(direction="down", drop=True)
-    begins_at_bound = rising.isel(sweep_Omega=0, drop=True)
-    persists_to_bound = falling.all("sweep_Omega")
     speeds = sweep["sweep_Omega"]
-    lowest = float(speeds.min())
+    along = str(speeds.dims[-1])  # another one than the speed where sweeps have different speeds
+    begins_at_bound = rising.isel({along: 0}, drop=True)
+    persists_to_bound = (falling | speeds.isnull()).all(along)
+    lowest = speeds.min(along)
     onset = sweep["onset_speed"].where(~begins_at_bound, lowest)
     doubtful = doubtful_contact(sweep)
     before_onset = (speeds < onset) | onset.isnull()
     doubtful_up = doubtful.sel(direction="up", drop=True) & before_onset
-    first_kept = speeds.where(~falling).max("sweep_Omega")
+    first_kept = speeds.where(~falling).max(along)
     doubtful_down = doubtful.sel(direction="down", drop=True) & (speeds == first_kept)
     return SweptSpeeds(
         onset=onset,
         end=sweep["offset_speed"].where(~persists_to_bound, lowest),
         onset_at_bound=begins_at_bound,
         end_at_bound=persists_to_bound,
-        onset_unsettled=doubtful_up.any("sweep_Omega"),
-        end_unsettled=doubtful_down.any("sweep_Omega"),
+        onset_unsettled=doubtful_up.any(along),
+        end_unsettled=doubtful_down.any(along),
     )
 
 

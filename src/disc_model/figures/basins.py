@@ -157,7 +157,8 @@ def entries_of(classes: Sequence[str], undecided: str) -> list[Artist]:
 def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: Array) -> None:
     """Draw the shares of outcomes along another dimension, stacked, as bars at the places
     `along`."""
-    width = BAR * np.diff(along).min(initial=1.0)
+    steps = np.diff(along)
+    width = BAR * (steps.min() if steps.size else 1.0)
     shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
     below = shares.cumsum("attractor_class") - shares.fillna(0)
     for word, heights, bottoms in zip(classes, shares, below, strict=True):

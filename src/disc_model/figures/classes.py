@@ -50,7 +50,9 @@ NOT_NEAR = Look("the motion is not near this cycle", "none", 3 * "x")
 """Of a value of an unstable cycle that was sought near the static start, where the motion from there is elsewhere."""
 UNKNOWN_STARTS = Look("outcome of some starts unknown", "none", 3 * "|")
 """Of a value that rests on starts some of which are undecided or failed."""
-DOUBTS = (UNSETTLED, NOT_NEAR, UNKNOWN_STARTS)
+NOT_CONVERGED = Look("not converged", "none", 4 * "\\")
+"""Of an average over a time that was too short for it."""
+DOUBTS = (UNSETTLED, NOT_NEAR, UNKNOWN_STARTS, NOT_CONVERGED)
 """Marks of values that may be others than those of all motions, once they have settled."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
@@ -89,6 +91,9 @@ LOOKS: Mapping[str, Look] = {
     "no_value": NO_VALUE,
     EXCLUDED: Look("left out", "#ffffff"),
     "none": Look("none", "#ffffff"),
+    "infinite": Look("infinite", "#ffffff", 2 * "O"),
+    "minus_infinite": Look("minus infinite", "#ffffff", 3 * "."),
+    "vanishing": Look("growth rate −∞", "#ffffff", 3 * "."),
 }
 IN_FULL = {"neimark_sacker": "Neimark-Sacker"}
 """Names of classes that are no plain words."""

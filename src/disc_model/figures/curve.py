@@ -9,7 +9,7 @@ from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
 
 from disc_model.data.variables import EXCLUDED
 from disc_model.figures.branch_lines import THIN, Look
-from disc_model.figures.curve_errors import draw_errors, errors_by_part, name_errors
+from disc_model.figures.class_axis import join_classes, name_classes, words_along
 from disc_model.figures.curve_marks import (
     choose_marks,
     fill_doubtful,
@@ -30,6 +30,7 @@ from disc_model.figures.drawing import (
     plain_decades,
     row_of_panels,
 )
+from disc_model.figures.error_bars import draw_errors, names_errors
 from disc_model.figures.heat_map import as_classes, scale
 from disc_model.figures.kinds.base import key_of
 from disc_model.figures.kinds.general import CurvePlot
@@ -57,7 +58,7 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.separating_share import draw_intervals_of_lines
 from disc_model.figures.types import Array, Axes, Figure, Mask
-from disc_model.figures.words import CHARACTER, as_numbers, in_lines, label_in, measured, named
+from disc_model.figures.words import CHARACTER, as_numbers, label_in, measured, named
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
@@ -78,7 +79,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     for ax, part in zip(axes, panels, strict=True):
         draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
         ax.label_outer()
-    in_legend = name_errors(axes[0], study, plot.variable) or plot.legend
+    in_legend = any(map(names_errors, axes)) or plot.legend
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
         in_legend = note_outside(axes, plot.limits) or in_legend
@@ -127,7 +128,7 @@ def draw_lines(  # noqa: PLR0913
     """
     if marks is None:
         marks = {}
-    names, array = heights_of(study, variable)
+    names, array = join_classes(ax, *heights_of(study, variable))
     by = remaining(array, [x])
     along = measured_along(array[x]).values
     joined = joined and along.dtype.kind != "U"
@@ -141,7 +142,6 @@ def draw_lines(  # noqa: PLR0913
     line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
     titles = _titles_of_shown(study, array, by)
-    errors = errors_by_part(study, variable, by)
     drawn = []
     for part in parts:
         title = titles.get(part.name)
@@ -154,11 +154,11 @@ def draw_lines(  # noqa: PLR0913
             look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
-        draw_errors(ax, along, heights, errors.get(part.name), looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
         if title is not None:
             drawn.append((title, first))
 
+    draw_errors(ax, study, array, x, looks.colours)
     set_scales(ax, study, names, array, x, log)
 
     # what is no value, or none that was found
@@ -237,7 +237,7 @@ def _draw_at_bound(
 def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
     """Scale the horizontal axis for the values along it, or turn the words there."""
     if along.dtype.kind == "U":
-        _turn_words(ax, along)
+        _turn_words(ax, words_along(ax, along.astype(str).tolist()))
         return
     ax.set_xscale(scale(values))
     if values.dtype.kind == "i":
@@ -246,7 +246,7 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
         plain_decades(ax.xaxis)
 
 
-def _turn_words(ax: Axes, words: np.ndarray) -> None:
+def _turn_words(ax: Axes, words: Sequence[str]) -> None:
     """Turn words along the horizontal axis if they have no room beside each other, and write only some
     of them if they have none then, either."""
     page: Any = ax.get_figure(root=True)
@@ -334,7 +334,7 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
     counts; nothing where no point of any line has a value, as numbers would be made up."""
     axis: Any = ax.yaxis
     if names:
-        ax.set_yticks(range(len(names)), labels=[in_lines(name) for name in names])
+        name_classes(ax, names)
     elif not shows:
         axis.set_major_locator(NoNumbers())
         axis.set_minor_locator(NullLocator())

@@ -17,6 +17,7 @@ from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.selection import (
     Part,
     beyond_lowest_speed,
+    classes_of_infinite,
     doubts,
     gaps,
     parts_along,
@@ -32,8 +33,6 @@ CONTACT_LOST = "contact lost at the lowest speed"
 UNSTABLE = "unstable at all values"
 STABLE_ABOVE = "stable at the upper bound"
 """Said of points at which a motion has no border of stability."""
-INFINITE = "infinite"
-"""Said of points whose value is infinite."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 MARK = 3.0  # points, size of the marks of lines,
@@ -189,9 +188,20 @@ def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.Data
                 continue
             found[reason] = points & ~doubtful
             found[f"{reason}, {UNSETTLED.label}"] = points & doubtful
-    if array.dtype.kind == "f":
-        found[INFINITE] = array == np.inf
+    infinite = infinite_points(study, array)
+    for reason in found:
+        found[reason] = found[reason] & (infinite == "")
+    for word in np.unique(infinite.values[infinite.values != ""]):
+        found[name_of(str(word))] = infinite == word
     return found
+
+
+def infinite_points(study: xr.Dataset, array: xr.DataArray) -> xr.DataArray:
+    """The class of each point of a variable that has an infinite value, "" elsewhere."""
+    variable = study[str(array.name)].transpose(*array.dims)
+    if variable.dtype.kind != "f":
+        return array.copy(data=np.full(array.shape, ""))
+    return array.copy(data=classes_of_infinite(variable))
 
 
 def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str, xr.DataArray]:

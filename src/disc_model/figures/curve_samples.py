@@ -7,6 +7,7 @@ import xarray as xr
 
 from disc_model.display import counted
 from disc_model.figures.branch_lines import Look
+from disc_model.figures.class_axis import join_classes
 from disc_model.figures.curve import dashes_of, draw_dots, heights_of, open_steps, set_scales
 from disc_model.figures.curve_marks import measured_along, open_look, reasons_of_gaps
 from disc_model.figures.drawing import BLACK, GREY, wide
@@ -26,7 +27,7 @@ def draw_samples(
 
     look : grey stands for black
     """
-    names, array = heights_of(study, variable)
+    names, array = join_classes(ax, *heights_of(study, variable))
     by = remaining(array, [x])
     along = measured_along(array[x]).values
     colour = GREY if look.colour == BLACK else look.colour

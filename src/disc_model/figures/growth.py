@@ -19,7 +19,7 @@ from disc_model.figures.colours import (
     growth_colours,
     growth_norm,
 )
-from disc_model.figures.selection import class_of_gap, doubts, has_values, statuses_like
+from disc_model.figures.selection import classes_of_gaps, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import NO_VALUE, label_of, missing_text
 
@@ -99,10 +99,11 @@ def stability_of(plane: xr.Dataset) -> Words:
 def classes_without_rate(plane: xr.Dataset, name: str = "growth_rate") -> Words:
     """Classes of points that have no growth rate, keys of `MAP_LOOKS`; "" where there is a rate."""
     rate = plane[name].values
-    words = np.vectorize(class_of_gap, otypes=[str])(statuses_like(plane, plane[name]))
     if name == "growth_rate" and "cycle" in plane:
-        cycles = flag_names(plane["cycle"])
-        words = np.where(words == EXCLUDED, words, cycles)
+        is_left_out = statuses_like(plane, plane[name]) == EXCLUDED
+        words = np.where(is_left_out, EXCLUDED, flag_names(plane["cycle"]))
+    else:
+        words = classes_of_gaps(plane, plane[name])
     return np.where(np.isfinite(rate), "", words)
 
 

@@ -14,6 +14,7 @@ from matplotlib.ticker import FixedLocator, Formatter, FuncFormatter, MaxNLocato
 from disc_model.data.variables import SHOWN, typeset
 from disc_model.figures.drawing import DECADES
 from disc_model.figures.gap_rows import rows_above, stack_rows
+from disc_model.figures.places import set_places
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import UNITS
 
@@ -64,13 +65,13 @@ def break_labels(figure: Figure, axes: Sequence[Axes] | None = None) -> None:
     # the layout makes axes narrow under a long title, so that it is set with short ones
     for each in found:
         each.text.set_text("x")
-    figure.draw_without_rendering()  # sets the sizes
+    set_places(figure)  # sets the sizes
     beside = 0
     for each, said in zip(found, words, strict=True):
         if each.direction == "height":
             beside += _set_in_lines(figure, each, said)
     if beside:
-        figure.draw_without_rendering()  # axes are narrower beside labels of several lines
+        set_places(figure)  # axes are narrower beside labels of several lines
     for each, said in zip(found, words, strict=True):
         if each.direction == "width":
             _set_in_lines(figure, each, said)

@@ -15,6 +15,7 @@ from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 
+from disc_model.figures.places import set_places
 from disc_model.figures.types import Artist, Axes, FigureBase
 from disc_model.figures.words import CHARACTER
 
@@ -122,7 +123,7 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
         legend = _draw(ax, entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
-        page.draw_without_rendering()  # sets the places
+        set_places(page)  # sets the places
         for place in _places_inside(ax):
             legend.set_loc(place)
             if not _covers(legend, ax):
@@ -143,7 +144,7 @@ def _places_inside(ax: Axes) -> tuple[str, ...]:
 def keep_height(figure: FigureBase, axes: Sequence[Axes], least: float = LEAST_MAP) -> None:
     """Make a figure so high that its legend and titles leave its panels a height in inches."""
     page: Any = figure
-    page.draw_without_rendering()  # sets the places
+    set_places(page)  # sets the places
     lowest = min(ax.bbox.height for ax in axes) / page.dpi
     rows = {round(ax.bbox.y0) for ax in axes}
     if lowest < least:
@@ -294,7 +295,7 @@ def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     """Draw a legend on the right of a panel, in one column of broken lines where there is no room for
     more, at the height of its middle; nothing, and None, if it has no room even then."""
     page: Any = ax.get_figure(root=True)
-    page.draw_without_rendering()  # sets the places
+    set_places(page)  # sets the places
     gap = BESIDE * page.dpi
     width = _free_below(ax, ()).right - ax.bbox.x1 - gap
     for size in ({}, small()):
@@ -334,7 +335,7 @@ def legend_below(
     if not handles:
         return None
     page: Any = ax.get_figure(root=True)
-    page.draw_without_rendering()  # sets the places
+    set_places(page)  # sets the places
     frame = ax.bbox
     beside = [box for bar in bars for box in _stands_below(bar)]  # labels may have more lines there
     depth = frame.y0 - min(box.y0 for box in (frame, *_stands_below(ax), *beside))
@@ -376,7 +377,7 @@ def legend_below(
     # once more when the legend has its place
     setattr(legend, ANCHOR, Anchor(place.draw.keywords["bbox_transform"]))
     for _ in range(MOVES):
-        page.draw_without_rendering()
+        set_places(page)
         move_to_page(ax, bars)
     return legend
 

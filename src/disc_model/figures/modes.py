@@ -48,7 +48,8 @@ def plot_modes(
     wishes = Wishes(ax, labels=labels, title=named if ax is None else None)
     with page_for(wishes, width, 0.24 * PAGE * rows + 0.3, rows, columns) as page:
         check_free(page.axes, FROM_ABOVE, "modes")
-        page.show(*(Quantities(FROM_ABOVE, FROM_ABOVE) for _ in page.axes))
+        seen = Quantities(FROM_ABOVE, FROM_ABOVE, "Shape of a mode")
+        page.show(*([seen] * len(page.axes)))
         for spare in page.axes[count:]:
             spare.set_axis_off()
         draw_modes(page.axes[:count], p)

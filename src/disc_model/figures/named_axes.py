@@ -85,6 +85,15 @@ def check_free(axes: Sequence[Axes], label: str, picture: str) -> None:
     raise_faults([Fault(("ax",), "", rule)] if shows else [])
 
 
+def refuse_beside_areas(axes: Sequence[Axes], areas: str) -> None:
+    """Raise `ParameterError` if axes have a map or bars of a picture, which areas such as "a map" would
+    cover."""
+    rule = f"shows areas in colour already, which {areas} would cover: draw on {REMEDIES['bar']}"
+    for ax in axes:
+        if shown_on(ax).labels.get("bar"):
+            raise_faults([Fault(("ax",), "", rule)])
+
+
 def _faults(ax: Axes, along: str, label: str, alike: Collection[str]) -> Iterator[Fault]:
     """Yield what is wrong with a picture that has a label along axes."""
     own = own_label(ax, along)

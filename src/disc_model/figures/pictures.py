@@ -23,6 +23,7 @@ def plot_sweep(  # noqa: PLR0913
     x: str = "",
     *,
     lines: str | Literal[False] = "",
+    points: bool = False,
     log: bool | None = None,
     cmap: str | Colormap | None = None,
     limits: tuple[float, float] | None = None,
@@ -36,27 +37,25 @@ def plot_sweep(  # noqa: PLR0913
 
     Where one of two dimensions has three values or fewer, each of these has a line. Where a variable has
     several values at each point, such as the samples of `bifurcation` or an array that a function of
-    your own returns, all are points over what varies, as in a bifurcation diagram. Grey rings there are
-    of motions that had not settled.
+    your own returns, all are points over what varies, as in a bifurcation diagram. Rings there are of
+    motions that had not settled, grey or in the colour of their sweep. Lyapunov exponents have bars of their
+    standard errors.
 
-    Values that vary together, such as paired samples, are points over one of their columns, which
-    may be that of their names. A second
-    dimension of words or of discs, such as the direction of a sweep, gives a line for each. What
-    starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
-    cell is "unresolved": its value is right, but the grid misses what lies between. In a map of growth
-    rates, all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its
-    neighbours at the left and right or above and below have one other outcome, or none of the eight
-    around it has its own. An undecided cell is never hatched. A line of growth rates of cycles is open,
-    which marks above the panel say, between neighbours that differ by 0.09/s or more if both are
-    small, or by a factor of 2.4 if both are large, or where it goes back further than it has come on
-    either side: the next point may be of another cycle, or the rate is steep. A line that is not
-    open may join different cycles as well; finer steps show them. Marks on a grey
-    strip above the panel are of points without a value; no
-    line leads to a value that is the lower bound of its search. Filled marks, and hatched cells of a
-    map, are of a sweep of the speed whose motion had not settled, or of an unstable cycle where the motion
-    from the static start is not near, as the legend says. An axis is logarithmic if three or more
-    positive values span a decade or more and have equal ratios within 1e-6, as those of
-    `numpy.geomspace`.
+    Values that vary together, such as paired samples, are points over one of their columns, which may be that
+    of their names. A second dimension of words or of discs, such as the direction of a sweep, gives a line for
+    each. What starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
+    cell is "unresolved": its value is right, but the grid misses what lies between. In a map of growth rates,
+    all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its neighbours at the
+    left and right or above and below have one other outcome, or none of the eight around it has its own. An
+    undecided cell is never hatched. A line of growth rates of cycles is open, which marks above the panel say,
+    between neighbours that differ by 0.09/s or more if both are small, or by a factor of 2.4 if both are large,
+    or where it goes back further than it has come on either side: the next point may be of another cycle, or
+    the rate is steep. A line that is not open may join different cycles as well; finer steps show them. Marks
+    on a grey strip above the panel are of points without a value; no line leads to a value that is the lower
+    bound of its search. Filled marks, and hatched cells of a map, are of a sweep of the speed whose motion had
+    not settled, of an exponent that has not converged, or of an unstable cycle where the motion from the static
+    start is not near, as the legend says. An axis is logarithmic if three or more positive values span a decade
+    or more and have equal ratios within 1e-6, as those of `numpy.geomspace`.
 
     Parameters
     ----------
@@ -71,6 +70,8 @@ def plot_sweep(  # noqa: PLR0913
         each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map;
         False for a map in any case, which `cmap` asks for as well
+    points : whether all values at each place along the axis are points that no line joins, as in a bifurcation diagram
+        of the turns that a function of your own returns
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. If not given, growth
         rates beyond 0.2/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of
@@ -80,12 +81,13 @@ def plot_sweep(  # noqa: PLR0913
         there in any case. Classes have the same colours in all pictures
     limits : ends of the axis of a variable that is drawn as lines, or of the bar of colours, in its unit; without them
         colours of growth rates end at 0.3/s, or, if most rates are larger, beyond 98 % of them
-    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by "bar",
-        and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a sweep, those
-        of another case, or of another variable of the same unit, get a colour and dashes of their own, and the legend
-        names all by what differs. Usual labels are the attributes `long_name` and `units` of a variable, which are
-        yours to set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are
-        widened, as by ``figure.subplots_adjust``, until labels, bar and legend lie on the page
+    ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by
+        "bar", and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a
+        sweep, those of another case, or of another variable of the same unit, get a colour and dashes of their own,
+        and the legend names all by what differs; words along the axis are those of all. Bars and maps are not drawn
+        over each other. Usual labels are the attributes `long_name` and `units` of a variable, which are yours to
+        set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as
+        by ``figure.subplots_adjust``, until labels, bar and legend lie on the page
 
     Returns
     -------
@@ -112,7 +114,16 @@ def plot_sweep(  # noqa: PLR0913
     """
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
     return draw(
-        "plot_sweep", study, variable, x, lines=lines, log=log, cmap=cmap, limits=limits, **wishes
+        "plot_sweep",
+        study,
+        variable,
+        x,
+        lines=lines,
+        points=points,
+        log=log,
+        cmap=cmap,
+        limits=limits,
+        **wishes,
     )
 
 

@@ -11,6 +11,7 @@ from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
 from disc_model.figures.labels import break_labels
+from disc_model.figures.places import set_places
 from disc_model.figures.types import Array, Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
@@ -98,7 +99,7 @@ def fit_to_page(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
 def _widen_for(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
     """Widen margins and gaps, or shrink axes, until all has room or nothing changes."""
     for _ in range(ROUNDS):
-        figure.draw_without_rendering()  # sets the places
+        set_places(figure)  # sets the places
         changed = False
         for ax, bars in panels.items():
             beyond = _beyond(ax, bars)
@@ -112,7 +113,7 @@ def _widen_for(figure: Figure, panels: Mapping[Axes, Sequence[Axes]]) -> None:
                 _widen_margins(figure, place.get_topmost_subplotspec(), beyond)
             if np.abs(_places_of(panels) - before).max() > LEAST_STEP:
                 changed = True
-                figure.draw_without_rendering()  # so that a gap is not widened from both sides
+                set_places(figure)  # so that a gap is not widened from both sides
                 break_labels(figure, [ax, *bars])  # a longer one would take ever more room
         if not changed:
             return

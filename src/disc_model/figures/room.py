@@ -25,6 +25,7 @@ from disc_model.figures.legends import (
 )
 from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
+from disc_model.figures.places import set_places
 from disc_model.figures.placing import fit_to_page, restore_margins
 from disc_model.figures.types import Axes
 
@@ -53,7 +54,7 @@ def make_room(page: Page, wishes: Wishes) -> None:
             fit_to_page(figure, panels)
         if len(panels) > len(page.axes):
             break_labels(figure, [*panels, *chain(*panels.values())])
-        figure.draw_without_rendering()  # sets the places
+        set_places(figure)  # sets the places
         cramped = _cramped_in(figure)
         if not cramped:
             break
@@ -88,7 +89,7 @@ def _move_legends(figure: Any) -> None:
     if not placed:
         return
     _set_in_one_size([legend for legend, (_, asked) in placed.items() if asked.legend is True])
-    figure.draw_without_rendering()  # sets the places
+    set_places(figure)  # sets the places
     for page, _ in placed.values():
         move_to_page(page.axes[-1], page.beside_last)
 

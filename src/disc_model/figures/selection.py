@@ -9,11 +9,27 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, flag_names, stated_in
-from disc_model.figures.classes import NOT_NEAR, UNKNOWN_STARTS, UNSETTLED, Look, name_of
+from disc_model.figures.classes import (
+    NOT_CONVERGED,
+    NOT_NEAR,
+    UNKNOWN_STARTS,
+    UNSETTLED,
+    Look,
+    name_of,
+)
 from disc_model.figures.kinds.base import NORM, key_of
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.unknown_starts import class_of_starts, rest_on_unknown
-from disc_model.figures.words import NO_VALUE, WORDS, named_value, rank_of, value_text
+from disc_model.figures.words import (
+    INFINITE,
+    MINUS_INFINITE,
+    NO_VALUE,
+    VANISHING,
+    WORDS,
+    named_value,
+    rank_of,
+    value_text,
+)
 
 WITHOUT_CYCLE = (
     "no_cycle",
@@ -59,6 +75,9 @@ OF_CYCLES = (
     "cycle_growth_rate",
 )
 """Variables of a cycle."""
+
+AVERAGES = ("exponent", "exponents")
+"""Variables that are averages over a time, which may be too short."""
 
 Data = TypeVar("Data", xr.Dataset, xr.DataArray)
 
@@ -270,7 +289,17 @@ def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
     if of_starts is not None:
         words = of_starts.broadcast_like(array).transpose(*array.dims).values
         classes = np.where((classes == NO_VALUE) & (words != ""), words, classes)
+    infinite = classes_of_infinite(array)
+    classes = np.where((status == "ok") & (infinite != ""), infinite, classes)
     return np.where(gone, classes, "")
+
+
+def classes_of_infinite(variable: xr.DataArray) -> Words:
+    """The class of each point at which a variable has an infinite value, "" elsewhere."""
+    values = variable.values.astype(float)
+    below = VANISHING if str(variable.name).endswith("growth_rate") else MINUS_INFINITE
+    classes = np.where(np.isposinf(values), INFINITE, "")
+    return np.where(np.isneginf(values), below, classes)
 
 
 def _not_simulated(study: xr.Dataset, array: xr.DataArray) -> Mask:
@@ -305,8 +334,9 @@ def at_lower_bound(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     variables."""
     if variable == "value" and "at_lower_bound" in study:
         return study["at_lower_bound"] == 1
-    if variable == "critical_speed" and "scan_Omega" in study.coords:
-        lowest = float(study["scan_Omega"].min())
+    if variable == "critical_speed" and "scan_Omega" in study:
+        speeds = study["scan_Omega"]
+        lowest = speeds.min(str(speeds.dims[-1]))  # scans may have bounds of their own
         return study[variable] <= lowest * (1 + ROUNDING)
     return None
 
@@ -353,7 +383,8 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     dims = {*study["sweep_settled"].dims}
     if variable in OF_STAYS and dims <= {*study[variable].dims}:
         return ~has_settled(study) & study[variable].notnull()
-    if variable in ("onset_speed", "offset_speed") and dims >= {"direction", "sweep_Omega"}:
+    of_sweeps = {"direction", *study["sweep_Omega"].dims[-1:]} if "sweep_Omega" in study else set()
+    if variable in ("onset_speed", "offset_speed") and of_sweeps and dims >= of_sweeps:
         swept = swept_speeds(study)
         return swept.onset_unsettled if variable == "onset_speed" else swept.end_unsettled
     return None
@@ -370,6 +401,32 @@ def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return away.broadcast_like(study[variable])
 
 
+def companion_of(study: xr.Dataset, variable: str, name: str) -> xr.DataArray | None:
+    """Another variable of the points of a variable, along the dimensions of this one; None if a study does
+    not have it for them."""
+    if name not in study:
+        return None
+    found = study[name]
+    index = f"{variable}_index"
+    own = f"{name}_index"
+    if own in found.dims and study.sizes[own] == study.sizes.get(index):
+        found = found.rename({own: index})
+    return found if {*found.dims} == {*study[variable].dims} else None
+
+
+def not_converged(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose value is an average over a time that was too short for it; None of other variables
+    and studies."""
+    if variable not in AVERAGES:
+        return None
+    converged = companion_of(study, variable, "converged")
+    if converged is None:
+        return None
+    if converged.dtype.kind in "UO" or "flag_meanings" in converged.attrs:
+        return converged.copy(data=flag_names(converged) == "no")
+    return converged == 0
+
+
 def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     """Points whose value is another than that of a settled motion from the static start may be, by the
     look that says why."""
@@ -377,6 +434,7 @@ def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
         UNSETTLED: unsettled(study, variable),
         NOT_NEAR: not_near(study, variable),
         UNKNOWN_STARTS: rest_on_unknown(study, variable),
+        NOT_CONVERGED: not_converged(study, variable),
     }
     return {look: mask for look, mask in masks.items() if mask is not None and mask.any()}
 

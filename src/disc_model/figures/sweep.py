@@ -15,7 +15,7 @@ from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.heat_map import draw_maps
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.selected import selected_of
 from disc_model.figures.separating_share import (
@@ -46,6 +46,10 @@ from disc_model.figures.sweep_options import options_of, set_options
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import label_in, label_of, measured
 
+OUTCOMES = "Outcome of starts"  # what the colours of bars show
+ALONE = "must be left out beside lines, or the colours of a map"
+MOST_CLASSES = 20  # different words that the colours and patterns of a map tell apart
+UNEVEN = 3.0  # ratio of steps between bars beyond which they stand equally far apart
 MOST_ENERGIES = 5  # of kicks that an axis names each
 
 
@@ -55,6 +59,7 @@ def plot_sweep(  # noqa: PLR0913
     x: str = "",
     *,
     lines: str | Literal[False] = "",
+    points: bool = False,
     log: bool | None = None,
     cmap: Any = None,
     limits: Any = None,
@@ -74,13 +79,15 @@ def plot_sweep(  # noqa: PLR0913
         (names, "variable", variable, "must be a name, or a list of names"),
         (isinstance(x, str | None), "x", x, "must be a name"),
         (is_named, "lines", lines, "must be a name, or False for a map"),
+        (isinstance(points, bool), "points", points, "must be True or False"),
+        (not (points and (lines or lines is False or cmap is not None)), "points", points, ALONE),
         (isinstance(log, bool | None), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
     )
     asked = lines or ""
     as_map = lines is False or (cmap is not None and not lines)  # lines have no map of colours
-    varying, drawn = choose_drawn(study, variables, x, None if as_map else asked)  # type: ignore[arg-type]  # checked
+    varying, drawn = choose_drawn(study, variables, x, None if as_map else asked, points=points)  # type: ignore[arg-type]  # checked
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
     colours = ColourWishes(bool(log), cmap, limits, linear=log is False)
@@ -105,7 +112,8 @@ def _draw(
     across = label_of(study[drawn.across])[0]
     if drawn.variable in SHARES and not wishes.log:
         wishes.refuse()
-        page.show(Quantities(across, label_of(study[drawn.variable])[0]))
+        page.show(Quantities(across, label_of(study[drawn.variable])[0], OUTCOMES))
+        refuse_beside_areas(page.axes, "bars")
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
         wishes.refuse(of_lines=True)
@@ -116,7 +124,9 @@ def _draw(
         if wishes.limits is not None:
             set_limits(page.ax, wishes.limits)
     else:
+        _refuse_many_words(study, drawn.variable)
         page.show(Quantities(across, label_of(study[drawn.second])[0], label))
+        refuse_beside_areas(page.axes, "a map")
         plane = study.transpose(drawn.second, drawn.across, ...)
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, wishes)
         page.explain(key.handles, beside="below", title=key.title)
@@ -124,6 +134,15 @@ def _draw(
         whole = study[drawn.second].dtype.kind == "i"
         if whole and page.ax.get_yscale() == "linear":
             page.ax.locator_params(axis="y", integer=True)
+
+
+def _refuse_many_words(study: xr.Dataset, variable: str) -> None:
+    """Raise `ParameterError` for a map of more words than its legend could explain."""
+    if study[variable].dtype.kind not in "UO":
+        return
+    count = np.unique(study[variable].values.astype(str)).size
+    rule = f"has {count} different words, and a map tells {MOST_CLASSES} apart: draw a shorter one"
+    require((count <= MOST_CLASSES, "variable", variable, rule))
 
 
 def _new_lines(study: xr.Dataset, drawn: Drawn, name: str, selected: Mapping[str, str]) -> Lines:
@@ -159,18 +178,28 @@ def _energies_of(study: xr.Dataset, drawn: Drawn) -> str:
     return f",\nkicked with {', '.join(energies)} J"
 
 
+def are_apart(values: Any, across: str) -> bool:
+    """Whether bars stand equally far apart, as those of energies, of which one may be 0, of words, and of
+    numbers at which true distances would make bars hairlines."""
+    if across == "energy" or values.dtype.kind in "UO":
+        return True
+    steps = np.diff(values)
+    return bool(steps.max(initial=0.0) > UNEVEN * steps.min(initial=np.inf))
+
+
 def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     """Draw the shares of starts as bars; returns entries of a legend."""
     shares = shares_of(study, drawn.variable)
     classes = outcomes_in(shares)
     across = measured(study[drawn.across])
     places = across.values
-    if drawn.across == "energy":  # equally far apart, as one may be 0
+    if are_apart(places, drawn.across):
         places = np.arange(places.size)
     draw_shares(ax, shares, classes, places)
     draw_interval(ax, interval_of(study, drawn.variable), classes, places)
-    if drawn.across == "energy":
-        ax.set_xticks(places, [f"{energy:g}" for energy in across.values])
+    if places is not across.values:
+        texts = [each if isinstance(each, str) else f"{each:g}" for each in across.values]
+        ax.set_xticks(places, texts)
     ax.set_xlabel(across.label)
     ax.set_ylabel(share_of_starts(study, drawn.variable) + _energies_of(study, drawn))
     ax.set_xmargin(0.04)

@@ -10,12 +10,19 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
-from disc_model.data.variables import WITHOUT_EFFECT, stated_in
+from disc_model.data.variables import TRUTH, WITHOUT_EFFECT, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
-from disc_model.figures.words import known_name, symbol_of, value_text, what_case
+from disc_model.figures.words import (
+    IN_THOUSANDTH,
+    known_name,
+    named,
+    symbol_of,
+    value_text,
+    what_case,
+)
 from disc_model.parameters import Disc
 
 SHARES = ("basin_fraction_by_energy", "basin_fraction")
@@ -34,15 +41,21 @@ OF_FUNCTIONS = {
     "bifurcation": "psi",
     "choose_modes": "modes",
     "coupled_natural_frequencies": "value",
+    "lyapunov": "exponent",
     "lyapunov_exponents": "exponents",
     "simulate": "n_separations",
 }
 """Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
 FIRST_OF_SEVERAL = {
+    "exponent": "largest Lyapunov exponent",
     "exponents": "largest Lyapunov exponent",
     "value": "lowest natural frequency of disc and attached slider",
 }
 """Names of the first value of such variables that have several at each point."""
+OF_POINTS = ("status", "message")
+"""Variables that say whether points were computed."""
+ALONG_EXPONENTS = ("errors", "exponent_error", "converged")
+"""Variables that say something of each Lyapunov exponent."""
 COUNTED = ("branch", "branch_point")
 """Dimensions whose values only count something."""
 COUNT = re.compile("number of the (?!.* along )")
@@ -85,29 +98,60 @@ class Drawn:
 
 
 def choose_drawn(
-    study: xr.Dataset, variables: Sequence[str], x: str, lines: str | None = ""
+    study: xr.Dataset,
+    variables: Sequence[str],
+    x: str,
+    lines: str | None = "",
+    *,
+    points: bool = False,
 ) -> tuple[xr.Dataset, list[Drawn]]:
     """The study as it is drawn, and what is drawn of each variable, "" for the usual one; several
     are lines over the same dimension. Raises `ParameterError`.
 
     x, lines : dimensions along the horizontal axis, and with a line for each value; "" for the usual
         ones; None for a map in place of lines
+    points : whether all values at a place along the axis are points
     """
     _refuse_branches(study)
+    study = _without_zeros(_without_stacks(study))
+    study = _with_own_coordinates(study)
     if not variables[0]:
         study = _with_first_values(study)
-    whole = _varying(_with_names_of_discs(study))
+    whole = _varying(_with_words(study))
     paired = _paired(_with_one_horizon(whole), x)
     varying = paired.study
     if not paired.column:
         varying = _ascending(varying, paired.samples)
 
-    drawn = [_drawn(paired._replace(study=varying), each, x, lines) for each in variables]
+    if points:
+        drawn = [_as_points(varying, each, paired.column or x) for each in variables]
+    else:
+        drawn = [_drawn(paired._replace(study=varying), each, x, lines) for each in variables]
     for each in drawn[1:]:
         alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
         rule = "must be lines over the same dimension to be drawn together"
         require((alike, "variable", each.variable, rule))
-    return varying, drawn
+    return _in_common_units(varying, variables), drawn
+
+
+def _as_points(study: xr.Dataset, variable: str, x: str) -> Drawn:
+    """What is drawn of a variable, as points: all of a second dimension at each place along the first."""
+    drawn = _chosen_axes(study, _chosen_variable(study, variable), x)
+    if drawn.variable in SHARES:
+        raise ParameterError(Fault(("points",), "", f"{drawn.variable} is drawn as bars"))
+    counted = drawn.second is not None
+    return replace(drawn, mapped=False, joined=False, sampled=False, counted=counted)
+
+
+def _in_common_units(study: xr.Dataset, variables: Sequence[str]) -> xr.Dataset:
+    """The study with all of several variables of one unit in thousandths of it if some of them are."""
+    shown = [name for name in variables if name in study]
+    units = {study[name].attrs.get("units") for name in shown}
+    factors = [named(study[name]).factor for name in shown]
+    if len(units) != 1 or {*factors} != {1.0, 1e3}:
+        return study
+    plain = [name for name, factor in zip(shown, factors, strict=True) if factor == 1.0]
+    return study.assign({name: study[name].assign_attrs({IN_THOUSANDTH: 1}) for name in plain})
 
 
 def _refuse_branches(study: xr.Dataset) -> None:
@@ -133,6 +177,8 @@ def _drawn(paired: Paired, variable: str, x: str, lines: str | None) -> Drawn:
         drawn = _with_few_lines(study, drawn, x)
     if column:
         return replace(drawn, mapped=False, joined=False)
+    if _only_counts(study, drawn.across):
+        drawn = replace(drawn, joined=False)
     if samples and drawn.second == samples:
         return replace(drawn, mapped=False, sampled=True)
     return drawn
@@ -175,16 +221,21 @@ def _varying(study: xr.Dataset) -> xr.Dataset:
 
 
 def _with_first_values(study: xr.Dataset) -> xr.Dataset:
-    """The study with the first value at each point of the usual variable of its function."""
-    name = OF_FUNCTIONS.get(study.attrs.get("function", ""), "")
+    """The study with the first value at each point of the usual variable of its function, and what is
+    known of this value."""
+    name = OF_FUNCTIONS.get(function_of(study), "")
     if name not in FIRST_OF_SEVERAL or name not in study:
         return study
-    several = [dim for dim in study[name].dims if dim == f"{name}_index"]
-    if not several:  # a reader has selected one
+    firsts = {}
+    for each in (name, *ALONG_EXPONENTS):
+        dim = "exponent_number" if name == "exponent" else f"{each}_index"
+        if each in study and dim in study[each].dims:
+            firsts[each] = study[each].isel({dim: 0}, drop=True)
+    if name not in firsts:  # one was selected
         return study
-    first = study[name].isel(dict.fromkeys(several, 0))
-    attrs = {**first.attrs, "long_name": FIRST_OF_SEVERAL[name]}
-    return study.drop_vars(name).assign({name: first.assign_attrs(attrs)})
+    attrs = {**firsts[name].attrs, "long_name": FIRST_OF_SEVERAL[name]}
+    firsts[name] = firsts[name].assign_attrs(attrs)
+    return study.drop_vars([*firsts]).assign(firsts)
 
 
 def _with_one_horizon(study: xr.Dataset) -> xr.Dataset:
@@ -207,10 +258,67 @@ def _ascending(study: xr.Dataset, samples: str) -> xr.Dataset:
     return study.isel(placed).sortby(numbers)
 
 
-def _with_names_of_discs(study: xr.Dataset) -> xr.Dataset:
-    """The study with names for the discs along its dimensions, by their order and frequencies."""
-    named = {}
+def _without_stacks(study: xr.Dataset) -> xr.Dataset:
+    """The study with several values along a dimension, as `xarray.Dataset.stack` gives them, as those of
+    paired samples."""
+    stacked = [
+        dim for dim, index in study.indexes.items() if index.nlevels > 1 and dim in study.dims
+    ]
+    for dim in stacked:
+        levels = study.indexes[dim]
+        names = [*map(str, levels.names)]
+        columns = {}
+        for name in names:
+            values = levels.get_level_values(name).to_numpy()
+            columns[name] = (dim, values, study[name].attrs)
+        study = study.drop_vars([dim, *names]).assign_coords(columns)
+    return study
+
+
+def _without_zeros(study: xr.Dataset) -> xr.Dataset:
+    """The study with no number of events in a period where a motion is not shown to repeat, for which it
+    has 0."""
+    if "period_events" not in study:
+        return study
+    events = study["period_events"]
+    words = str(events.attrs.get("long_name", "")).replace(", 0 if", ", nan if")
+    shown = events.where(events > 0).assign_attrs({**events.attrs, "long_name": words})
+    return study.assign(period_events=shown)
+
+
+def _with_own_coordinates(study: xr.Dataset) -> xr.Dataset:
+    """The study with the values along a dimension of its results as a coordinate where they are the same
+    at all points, as after one of several sweeps in different steps was selected."""
+    for name in map(str, study.data_vars):
+        along = f"{name}_index"
+        beside = [each for each in study.data_vars if along in study[each].dims]
+        if along in study[name].dims and len(beside) > 1:
+            study = _with_coordinate(study, name, along)
+    return study
+
+
+def _with_coordinate(study: xr.Dataset, name: str, along: str) -> xr.Dataset:
+    """The study with a variable as the coordinate of a dimension, without places that have no value; as it
+    is if the variable differs between points."""
+    rows = study[name].transpose(..., along)
+    table = rows.values.reshape(-1, study.sizes[along])
+    if rows.dtype.kind not in "fi" or not np.array_equal(
+        table, table[:1].repeat(len(table), 0), True
+    ):
+        return study
+    known = np.isfinite(table[0].astype(float))
+    kept = study.drop_vars(name).isel({along: known}).rename({along: name})
+    return kept.assign_coords({name: (name, table[0][known], rows.attrs)})
+
+
+def _with_words(study: xr.Dataset) -> xr.Dataset:
+    """The study with words for True and False along its dimensions, and with names for discs, by their order
+    and frequencies."""
+    named: dict[Any, Any] = {}
     for name, values in study.coords.items():
+        if values.dtype.kind == "b" and values.ndim == 1:
+            answers = np.where(values, "yes", "no")
+            named[name] = (values.dims, answers, {**values.attrs, **TRUTH})
         discs = [value for value in values.values.flat if isinstance(value, Disc)]
         if discs and values.ndim == 1:
             shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
@@ -259,18 +367,21 @@ def _drawn_dims(study: xr.Dataset) -> list[str]:
     """Dimensions of a study whose values are numbers of a quantity; words where there are none."""
     named = [str(dim) for dim in study.dims if dim in study.coords and dim not in COUNTED]
     numbers = [dim for dim in named if study[dim].dtype.kind in "fi"]
-    if numbers or "status" not in study:
+    if "status" not in study or not all(_only_counts(study, dim) for dim in numbers):
         return numbers
-    return [dim for dim in named if dim in study["status"].dims]
+    words = [dim for dim in named if dim in study["status"].dims and dim not in numbers]
+    return [*words, *numbers]
 
 
 def _usual_variable(study: xr.Dataset, choices: Sequence[str]) -> str:
-    """The first of the variables preferred, or else of numbers, or of all; "" without any."""
+    """The first of the variables preferred, or else of numbers, or of all others than whether points were
+    computed, or of all; "" without any."""
     flat = [name for name in choices if study[name].ndim < 3]
     of_function = OF_FUNCTIONS.get(function_of(study), "")
     preferred = [name for name in (of_function, *PREFERRED) if name in flat]
     numeric = [name for name in flat if study[name].dtype.kind in "fi"]
-    return next(iter([*preferred, *numeric, *choices]), "")
+    results = [name for name in flat if name not in OF_POINTS]
+    return next(iter([*preferred, *numeric, *results, *choices]), "")
 
 
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
@@ -283,18 +394,23 @@ def _chosen_variable(study: xr.Dataset, variable: str) -> str:
         if dims & numbers and study[name].dtype.kind != "c" and len(dims - {*study.coords}) < 2
     ]
     single = [name for name in choices if over[name] <= {*study.coords}]
-    named = variable or _usual_variable(study, single or choices)
+    results = [name for name in single if name not in OF_POINTS]
+    chosen = variable or _usual_variable(study, results or choices)
     points = "must have two points or more along a number or a word"
     require((bool(numbers), "study", "a single point", points))
-    real = named not in study or study[named].dtype.kind != "c"
-    parts = f"is complex: draw a part of it, as by study.assign(size=abs(study.{named}))"
-    require((real, "variable", named, parts))
-    rule = f"must be one over the grid{suggestion(named, choices)}"
-    further = [dim for dim in over.get(named, ()) if dim not in study.coords]
-    if further and named not in choices:
+    real = chosen not in study or study[chosen].dtype.kind != "c"
+    parts = f"is complex: draw a part of it, as by study.assign(size=abs(study.{chosen}))"
+    require((real, "variable", chosen, parts))
+    rule = f"must be one over the grid{suggestion(chosen, choices)}"
+    further = [dim for dim in over.get(chosen, ()) if dim not in study.coords]
+    if further and chosen not in choices:
         rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
-    require((named in choices, "variable", named, rule))
-    return named
+    require((chosen in choices, "variable", chosen, rule))
+    apart = "has another unit for each name: select one, as by study.isel(name=0)"
+    of_names = function_of(study) == "critical" and "name" in over[chosen]
+    no_unit = chosen in ("value", "border") and "units" not in study[chosen].attrs
+    require((not (of_names and no_unit), "variable", chosen, apart))
+    return chosen
 
 
 def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
@@ -304,7 +420,8 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     across = x or next((dim for dim in numbers if not _only_counts(study, dim)), numbers[0])
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
-    require((across in numbers, "x", across, f"must be one of {', '.join(numbers)}"))
+    known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
+    require((across in known, "x", across, f"must be one of {', '.join(known)}"))
     second = next((dim for dim in dims if dim != across), None)
     counted = second is not None and _only_counts(study, second)
     drawn = Drawn(variable, across, second, mapped=False, counted=counted)

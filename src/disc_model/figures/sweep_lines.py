@@ -22,6 +22,10 @@ from disc_model.figures.words import named
 
 CASE = "case"
 """The label by which a reader names all lines of a sweep."""
+KINDS = {"Whether ": "Yes or no", "Share of ": "Share"}
+"""Names of several variables without a unit, by how their own names begin."""
+OF_UNITS = {"s": "Time", "ms": "Time", "J": "Energy", "Hz": "Frequency", "N": "Force"}
+"""Names of several variables that have no word in common, by their unit."""
 LOOSE = {"a", "an", "and", "at", "by", "for", "from", "in", "of", "on", "over", "the", "to", "with"}
 LOOSE |= {"that", "which", "whose"}
 """Words at which what a name is of begins."""
@@ -107,7 +111,8 @@ def quantities_of(lines: Lines, others: Sequence[Lines]) -> Quantities:
     labels = {each.label for each in others}
     units = {each.unit for each in (*others, lines)}
     phrases = {each.phrase for each in (*others, lines)}
-    of_one_kind = len(units) == 1 and (len(phrases) == 1 or units != {""})
+    is_alike = units != {""} or kind_of_phrases(phrases)
+    of_one_kind = len(units) == 1 and (len(phrases) == 1 or is_alike)
     if labels - {lines.label} and of_one_kind:
         labels.add(_common_label(others))
         return Quantities(lines.across, _common_label([*others, lines]), alike=labels)
@@ -121,16 +126,25 @@ def _common_label(family: Sequence[Lines]) -> str:
     if len({each.label for each in family}) == 1:
         return first.label
     words = first.phrase
-    if len({each.phrase for each in family}) > 1:
-        words = common_name([each.phrase for each in family])
+    phrases = [each.phrase for each in family]
+    if len({*phrases}) > 1:
+        words = kind_of_phrases(phrases) or common_name(phrases, first.unit)
     if len({each.duration for each in family}) == 1 and first.duration:
         words = f"{words} within {first.duration}"
     return f"{words} ({first.unit})" if first.unit else words
 
 
-def common_name(phrases: Sequence[str]) -> str:
-    """The name of what all phrases say."""
-    words = common_words(phrases) or "Value"
+def kind_of_phrases(phrases: Collection[str]) -> str:
+    """The name of what all phrases without a unit are, "" if they may be of several kinds."""
+    for beginning, name in KINDS.items():
+        if all(phrase.startswith(beginning) for phrase in phrases):
+            return name
+    return ""
+
+
+def common_name(phrases: Sequence[str], unit: str = "") -> str:
+    """The name of what all phrases say, or of what has their unit."""
+    words = common_words(phrases) or OF_UNITS.get(unit, "Value")
     return f"{words} {common_tail(phrases)}".strip()
 
 

@@ -16,6 +16,7 @@ from disc_model.data.variables import (
     EXCLUDED,
     SERIES,
     SHOWN,
+    TRUTH,
     attributes,
     axis_of,
     flag_names,
@@ -112,6 +113,12 @@ BORDER = ("value of ", " above which the motion stays unstable")
 """What those of borders of stability say before and after it."""
 PERSONS = ("Young", "Poisson")
 """Beginnings of names that are always written with a capital."""
+INFINITE = "infinite"
+"""Class of points whose value is infinite,"""
+MINUS_INFINITE = "minus_infinite"
+"""of those whose value is below any axis,"""
+VANISHING = "vanishing"
+"""and of those where this is a growth rate."""
 BELOW_ANY = "growth rate −∞"  # of a disturbance that is gone within a period, as on a rigid disc
 NO_VALUE = "no_value"  # class of a point that was computed and has no value
 PLAIN_WORDS = re.compile(
@@ -150,6 +157,7 @@ GONE: Mapping[str, Mapping[str, str]] = {
         **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further event while sampled"),
         "w_point": "sampled once a turn only",
         "first_separation": "no separation up to the last sample",
+        "period_events": "not shown to repeat",
     },
     "branches": dict.fromkeys(("sweep_range", "sweep_separation_rate"), _NOT_SWEPT),
     "campbell": {
@@ -202,6 +210,8 @@ WITHOUT = {
 """What figures say for what long names say after "nan"."""
 IN_THOUSANDTHS = {"period": "ms", "interval": "ms", "range": "mm"}
 """Units of numbers of cycles in all pictures, by the last word of their names, such as `sweep_range`."""
+IN_THOUSANDTH = "in thousandths"
+"""Attribute of a variable that is drawn in thousandths of its unit."""
 RANGE_END = re.compile("_(min|max)$")
 """The end of the name of a bound of a sampled variable's range."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
@@ -266,6 +276,8 @@ def named(variable: xr.DataArray) -> Named:
         ranged = None
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
         return Named(phrase, ranged.unit, ranged.factor)
+    if IN_THOUSANDTH in variable.attrs:  # beside others that are
+        return Named(phrase, f"m{variable.attrs['units']}", 1e3)
     units = str(variable.attrs.get("units", "1"))
     base = str(variable.name).split("_")[-1]
     if IN_THOUSANDTHS.get(base) == f"m{units}":
@@ -352,10 +364,7 @@ def label_in(study: xr.Dataset, name: str) -> str:
 
 
 def missing_text(study: xr.Dataset, name: str) -> str:
-    """What figures call points of a variable that were computed and have no value, or one that is
-    below any axis."""
-    if name in study and study[name].dtype.kind == "f" and np.isneginf(study[name]).any():
-        return BELOW_ANY
+    """What figures call points of a variable that were computed and have no value."""
     if name == "first_separation" and study.attrs.get("function") == "simulate":
         return _without_separation(study)
     horizon = horizon_text(study)
@@ -534,9 +543,14 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False
     """The name of a dimension, and a value along it; a word stands for itself."""
     text = value_text(data, by, short=short)
     value = data[by].item()
-    if isinstance(value, str) or by in AT_ZERO or by in BY_SIZE:
+    if by in AT_ZERO or by in BY_SIZE or (isinstance(value, str) and not is_truth(data[by])):
         return text
     return f"{typeset(named(data[by]).name)} = {text}"
+
+
+def is_truth(variable: xr.DataArray) -> bool:
+    """Whether the numbers or words of a variable stand for True and False."""
+    return variable.attrs.get("comment") == TRUTH["comment"]
 
 
 def symbol_of(name: str) -> str:

@@ -4,6 +4,7 @@ sweep."""
 from __future__ import annotations
 
 import math
+import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from functools import cache
@@ -168,16 +169,25 @@ def stacked(
         if variable.dims == (name,):
             fixed[name] = variable
             continue
+        present = [row[name] for row in rows if name in row]
+        _warn_of_mixture(name, present)
         values = [row[name].values if name in row else None for row in rows]
         array = _padded(values)
         whole = array.reshape((*sizes.values(), *array.shape[1:]))
-        present = [row[name] for row in rows if name in row]
         attrs = _common_attributes([each.attrs for each in present])
         is_truth = any(each.dtype.kind == "b" for each in present)
         if is_truth and array.dtype.kind == "f":
             attrs = {**attrs, **TRUTH}
         stacked[name] = xr.Variable((*sizes, *variable.dims), whole, attrs)
     return stacked, fixed
+
+
+def _warn_of_mixture(name: str, several: Sequence[xr.Variable]) -> None:
+    """Warn of a result that is a word at some points and a number at others, as "1" is no number."""
+    are_words = {each.dtype.kind == "U" for each in several}
+    if len(are_words) > 1:
+        text = f"{name} is a word at some points and a number at others: its numbers are words, too"
+        warnings.warn(text, stacklevel=3)
 
 
 def _with_common_coordinates(

@@ -21,7 +21,7 @@ from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.samples import OF_SWEEPS
-from disc_model.studies.varied_arguments import hint_of_lists
+from disc_model.studies.varied_arguments import hint_of_lists, values_along
 from disc_model.studies.workers import checked_workers
 
 FAILED = "failed"  # status of a point whose call raised an error
@@ -58,8 +58,9 @@ def sweep(  # noqa: PLR0913
     case : values of all parameters that do not vary
     *unnamed : further arguments of the function in their order, as after the case in its own call:
         ``sweep(simulate, case, 60)`` is ``sweep(simulate, case, t_end=60)``
-    over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers
-        or words. Each is a dimension, after those of the case
+    over : values of arguments of the function that vary, by their names, such as ``{"horizon": [50, 100]}``: numbers,
+        words, or mappings and lists such as starts and bounds, for which words stand along the dimension. Each is one,
+        after those of the case
     zip : columns of values that vary together, by names of numbers of the case, such as a pandas.DataFrame of cases.
         They are one dimension, whose name joins theirs. Columns of words or numbers under other names are
         coordinates along it: a warning says that such numbers have no effect, and a name like a known one is refused
@@ -177,7 +178,11 @@ def _coordinates(call: Call) -> dict[str, Any]:
     for dimension in call.dimensions:
         for name, values in dimension.columns.items():
             if name in call.over:
-                coordinates[name] = (dimension.name, values, call.over[name])
+                shown = values_along(values)
+                attributes = dict(call.over[name])
+                if any(isinstance(each, str) for each in shown):
+                    attributes.pop("units", None)
+                coordinates[name] = (dimension.name, shown, attributes)
             else:
                 coordinates[name] = (dimension.name, _plain(values), _described(name))
         for name, words in dimension.labels.items():

@@ -8,6 +8,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from disc_model.data.variables import OF_ARGUMENTS
 from disc_model.errors import Fault, suggestion
 from disc_model.studies.options import Option, options_of
@@ -21,7 +23,7 @@ OPTIONS = {"horizon": "horizons"}
 """Options of quantities that are arguments of another name."""
 SEVERAL = re.compile("tuple|list|Sequence|Mapping|dict|Iterable|[Aa]rray", re.ASCII)
 """What the annotation of an argument says that takes several values at once."""
-KINDS = ((bool,), (int, float), (str,))
+KINDS = ((bool,), (int, float), (str,), (Mapping,), (list, tuple, np.ndarray))
 """Types of values along one axis."""
 
 
@@ -135,7 +137,8 @@ def values_over(
         if wrong:
             faults.append(Fault.of(("over", name), given, wrong))
             continue
-        faults += [fault.inside(("over",)) for fault in faults_along_axis(name, values)]
+        shown = values_along(values)
+        faults += [fault.inside(("over",)) for fault in faults_along_axis(name, shown)]
         found[name] = values
     return found
 
@@ -156,7 +159,28 @@ def _fault_of_values(values: Sequence[Any]) -> str:
         return "must have one value or more"
     if any(all(isinstance(value, kind) for value in values) for kind in KINDS):
         return ""
-    return "must be numbers or words in one dimension"
+    return (
+        "must be all numbers, all words, all mappings such as starts, or all lists such as bounds"
+    )
+
+
+def values_along(values: Sequence[Any]) -> list[Any]:
+    """What stands for values along an axis: words for mappings and lists, and else themselves."""
+    return [_words_for(value) for value in values]
+
+
+def _words_for(value: Any) -> Any:
+    """A mapping or a list in words, any other value as it is."""
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {_text_of(each)}" for name, each in value.items()) or "none"
+    if isinstance(value, list | tuple | np.ndarray):
+        return ", ".join(map(_text_of, value)) or "none"
+    return value
+
+
+def _text_of(value: Any) -> str:
+    """A value in a list in words."""
+    return f"{value:g}" if isinstance(value, int | float) else str(value)
 
 
 def _in_unit(value: Any, unit: str) -> Any:
