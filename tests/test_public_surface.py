@@ -107,6 +107,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         PICTURE
         | {
             "log": "True None",
+            "points": "True",
             "variable": "None",
             "x": "None",
             "lines": "None",

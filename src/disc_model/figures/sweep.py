@@ -73,6 +73,7 @@ def plot_sweep(  # noqa: PLR0913
     if isinstance(variable, list | tuple) and variable:
         variables = [*variable]
     names = all(isinstance(each, str | None) for each in variables)
+    beside = lines is False or (isinstance(lines, str) and lines != "") or cmap is not None
     is_named = lines is False or isinstance(lines, str | None)
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
@@ -80,7 +81,7 @@ def plot_sweep(  # noqa: PLR0913
         (isinstance(x, str | None), "x", x, "must be a name"),
         (is_named, "lines", lines, "must be a name, or False for a map"),
         (isinstance(points, bool), "points", points, "must be True or False"),
-        (not (points and (lines or lines is False or cmap is not None)), "points", points, ALONE),
+        (points is not True or not beside, "points", points, ALONE),
         (isinstance(log, bool | None), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
