@@ -10,7 +10,7 @@ from matplotlib.colors import to_hex
 
 from disc_model.data.variables import EXCLUDED, flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
-from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, Look
+from disc_model.figures.classes import DOUBTS, LOOKS, STABLE, UNRESOLVED, Look
 from disc_model.figures.colours import (
     ROUNDING,
     USUAL,
@@ -30,7 +30,7 @@ MAP_LOOKS = {
     NEGATIVE: STABLE,
     NEUTRAL: Look("neutral", to_hex(cm.vik(0.5))),
     UNRESOLVED.label: UNRESOLVED,
-    NOT_NEAR.label: NOT_NEAR,
+    **{look.label: look for look in DOUBTS},
 }
 """Looks of all that a map of growth rates shows beside its colours."""
 
