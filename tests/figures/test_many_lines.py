@@ -9,83 +9,125 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import attributes
-from disc_model.errors import ParameterError
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.kinds.base import key_of, unknown
 from disc_model.figures.render import render
 from tests.figures.reading import assert_fit_for_print
+from tests.refusals import refusal
 
 SPEEDS = np.linspace(10.0, 15.0, 6)  # rad/s
+PLANE = ("Omega", "N")
 
 
-def study(loads: np.ndarray) -> xr.Dataset:
+def study(*loads: float) -> xr.Dataset:
     """Rates of cycles at speeds and loads."""
-    rates = 0.01 * (SPEEDS[:, None] - 12) + 1e-3 * np.arange(loads.size)
+    of_speeds = 0.01 * (SPEEDS - 12)
+    of_loads = 1e-3 * np.arange(len(loads))
+    rates = of_speeds[:, None] + of_loads
     status = np.full(rates.shape, "ok", dtype=object)
-    rate = (("Omega", "N"), rates, {"units": "s-1", "long_name": "growth rate of the cycle"})
+    words = {"units": "s-1", "long_name": "growth rate of the cycle"}
     return xr.Dataset(
-        {"growth_rate": rate, "status": (("Omega", "N"), status)},
-        {"Omega": ("Omega", SPEEDS, attributes("Omega")), "N": ("N", loads, attributes("N"))},
+        {"growth_rate": (PLANE, rates, words), "status": (PLANE, status)},
+        {"Omega": ("Omega", SPEEDS, attributes("Omega")), "N": ("N", [*loads], attributes("N"))},
         {"quantity": "floquet"},
     )
 
 
 def drawn(data: xr.Dataset, **further: Any) -> Figure:
     """A figure of these rates over the speed, a line for each load."""
-    asked = {"kind": "curve", "variable": "growth_rate", "x": "Omega", "by": "N", **further}
+    asked = {"kind": "curve", "variable": "growth_rate", "x": "Omega", "by": "N"}
+    asked.update(further)
     plot = kind_of("curve").model_validate(asked)
-    return render(plot, {"rates": xr.DataTree(data)})
+    inputs = {"rates": xr.DataTree(data)}
+    return render(plot, inputs)
 
 
 def names_in(figure: Figure) -> list[str]:
-    return [text.get_text() for text in figure.legends[0].get_texts()]
+    """What the legend of a figure says."""
+    [legend] = figure.legends
+    return [text.get_text() for text in legend.get_texts()]
+
+
+# ---- Room
 
 
 @pytest.mark.parametrize("width", ["column", "page"])
 def test_the_legend_of_many_lines_leaves_their_panel_room(width: str) -> None:
     """It lay over the panel, which had no height."""
-    data = study(np.linspace(300.0, 400.0, 11))
-    doubtful = (("Omega", "N"), np.zeros((6, 11), dtype=int))
-    figure = drawn(data.assign(near_motion=doubtful), width=width)
+    loads = np.linspace(300.0, 400.0, 11)
+    doubtful = np.zeros((6, 11), dtype=int)
+    data = study(*loads)
+    data["near_motion"] = (PLANE, doubtful)
+    figure = drawn(data, width=width)
     assert_fit_for_print(figure)
+
+    names = names_in(figure)
+    assert len(names) == 12
+
     [ax] = figure.axes
     [legend] = figure.legends
-    assert len(names_in(figure)) == 12
-    assert ax.bbox.height > 1.1 * figure.dpi
     label = ax.xaxis.label.get_window_extent()
-    assert legend.get_window_extent().y1 <= label.y0
-
-
-def test_lines_without_a_point_have_no_name() -> None:
-    """The legend named a load that is left out."""
-    data = study(np.array([300.0, 350.0, 400.0]))
-    figure = drawn(data.where(data["N"] > 300), legend=True)
-    assert names_in(figure) == ["Preload N = 350 N", "400 N"]
-    figure = drawn(data.where(data["N"] == 350), legend=True)
-    assert names_in(figure) == ["Preload N = 350 N"]
-
-
-def test_names_are_found_by_value() -> None:
-    """Only the text "300.0" was understood."""
-    data = study(np.array([300.0, 350.0, 400.0]))
-    names = {300: "light", "350": "middle", "4e2": "heavy"}
-    assert names_in(drawn(data, names=names, legend=True)) == ["light", "middle", "heavy"]
-    assert key_of(0) == key_of(0.0) == key_of("0.0")
-    assert key_of(0.1 + 0.2) == key_of("0.3")
-    assert not [*unknown("names", {0: "none"}, "by", [0.0, 0.003])]
-    assert [*unknown("names", {1: "none"}, "by", [0.0, 0.003])]
-    with pytest.raises(ParameterError, match="names"):
-        drawn(data, names=3)
+    box = legend.get_window_extent()
+    assert ax.bbox.height > 1.1 * figure.dpi
+    assert box.y1 <= label.y0
 
 
 def test_a_label_beside_a_panel_ends_below_a_long_title() -> None:
     """It ran into the title of a figure in one column."""
-    data = study(np.array([300.0, 350.0]))
+    data = study(300.0, 350.0)
     words = "growth rate of a cycle whose name is nearly as long as its panel"
-    data["growth_rate"].attrs["long_name"] = words
     title = "A title that is so long that it spans the whole width of a column"
+    data["growth_rate"].attrs["long_name"] = words
     figure = drawn(data, width="column", title=title, legend=True)
     figure.draw_without_rendering()
-    label = figure.axes[0].yaxis.label.get_window_extent()
+
+    [ax] = figure.axes
     [heading] = figure.texts
-    assert label.y1 <= heading.get_window_extent().y0 + 1
+    label = ax.yaxis.label.get_window_extent()
+    box = heading.get_window_extent()
+    assert label.y1 <= box.y0 + 1
+
+
+# ---- Names
+
+
+@pytest.fixture
+def three_loads() -> xr.Dataset:
+    """Rates at three loads."""
+    return study(300.0, 350.0, 400.0)
+
+
+def test_a_line_without_a_point_has_no_name(three_loads: xr.Dataset) -> None:
+    """The legend named a load that is left out."""
+    heavy = three_loads["N"] > 300
+    figure = drawn(three_loads.where(heavy), legend=True)
+    assert names_in(figure) == ["Preload N = 350 N", "400 N"]
+
+
+def test_the_only_line_with_points_has_a_name(three_loads: xr.Dataset) -> None:
+    middle = three_loads["N"] == 350
+    figure = drawn(three_loads.where(middle), legend=True)
+    assert names_in(figure) == ["Preload N = 350 N"]
+
+
+def test_names_are_found_by_value(three_loads: xr.Dataset) -> None:
+    """Only the text "300.0" was understood."""
+    names = {300: "light", "350": "middle", "4e2": "heavy"}
+    figure = drawn(three_loads, names=names, legend=True)
+    assert names_in(figure) == ["light", "middle", "heavy"]
+
+
+@pytest.mark.parametrize(("value", "text"), [(0, "0.0"), (0.0, "0.0"), (0.1 + 0.2, "0.3")])
+def test_a_number_and_its_text_have_one_key(value: float, text: str) -> None:
+    assert key_of(value) == key_of(text)
+
+
+@pytest.mark.parametrize(("value", "faults"), [(0, 0), (1, 1)])
+def test_names_of_values_that_there_are_not_are_faults(value: int, faults: int) -> None:
+    found = unknown("names", {value: "none"}, "by", [0.0, 0.003])
+    assert len([*found]) == faults
+
+
+def test_names_that_are_no_mapping_are_refused(three_loads: xr.Dataset) -> None:
+    with refusal("names"):
+        drawn(three_loads, names=3)

@@ -6,30 +6,46 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot as plt
+from matplotlib import pyplot
+from matplotlib.axes import Axes
 
 import disc_model as dm
-from disc_model.studies.sweeps import sweep
+from disc_model import plot_sweep
+from tests.figures.reading import as_map
 
 SPEEDS = np.array([10.0, 11.0, 12.0])
 P = dm.Parameters(N=385, Omega=14)
 
 
-def swept(count: int = 2) -> xr.Dataset:
-    """A sweep up and down, of several loads."""
-    shape = (count, 2, SPEEDS.size)
-    heights = 1e-5 * np.arange(np.prod(shape)).reshape(shape)
-    words = {"units": "m", "long_name": "range of the slider's height"}
-    speed = {"units": "rad s-1", "long_name": "speed of the drive point, in the sweep"}
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+def title_of(ax: Axes) -> str:
+    """The title of the figure of a picture."""
+    return ax.figure.get_suptitle()
+
+
+def swept() -> xr.Dataset:
+    """A sweep up and down, at two loads."""
+    heights = 1e-5 * np.arange(12.0)
+    of_range = {"units": "m", "long_name": "range of the slider's height"}
+    of_speed = {"units": "rad s-1", "long_name": "speed of the drive point, in the sweep"}
+    axes = ("N", "direction", "sweep_Omega")
     return xr.Dataset(
-        {"range": (("N", "direction", "sweep_Omega"), heights, words)},
+        {"range": (axes, heights.reshape(2, 2, 3), of_range)},
         {
-            "N": ("N", 300.0 + np.arange(count), {"units": "N"}),
+            "N": ("N", [300.0, 301.0], {"units": "N"}),
             "direction": ["up", "down"],
-            "sweep_Omega": ("sweep_Omega", SPEEDS, speed),
+            "sweep_Omega": ("sweep_Omega", SPEEDS, of_speed),
         },
         {"function": "hysteresis", "parameters": P.canonical_json},
     )
+
+
+# ---- Words of what was selected
 
 
 @pytest.mark.parametrize(
@@ -46,59 +62,92 @@ def swept(count: int = 2) -> xr.Dataset:
 def test_a_title_says_what_was_selected(
     chosen: dict[str, Any], phrases: list[str], lines: Any
 ) -> None:
-    ax = dm.plot_sweep(swept().sel(chosen), lines=lines)
-    title = ax.figure.get_suptitle()
-    assert title.split(", ")[: len(phrases)] == phrases
-    plt.close(ax.figure)
+    selected = swept().sel(chosen)
+    ax = plot_sweep(selected, lines=lines)
+    said = title_of(ax).split(", ")
+    count = len(phrases)
+    assert said[:count] == phrases
+
+
+COORDINATES = {
+    "mode": ([1, 2], "number of the mode, lowest frequency first"),
+    "crossing_number": ([0, 1], "number of the crossing, as the speed rises"),
+    "begin": (["at_rest", "sliding"], "start of the motion"),
+    "my_shift": ([0.5, 0.75], ""),
+}
+"""Values of coordinates, and what they are."""
 
 
 @pytest.mark.parametrize(
-    ("name", "values", "words", "phrase"),
+    ("name", "phrase"),
     [
-        ("mode", [1, 2], "number of the mode, lowest frequency first", "mode 2"),
-        ("crossing_number", [0, 1], "number of the crossing, as the speed rises", "crossing 1"),
-        ("begin", ["at_rest", "sliding"], "start of the motion", "sliding"),
-        ("my_shift", [0.5, 0.75], "", "my_shift = 0.75"),
+        ("mode", "mode 2"),
+        ("crossing_number", "crossing 1"),
+        ("begin", "sliding"),
+        ("my_shift", "my_shift = 0.75"),
     ],
 )
-def test_every_coordinate_of_a_selection_is_said(
-    name: str, values: list[Any], words: str, phrase: str
-) -> None:
-    coordinate = xr.DataArray(values, dims=name)
-    if words:
-        coordinate.attrs["long_name"] = words
-    study = swept().isel(direction=0).drop_vars("direction").rename(N=name)
-    study = study.assign_coords({name: coordinate})
-    ax = dm.plot_sweep(study.isel({name: 1}))
-    assert phrase in ax.figure.get_suptitle()
-    plt.close(ax.figure)
+def test_every_coordinate_of_a_selection_is_said(name: str, phrase: str) -> None:
+    values, words = COORDINATES[name]
+    attributes = {"long_name": words} if words else {}
+    upward = swept().isel(direction=0, drop=True)
+    study = upward.rename(N=name)
+    study[name] = (name, values, attributes)
+    second = study.isel({name: 1})
+    ax = plot_sweep(second)
+    assert phrase in title_of(ax)
 
 
 def test_lines_of_two_selections_are_named_by_what_was_selected() -> None:
-    ax = dm.plot_sweep(swept().sel(direction="up", N=300))
-    dm.plot_sweep(swept().sel(direction="down", N=300), ax=ax)
-    assert ax.figure.get_suptitle() == "N = 300 N"
-    assert {"on the way up", "on the way down"} <= {*ax.get_legend_handles_labels()[1]}
-    plt.close(ax.figure)
+    study = swept().sel(N=300)
+    ax = plot_sweep(study.sel(direction="up"))
+    plot_sweep(study.sel(direction="down"), ax=ax)
+    _, names = ax.get_legend_handles_labels()
+    assert title_of(ax) == "N = 300 N"
+    assert "on the way up" in names
+    assert "on the way down" in names
 
 
 def test_a_selected_value_is_not_called_the_first_of_several() -> None:
-    found = sweep(dm.coupled_natural_frequencies, P, k=[1e3, 1e4])
-    ax = dm.plot_sweep(found.isel(value_index=1))
-    assert "lowest" not in ax.get_ylabel().lower()
-    plt.close(ax.figure)
+    found = dm.sweep(dm.coupled_natural_frequencies, P, k=[1e3, 1e4])
+    second = found.isel(value_index=1)
+    ax = plot_sweep(second)
+    along = ax.get_ylabel().lower()
+    assert "frequency" in along
+    assert "lowest" not in along
 
 
-@pytest.mark.parametrize("lines", ["", False])
-def test_values_that_are_equal_but_for_rounding_are_flat(lines: Any) -> None:
-    """Neither peaks of lines nor colours of maps show rounding."""
+# ---- Values that are equal but for rounding
+
+HEIGHT = 0.1354  # m
+
+
+@pytest.fixture
+def level() -> xr.Dataset:
+    """A sweep whose values are equal but for rounding."""
     study = swept()
-    rounding = 1e-14 * np.random.default_rng(1).standard_normal(study["range"].shape)
-    study["range"] = study["range"].copy(data=0.1354 * (1 + rounding))
-    ax = dm.plot_sweep(study.sel(direction="up"), lines=lines)
-    low, high = ax.get_ylim()
-    if lines is False:
-        low, high = ax.images[0].get_clim() if ax.images else ax.collections[0].get_clim()
+    random = np.random.default_rng(1)
+    noise = random.standard_normal((2, 2, 3))
+    heights = HEIGHT * (1 + 1e-14 * noise)
+    study["range"] = study["range"].copy(data=heights)
+    return study.sel(direction="up")
+
+
+def assert_wide(low: float, high: float) -> None:
+    """A range in millimetres holds the height, and is far wider than rounding."""
     assert low == pytest.approx(135.4, rel=0.6)
+    assert low < 135.4 < high
     assert high - low > 0.05 * 135.4
-    plt.close(ax.figure)
+
+
+def test_lines_do_not_show_rounding(level: xr.Dataset) -> None:
+    ax = plot_sweep(level, lines="")
+    low, high = ax.get_ylim()
+    assert_wide(low, high)
+
+
+def test_colours_of_a_map_do_not_show_rounding(level: xr.Dataset) -> None:
+    ax = as_map(level)
+    [cells] = [*ax.images, *ax.collections]
+    low, high = cells.get_clim()
+    assert_wide(low, high)
