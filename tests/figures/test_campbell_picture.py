@@ -1,5 +1,6 @@
 """Campbell diagrams of a study on a reader's axes."""
 
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -7,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
+from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures import campbell
@@ -24,6 +26,12 @@ from tests.refusals import refusal
 def _closed() -> object:
     yield
     pyplot.close("all")
+
+
+def picture_of(study: xr.Dataset, **wishes: Any) -> Figure:
+    """The figure of the diagram of a study."""
+    top, _ = dm.plot_campbell(study, **wishes)
+    return top.figure
 
 
 @pytest.mark.parametrize("width", [COLUMN, PAGE])
@@ -54,32 +62,35 @@ def over_two_loads() -> xr.Dataset:
     return xr.concat([study, study], xr.Variable("N", np.array([300.0, 385.0])))
 
 
+NO_CAMPBELL = "must be a study of `quantity: campbell`"
+NO_DIAGRAMS: dict[str, tuple[Any, str]] = {
+    "two loads": (over_two_loads(), r"study='N': must not vary along it: .* study.isel\(N=0\)"),
+    "no crossings": (campbell_study().drop_vars("crossing_Omega"), NO_CAMPBELL),
+    "a case": (dm.Parameters(N=385, Omega=15), NO_CAMPBELL),
+    "another dataset": (xr.Dataset({"N": 1}), "study=a dataset of 1 variable: must be a study"),
+    "a single speed": (campbell_study().isel(Omega=[0]), "must have two speeds or more"),
+}
+"""What is no Campbell diagram, and what is said of it."""
+
+
+@pytest.mark.parametrize("name", NO_DIAGRAMS)
+def test_what_is_no_campbell_diagram_is_refused(name: str) -> None:
+    study, said = NO_DIAGRAMS[name]
+    with refusal(said):
+        dm.plot_campbell(study)
+
+
 @pytest.mark.parametrize(
-    ("study", "wishes", "said"),
+    ("highest", "said"),
     [
-        (over_two_loads(), {}, r"study='N': must not vary along it: .* study.isel\(N=0\)"),
-        (
-            campbell_study().drop_vars("crossing_Omega"),
-            {},
-            "must be a study of `quantity: campbell`",
-        ),
-        (dm.Parameters(N=385, Omega=15), {}, "must be a study of `quantity: campbell`"),
-        (xr.Dataset({"N": 1}), {}, "study=a dataset of 1 variable: must be a study"),
-        (campbell_study(), {"highest": -1.0}, "highest=-1: must be a number > 0, in Hz"),
-        (
-            campbell_study(),
-            {"highest": "3 kg"},
-            "highest='3 kg': must be a number in Hz, or with a unit",
-        ),
-        (campbell_study(), {"highest": "high"}, "highest='high': must be a number > 0, in Hz"),
-        (campbell_study().isel(Omega=[0]), {}, "must have two speeds or more"),
+        (-1.0, "highest=-1: must be a number > 0, in Hz"),
+        ("3 kg", "highest='3 kg': must be a number in Hz, or with a unit"),
+        ("high", "highest='high': must be a number > 0, in Hz"),
     ],
 )
-def test_what_is_no_campbell_diagram_is_refused(
-    study: Any, wishes: dict[str, Any], said: str
-) -> None:
+def test_what_is_no_highest_frequency_is_refused(highest: Any, said: str) -> None:
     with refusal(said):
-        dm.plot_campbell(study, **wishes)
+        dm.plot_campbell(campbell_study(), highest=highest)
 
 
 def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
@@ -102,7 +113,7 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
 
 def test_peaks_of_a_picture_are_found_once(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lines, names and the legend found them anew."""
-    sought = []
+    sought: list[xr.Dataset] = []
 
     def counted_peaks(study: xr.Dataset) -> Iterator[Peak]:
         sought.append(study)
@@ -146,15 +157,22 @@ def test_the_highest_frequency_may_have_a_unit() -> None:
 
 def test_a_second_diagram_needs_axes_of_its_own() -> None:
     """Two on the same axes had black lines and names on each other."""
-    _, axes = pyplot.subplots(2, 1, layout="constrained")
-    dm.plot_campbell(campbell_study(), ax=axes)
-    before = [len(ax.lines) for ax in axes]
+    study = campbell_study()
+    top, bottom = dm.plot_campbell(study)
+    drawn = [*top.lines, *bottom.lines]
     with refusal("shows a Campbell diagram already: give each its own axes"):
-        dm.plot_campbell(campbell_study(), ax=axes)
-    assert [len(ax.lines) for ax in axes] == before
-    for ax in axes:
-        ax.clear()
-    dm.plot_campbell(campbell_study(), ax=axes)
+        dm.plot_campbell(study, ax=[top, bottom])
+    assert [*top.lines, *bottom.lines] == drawn
+
+
+def test_a_diagram_may_be_drawn_on_axes_that_were_cleared() -> None:
+    study = campbell_study()
+    top, bottom = dm.plot_campbell(study)
+    top.clear()
+    bottom.clear()
+    dm.plot_campbell(study, ax=[top, bottom])
+    assert top.lines
+    assert bottom.lines
 
 
 @pytest.mark.parametrize(
@@ -167,10 +185,11 @@ def test_a_second_diagram_needs_axes_of_its_own() -> None:
 )
 def test_modes_without_room_are_counted(highest: float | None, said: list[str]) -> None:
     """Only modes that had room were counted above the edge, and nothing was said without one."""
-    study = campbell_study().assign(n_modes=("Omega", np.full(21, 5)))
-    figure = dm.plot_campbell(study, highest=highest)[0].figure
-    found = [text for text in labels(figure) if text.startswith("cut") or "computed" in text]
-    assert found == said
+    study = campbell_study()
+    study["n_modes"] = ("Omega", np.full(21, 5))
+    figure = picture_of(study, highest=highest)
+    counts = [text for text in labels(figure) if re.search("^cut|computed", text)]
+    assert counts == said
     assert_fit_for_print(figure)
 
 
@@ -187,59 +206,98 @@ def with_sliding(*rates: float, gone: slice) -> xr.Dataset:
     return study
 
 
+FAST = slice(14, 21)
+"""The last speeds."""
+
+
 @pytest.mark.parametrize(
     ("largest", "word"), [(0.5, "unstable steady sliding"), (-0.5, "steady sliding")]
 )
 def test_steady_sliding_without_a_cycle_is_named(largest: float, word: str) -> None:
     """It was shaded as if nothing were known: "no growth rate"."""
-    study = with_sliding(-1.0, largest, -2.0, gone=slice(14, 21))
-    top, bottom = dm.plot_campbell(study)
-    said = labels(top.figure)
+    study = with_sliding(-1.0, largest, -2.0, gone=FAST)
+    figure = picture_of(study)
+    said = labels(figure)
     assert word in said
-    assert not [text for text in said if text.startswith("no growth rate")]
-    assert len(top.patches) == len(bottom.patches) == 1
-    assert bottom.patches[0].get_hatch(), "told apart in grey print"
-    assert_fit_for_print(top.figure)
+    assert "no growth rate" not in " ".join(said)
+    assert_fit_for_print(figure)
+
+
+@pytest.mark.parametrize("largest", [0.5, -0.5])
+def test_speeds_of_steady_sliding_are_shaded_in_both_panels(largest: float) -> None:
+    study = with_sliding(-1.0, largest, -2.0, gone=FAST)
+    top, bottom = dm.plot_campbell(study)
+    [above] = top.patches
+    [below] = bottom.patches
+    assert above.get_x() == below.get_x()
+    assert below.get_hatch(), "told apart in grey print"
 
 
 def test_modes_beyond_the_room_decide_whether_sliding_is_stable() -> None:
-    study = with_sliding(-1.0, -0.5, -2.0, gone=slice(14, 21))
+    study = with_sliding(-1.0, -0.5, -2.0, gone=FAST)
     study["largest_sliding_growth_rate"] = ("Omega", np.full(21, 0.2))
-    assert "unstable steady sliding" in labels(dm.plot_campbell(study)[0].figure)
+    said = labels(picture_of(study))
+    assert "unstable steady sliding" in said
+
+
+GROWING = "mode of steady sliding that grows"
 
 
 def test_modes_that_grow_are_thick() -> None:
     """Unstable modes of steady sliding were drawn like stable ones."""
-    name = "mode of steady sliding that grows"
-    study = with_sliding(-1.0, 0.5, -2.0, gone=slice(14, 21))
+    study = with_sliding(-1.0, 0.5, -2.0, gone=FAST)
     top, _ = dm.plot_campbell(study)
-    assert name in labels(top.figure)
+    frequencies = study["sliding_frequency"].sel(mode=2)
     *thin, thick = top.lines[:4]
-    assert thick.get_linewidth() > 2 * max(line.get_linewidth() for line in thin)
-    assert [*thick.get_ydata()] == [*study["sliding_frequency"].sel(mode=2).values]
-    stable = with_sliding(-1.0, -0.5, -2.0, gone=slice(14, 21))
-    assert name not in labels(dm.plot_campbell(stable)[0].figure)
+    widest_of_thin = max(line.get_linewidth() for line in thin)
+    assert thick.get_linewidth() > 2 * widest_of_thin
+    assert thick.get_ydata().tolist() == frequencies.values.tolist()
+    assert GROWING in labels(top.figure)
+
+
+def test_modes_that_grow_are_not_named_where_none_does() -> None:
+    stable = with_sliding(-1.0, -0.5, -2.0, gone=FAST)
+    assert GROWING not in labels(picture_of(stable))
 
 
 NOT_CROSSED = "peak of growth, no crossing found at it"
+CROSSED = "peak of growth, crossing at it"
+
+
+def without_a_crossing_at_a_peak() -> xr.Dataset:
+    """A study whose crossings are all at another speed than its peaks."""
+    study = campbell_study()
+    study["crossing_Omega"] = ("crossing", [9.0, 9.0, 9.0])
+    return study
 
 
 def test_a_peak_without_a_crossing_is_told_from_one_at_a_crossing() -> None:
     """The legend said "crossing at it" of peaks at which none was."""
     study = campbell_study()
-    top, bottom = dm.plot_campbell(study.isel(crossing=[0, 1]))
+    second_peak = study["Omega"].values[12]
+    at_first_peak = study.isel(crossing=[0, 1])
+    top, bottom = dm.plot_campbell(at_first_peak)
     said = labels(top.figure)
+    marks = {line.get_marker(): line.get_xdata() for line in bottom.lines}
     assert NOT_CROSSED in said
-    assert "peak of growth, crossing at it" in said
-    marks = {line.get_marker(): [*line.get_xdata()] for line in bottom.lines}
-    assert marks["D"] == [study["Omega"].values[12]]
-    far = study.assign(crossing_Omega=("crossing", [9.0, 9.0, 9.0]))
-    said = labels(dm.plot_campbell(far)[0].figure)
+    assert CROSSED in said
+    assert [*marks["D"]] == [second_peak]
+
+
+def test_peaks_without_a_crossing_have_no_multiple() -> None:
+    figure = picture_of(without_a_crossing_at_a_peak())
+    said = labels(figure)
+    together = " ".join(said)
     assert NOT_CROSSED in said
-    assert not [text for text in said if "crossing at it" in text or "multiple" in text]
-    study["growth_rate"][[4, 11]] = -0.05  # the points before the peaks
-    unresolved = study.assign(crossing_Omega=("crossing", [9.0, 9.0, 9.0]))
-    said = labels(dm.plot_campbell(unresolved)[0].figure)
+    assert "crossing at it" not in together
+    assert "multiple" not in together
+
+
+def test_only_the_speed_of_an_unresolved_peak_without_a_crossing_is_known() -> None:
+    study = without_a_crossing_at_a_peak()
+    before_the_peaks = [4, 11]
+    study["growth_rate"][before_the_peaks] = -0.05
+    said = labels(picture_of(study))
     assert f"speed of a {NOT_CROSSED}" in said
 
 
@@ -256,22 +314,25 @@ def test_unresolved_crossings_are_counted(effects: list[str], said: list[str]) -
     """Of 213 crossings none was resolved, and the figure said nothing."""
     study = campbell_study()
     study["crossing_effect"] = flag(("crossing",), effects, EFFECTS)
-    figure = dm.plot_campbell(study)[0].figure
-    assert [text for text in labels(figure) if "unresolved" in text] == said
+    figure = picture_of(study)
+    counts = [text for text in labels(figure) if "unresolved" in text]
+    assert counts == said
     assert_fit_for_print(figure)
 
 
 def test_rates_of_other_cycles_count_for_the_scale() -> None:
     """Of rates about -1/s beside one of 80/s, which is another cycle's, the scale was linear."""
     study = campbell_study()
-    study["growth_rate"][:] = np.linspace(-1.2, -1.0, 21)
-    study["growth_rate"][4] = 80.0
-    away = np.full(21, np.nan)
-    away[4] = 0.0
-    study["near_motion"] = ("Omega", away)
+    rates = np.linspace(-1.2, -1.0, 21)
+    near_motion = np.full(21, np.nan)
+    rates[4] = 80.0
+    near_motion[4] = 0.0
+    study["growth_rate"][:] = rates
+    study["near_motion"] = ("Omega", near_motion)
     _, bottom = dm.plot_campbell(study)
+
+    to_axes = bottom.transData - bottom.transAxes
+    _, lowest = to_axes.transform((8, -1.2))
+    _, zero = to_axes.transform((8, 0))
     assert bottom.get_yscale() == "symlog"
-    low, high = bottom.transAxes.inverted().transform(
-        bottom.transData.transform([(8, -1.2), (8, 0)])
-    )[:, 1]
-    assert high - low > 0.1
+    assert zero - lowest > 0.1

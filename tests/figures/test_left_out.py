@@ -7,15 +7,19 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
+from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
 
 import disc_model as dm
 from disc_model.data.variables import flag_names
 from disc_model.figures.gap_rows import rows_above
+from tests.figures.reading import as_map
 from tests.figures.test_wishes import legend_texts
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
-OUTCOMES = [["separation"] * 3 for _ in range(4)]
+SPEEDS = [11, 12, 13, 14]  # rad/s
+LEFT_OUT = 1  # the place of 12 rad/s
+LOADS = [350, 360, 370]  # N
 
 
 @pytest.fixture(autouse=True)
@@ -27,45 +31,96 @@ def _closed() -> object:
 @functools.cache
 def masked() -> xr.Dataset:
     """Cycles at four speeds, but one, and three loads."""
-    study = dm.sweep(dm.floquet, CASE, Omega=[11, 12, 13, 14], N=[350, 360, 370])
-    outcome = (("Omega", "N"), OUTCOMES, {"long_name": "outcome"})
-    return study.assign(outcome=outcome).where(study["Omega"] != 12)
+    study = dm.sweep(dm.floquet, CASE, Omega=SPEEDS, N=LOADS)
+    outcomes = np.full((4, 3), "separation")
+    study["outcome"] = (("Omega", "N"), outcomes, {"long_name": "outcome"})
+    return study.where(study["Omega"] != 12)
+
+
+# ---- Maps
+
+
+def has_colour(ax: Axes) -> np.ndarray:
+    """Whether each cell of a map has a colour, over loads and speeds."""
+    cells = ax.collections[0]
+    colours = cells.to_rgba(cells.get_array())
+    is_white = (colours[..., :3] == 1).all(axis=-1)
+    is_seen = colours[..., 3] > 0
+    return is_seen & ~is_white
 
 
 @pytest.mark.parametrize("variable", ["growth_rate", "period", "stable", "status", "outcome"])
-def test_masked_points_of_a_map_are_blank(variable: str) -> None:
+def test_masked_points_of_a_map_are_left_out(variable: str) -> None:
     """They were a class of the name "nan", or had failed, and a masked column was unresolved."""
-    ax = dm.plot_sweep(masked(), variable, lines=False)
-    said = legend_texts(ax)
+    ax = as_map(masked(), variable)
+    said = {*legend_texts(ax)}
     assert "left out" in said
-    assert not {"nan", "failed", "unresolved"} & {*said}
-    hatched = [patch for patch in ax.patches if isinstance(patch, PathPatch)]
-    assert all(patch.get_hatch() for patch in hatched)
-    assert not any(patch.get_path().contains_point((12, 360)) for patch in hatched)
+    assert said.isdisjoint({"nan", "failed", "unresolved"})
+
+
+@pytest.mark.parametrize("variable", ["growth_rate", "period", "stable", "status", "outcome"])
+def test_masked_points_of_a_map_have_no_colour(variable: str) -> None:
+    ax = as_map(masked(), variable)
+    coloured = has_colour(ax)
+    assert coloured[:, 0].all()
+    assert not coloured[:, LEFT_OUT].any()
+
+
+@pytest.mark.parametrize("variable", ["growth_rate", "period", "stable", "status"])
+def test_masked_points_of_a_map_are_not_hatched(variable: str) -> None:
+    ax = as_map(masked(), variable)
+    areas = [patch for patch in ax.patches if isinstance(patch, PathPatch)]
+    assert areas, "cells without a cycle are hatched"
+    for area in areas:
+        outline = area.get_path()
+        assert area.get_hatch()
+        assert not outline.contains_point((12, 360))
+
+
+# ---- Lines
 
 
 @pytest.mark.parametrize("variable", ["growth_rate", "period", "stable", "status"])
 def test_masked_points_of_lines_are_left_out(variable: str) -> None:
     ax: Any = dm.plot_sweep(masked(), variable, lines="N")
-    assert {row.reason for row in rows_above(ax)} <= {"no cycle found"}
-    assert "nan" not in [text.get_text() for text in ax.get_yticklabels()]
-    heights = [np.asarray(line.get_ydata(), dtype=float) for line in ax.lines]
-    assert not any(line.size == 4 and np.isfinite(line[1]) for line in heights)
+    of_loads = ax.lines[: len(LOADS)]
+    for line in of_loads:
+        heights = np.asarray(line.get_ydata(), dtype=float)
+        assert np.isfinite(heights[0])
+        assert np.isnan(heights[LEFT_OUT])
+
+
+@pytest.mark.parametrize(
+    ("variable", "reasons"),
+    [("growth_rate", ["no cycle found"]), ("period", ["no cycle found"]), ("status", [])],
+)
+def test_masked_points_of_lines_have_no_reason(variable: str, reasons: list[str]) -> None:
+    ax: Any = dm.plot_sweep(masked(), variable, lines="N")
+    ticks = [text.get_text() for text in ax.get_yticklabels()]
+    assert [row.reason for row in rows_above(ax)] == reasons
+    assert "nan" not in ticks
+
+
+# ---- Words
 
 
 def test_masked_words_are_empty() -> None:
     words = flag_names(masked()["status"])
-    assert (words[1] == "").all()
-    assert (words[0] == "ok").all()
+    first, left_out = words[:2]
+    assert first.tolist() == ["ok", "ok", "ok"]
+    assert left_out.tolist() == ["", "", ""]
 
 
 def test_legends_below_maps_have_letters_of_one_size() -> None:
     """The smaller one stood beside one of usual size."""
-    figure, axes = pyplot.subplots(1, 2, figsize=(84 / 25.4, 3), layout="constrained")
-    dm.plot_sweep(masked(), "status", ax=axes[0], lines=False)
-    words = ("no cycle found", "left out", "yes")
-    named = {word: f"{word}, of several words that need room" for word in words}
-    dm.plot_sweep(masked(), "stable", ax=axes[1], lines=False, labels=named)
-    sizes = {text.get_fontsize() for ax in axes for text in ax.get_legend().get_texts()}
+    _, axes = pyplot.subplots(1, 2, figsize=(84 / 25.4, 3), layout="constrained")
+    left, right = axes
+    longer = {
+        word: f"{word}, of several words that need room"
+        for word in ("no cycle found", "left out", "yes")
+    }
+    as_map(masked(), "status", ax=left)
+    as_map(masked(), "stable", ax=right, labels=longer)
+    texts = [text for ax in axes for text in ax.get_legend().get_texts()]
+    sizes = {text.get_fontsize() for text in texts}
     assert len(sizes) == 1
-    pyplot.close(figure)
