@@ -143,15 +143,27 @@ def test_a_cycle_of_other_separations_is_not_that_of_the_motion(
     assert found is (orbit if is_there else None)
 
 
+INTERVALS = np.array([1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0])
+DRIFTS = np.array([0, 0, 0, 1e-7, 0, 0, 0, 1e-7])
+NEARLY_OF_TWO = record(INTERVALS + DRIFTS, np.ones(8))
+LOCK_OF_FOUR = locking.Lock(4, 8, 6.0, 0.0)
+
+
 def test_a_cycle_with_a_shorter_period_than_the_record_shows_is_that_of_the_motion() -> None:
-    releases = record([*np.array([1.0, 2.0] * 4), 0, 0, 0, 1e-07, 0, 0, 0, 1e-07], np.ones(8))
-    lock = locking.Lock(4, 8, 6.0, 0.0)
-    cycle: Any = SimpleNamespace(counts=SimpleNamespace(releases=2, separations=4), period=3.0)
-    found = locking.lock_on(cycle, releases, lock)
-    assert found[:3] == (2, 4, 3.0)
+    counts = SimpleNamespace(releases=2, separations=4)
+    cycle: Any = SimpleNamespace(counts=counts, period=3.0)
+    found = locking.lock_on(cycle, NEARLY_OF_TWO, LOCK_OF_FOUR)
+    assert found.releases == 2
+    assert found.vibrations == 4
+    assert found.period == 3.0
     assert found.closure == pytest.approx(1e-7)
-    cycle.counts.releases = 4
-    assert locking.lock_on(cycle, releases, lock) == lock
+
+
+def test_a_cycle_with_the_releases_that_the_record_shows_changes_nothing() -> None:
+    counts = SimpleNamespace(releases=4, separations=4)
+    cycle: Any = SimpleNamespace(counts=counts, period=3.0)
+    found = locking.lock_on(cycle, NEARLY_OF_TWO, LOCK_OF_FOUR)
+    assert found == LOCK_OF_FOUR
 
 
 # ---- The motion at 200 N

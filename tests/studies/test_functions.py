@@ -338,22 +338,33 @@ def test_contact_that_is_lost_at_the_lowest_speed_is_told() -> None:
     """By the names that `critical` has for it."""
     case = P.replace(Omega=15)
     lost = dm.critical_speed(case, (15.5, 16.5), [10, 60])
-    assert lost["critical_speed"].values[1] == 15.5
-    assert lost["at_lower_bound"].values.tolist() == [False, True]
+    _, within_a_minute = lost["critical_speed"].values
+    message = lost.attrs["message"]
     rule = "contact is already lost within 60 s at the lower bound, 15.5 rad/s"
-    assert lost.attrs["message"].endswith(rule)
+    assert within_a_minute == 15.5
+    assert lost["at_lower_bound"].values.tolist() == [False, True]
+    assert message.endswith(rule)
 
 
-@pytest.mark.parametrize(
-    ("step", "precision"), [("5 rpm", 0.5236 / 6), (0.25, 0.25 / 3), (0.05, 0.05), (1, 0.1)]
-)
-def test_the_precision_of_a_scan_follows_its_step(step: Any, precision: float) -> None:
-    bounds = ("130 rpm", "135 rpm")
-    if not isinstance(step, str):
-        bounds = (14.0, 14.0 + 2 * step)
+def precision_of(bounds: tuple[Any, Any], step: Any) -> float:
+    """The precision of a scan that is told its step alone."""
     speeds = dm.critical_speed(P, bounds, 0.01, step=step)
     options = json.loads(speeds.attrs["options"])
-    assert options["precision"] == pytest.approx(precision, rel=1e-4)
+    return options["precision"]
+
+
+@pytest.mark.parametrize(("step", "precision"), [(0.25, 0.25 / 3), (0.05, 0.05), (1, 0.1)])
+def test_the_precision_of_a_scan_follows_its_step(step: float, precision: float) -> None:
+    bounds = (14.0, 14.0 + 2 * step)
+    found = precision_of(bounds, step)
+    assert found == pytest.approx(precision, rel=1e-4)
+
+
+def test_the_precision_of_a_scan_follows_a_step_with_a_unit() -> None:
+    bounds = ("130 rpm", "135 rpm")
+    found = precision_of(bounds, "5 rpm")
+    step = 0.5236  # rad/s
+    assert found == pytest.approx(step / 6, rel=1e-4)
 
 
 def test_a_step_that_is_no_multiple_of_the_precision_is_told_with_its_value() -> None:

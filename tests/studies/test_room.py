@@ -70,9 +70,12 @@ def test_modes_without_room_are_told() -> None:
     """They were lost without a word, as they are an array."""
     few = Campbell(modes=2)
     coordinates = coordinates_of(few.COORDINATES, few)
-    said = with_cuts("Look.", {"sliding_frequency": np.ones(3)}, few, coordinates)
-    assert said == "Look; 3 were found along mode, which has room for 2: raise modes"
-    assert with_cuts("Look.", {"sliding_frequency": np.ones(2)}, few, coordinates) == "Look."
+    three = {"sliding_frequency": np.ones(3)}
+    two = {"sliding_frequency": np.ones(2)}
+    of_three = with_cuts("Look.", three, few, coordinates)
+    of_two = with_cuts("Look.", two, few, coordinates)
+    assert of_three == "Look; 3 were found along mode, which has room for 2: raise modes"
+    assert of_two == "Look."
 
 
 @pytest.mark.parametrize("name", quantity_names())

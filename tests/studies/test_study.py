@@ -225,42 +225,65 @@ def test_faults_beyond_fifty_are_only_counted(count: int, last: str) -> None:
     assert shown[-1] == last
 
 
+RECORDS = {"windows": {"late": {"last": 0.5, "rate": 1000}}, "events": {"last": 0.25}}
+WHOLE = {"parameters": {"N": 385, "Omega": 15.1}, "t_end": 2, "start": {"perturbation": {"u": 0.2}}}
+STOPPING = {**WHOLE, "stop_at": "first_separation"}
+
+
+def spec_of(case: dict[str, Any]) -> CaseSpec:
+    """The only case of a study that records the end of its runs."""
+    raw = {"study": "s", "record": RECORDS, "cases": {"A": case}}
+    [spec] = parse_study(raw).specs.values()
+    return spec
+
+
 def test_windows_of_a_case_count_back_from_where_it_stops() -> None:
     """They counted back from the time at which the case would have ended, and had no samples."""
-    records = {"windows": {"late": {"last": 0.5, "rate": 1000}}, "events": {"last": 0.25}}
-    case = {
-        "parameters": {"N": 385, "Omega": 15.1},
-        "t_end": 2,
-        "start": {"perturbation": {"u": 0.2}},
-    }
-    stopping = case | {"stop_at": "first_separation"}
-    [spec] = parse_study({"study": "s", "record": records, "cases": {"A": stopping}}).specs.values()
-    assert CaseSpec.model_validate_json(spec.canonical) == spec
-    assert spec.longest_sections["late"] == Window(start=1.5, stop=2.0, rate=1000)
+    spec = spec_of(STOPPING)
     tree = run_case(spec.replace(t_end=100.0, start=Start()))
     stopped = float(tree["first_separation"])
-    late = tree["late"]["time"].values
-    assert (late[0], len(late)) == (pytest.approx(stopped - 0.5), 501)
-    assert tree["events"].attrs["kept_from"] == stopped - 0.25
-    assert float(tree["events"]["time"][0]) >= stopped - 0.25
+    window = tree["late"]["time"].values
+    events = tree["events"]
+    assert len(window) == 501
+    assert window[0] == pytest.approx(stopped - 0.5)
+    assert events.attrs["kept_from"] == stopped - 0.25
+    assert float(events["time"][0]) >= stopped - 0.25
 
-    # all of a run that is shorter, and of one that does not stop what it states
-    longer = {"windows": {"late": {"last": 5, "rate": 1000}}}
-    for other, first in ((stopping | {"record": longer}, 0.0), (case, 1.5)):
-        [spec] = parse_study(
-            {"study": "s", "record": records, "cases": {"A": other}}
-        ).specs.values()
-        assert spec.sections["late"] == Window(start=first, stop=2.0, rate=1000)
+
+def test_a_case_that_may_stop_states_the_windows_of_a_whole_run() -> None:
+    spec = spec_of(STOPPING)
+    read_again = CaseSpec.model_validate_json(spec.canonical)
+    late = spec.longest_sections["late"]
+    assert late == Window(start=1.5, stop=2.0, rate=1000)
+    assert read_again == spec
+
+
+def test_all_of_a_run_that_is_shorter_than_its_window_is_recorded() -> None:
+    longer = {"late": {"last": 5, "rate": 1000}}
+    spec = spec_of({**STOPPING, "record": {"windows": longer}})
+    late = spec.sections["late"]
+    assert late == Window(start=0.0, stop=2.0, rate=1000)
+
+
+def test_windows_of_a_case_that_does_not_stop_count_back_from_its_end() -> None:
+    spec = spec_of(WHOLE)
+    late = spec.sections["late"]
+    assert late == Window(start=1.5, stop=2.0, rate=1000)
+
+
+def over_speeds(speeds: Any) -> dict[str, Any]:
+    """A study of cycles along an axis of speeds."""
+    return {"study": "s", "quantity": "floquet", "base": {"N": 385}, "axes": {"Omega": speeds}}
 
 
 def test_a_value_that_an_axis_has_twice_is_refused() -> None:
     """A study had one value there without a word, where a sweep refuses it."""
-    raw = {"study": "s", "quantity": "floquet", "base": {"N": 385}}
-    found = faults_of(parse_study, raw | {"axes": {"Omega": [10, 12, "10.0"]}})
-    assert [str(fault) for fault in found] == [
-        "axes.Omega=10: must not be given twice along an axis"
-    ]
+    [fault] = faults_of(parse_study, over_speeds([10, 12, "10.0"]))
+    assert str(fault) == "axes.Omega=10: must not be given twice along an axis"
+
+
+def test_a_value_at_which_two_blocks_of_an_axis_meet_is_taken_once() -> None:
     blocks = {"blocks": [[10, 12], [12, 14]]}
-    grid = parse_study(raw | {"axes": {"Omega": blocks}}).grid
+    grid = parse_study(over_speeds(blocks)).grid
     assert grid is not None
     assert grid.values["Omega"] == ((10.0,), (12.0,), (14.0,))

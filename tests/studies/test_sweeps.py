@@ -318,30 +318,52 @@ def test_branches_that_differ_in_an_option_are_named_by_it() -> None:
     assert said[:2] == ["tol = 1e-12", "tol = 1e-10"]
 
 
-@pytest.mark.parametrize(
-    ("varied", "own"),
-    [({"over": {"direction": [1, -1]}}, "direction"), ({"a": [0.044, 0.045]}, "a")],
-)
-def test_branches_are_whole_where_what_varies_has_the_name_of_a_variable(
-    varied: dict[str, Any], own: str
-) -> None:
+NEAR_14: dict[str, Any] = {
+    "case": P.replace(N=385, Omega=14),
+    "name": "Omega",
+    "bounds": (13.9, 14.1),
+}
+"""A short branch of cycles."""
+
+
+def assert_same_variable(name: str, found: dm.Branch, expected: dm.Branch) -> None:
+    """Datasets of two branches have the same values of a variable."""
+    values = found.to_dataset()[name]
+    of_expected = expected.to_dataset()[name]
+    np.testing.assert_array_equal(values, of_expected)
+
+
+def test_branches_are_whole_where_an_argument_has_the_name_of_a_variable() -> None:
     """The axis took the place of the branch's variable, and pictures failed."""
-    options: dict[str, Any] = {"name": "Omega", "bounds": (13.9, 14.1)}
-    case = P.replace(N=385, Omega=14)
-    swept = sweep(dm.continue_cycle, case, **varied, **options)
-    first = varied.get("over", {}).get(own, [None])[0]
-    chosen = {} if first is None else {own: first}
-    branch = dm.continue_cycle(case, **options, **chosen).to_dataset()
-    again = dm.Branch.from_dataset(swept.isel({own: 0})).to_dataset()
-    np.testing.assert_array_equal(again[own], branch[own])
+    swept = sweep(dm.continue_cycle, **NEAR_14, over={"direction": [1, -1]})
+    first = dm.Branch.from_dataset(swept.isel(direction=0))
+    expected = dm.continue_cycle(**NEAR_14, direction=1)
+    assert_same_variable("direction", first, expected)
+
+
+def test_branches_are_whole_where_a_parameter_has_the_name_of_a_variable() -> None:
+    swept = sweep(dm.continue_cycle, **NEAR_14, a=[0.044, 0.045])
+    first = dm.Branch.from_dataset(swept.isel(a=0))
+    expected = dm.continue_cycle(**NEAR_14)
+    assert_same_variable("a", first, expected)
+
+
+@pytest.mark.parametrize("varied", [{"over": {"direction": [1, -1]}}, {"a": [0.044, 0.045]}])
+def test_branches_over_what_has_the_name_of_a_variable_have_a_picture(
+    varied: dict[str, Any],
+) -> None:
+    swept = sweep(dm.continue_cycle, **NEAR_14, **varied)
     ax = dm.plot_branches(swept)
-    assert len(ax.figure.legends[0].get_texts()) > 2
+    [legend] = ax.figure.legends
+    assert len(legend.get_texts()) > 2
+
+
+def profile(case: dm.Parameters, count: int = 3) -> xr.Dataset:
+    """An array with the name of an argument."""
+    return xr.Dataset({"count": ("place", np.arange(3.0))})
 
 
 def test_a_variable_that_is_no_argument_is_not_taken_for_one() -> None:
-    def profile(case: dm.Parameters, count: int = 3) -> xr.Dataset:
-        return xr.Dataset({"count": ("place", np.arange(3.0))})
-
     with refusal("returned count, which is a coordinate of the sweep: give it another name"):
         sweep(profile, P, over={"count": [1, 2]})
 
@@ -858,9 +880,11 @@ def with_horizon(case: dm.Parameters, horizon: float) -> float:
 
 def test_arguments_of_the_function_may_follow_the_case_without_a_name() -> None:
     """A duration had to be named, although the function takes it after the case."""
-    swept = sweep(with_horizon, dm.Parameters(N=385, Omega=15), 200, Omega=[10, 20])
+    case = dm.Parameters(N=385, Omega=15)
+    swept = sweep(with_horizon, case, 200, Omega=[10, 20])
+    options = json.loads(swept.attrs["options"])
     assert swept["value"].values.tolist() == [2000, 4000]
-    assert json.loads(swept.attrs["options"]) == {"horizon": 200}
+    assert options == {"horizon": 200}
 
 
 @pytest.mark.parametrize(
@@ -874,8 +898,9 @@ def test_arguments_of_the_function_may_follow_the_case_without_a_name() -> None:
 def test_an_argument_without_a_name_is_one_of_the_function_that_is_not_given(
     unnamed: list[int], named: dict[str, Any], told: str
 ) -> None:
+    case = dm.Parameters(N=385, Omega=15)
     with refusal(told):
-        sweep(with_horizon, dm.Parameters(N=385, Omega=15), *unnamed, Omega=[10, 20], **named)
+        sweep(with_horizon, case, *unnamed, Omega=[10, 20], **named)
 
 
 @pytest.mark.parametrize("workers", [1, 2])
@@ -1181,8 +1206,15 @@ def test_arguments_that_vary_are_saved(suffix: str, tmp_path: Path) -> None:
     xr.testing.assert_equal(dm.load(tmp_path / f"x.{suffix}"), swept)
 
 
+def number_or_word(case: dm.Parameters) -> dict[str, Any]:
+    """A number at low speeds, and a word at others."""
+    if case.Omega < 11:
+        return {"found": 1}
+    return {"found": "w"}
+
+
 def test_numbers_among_words_are_warned_of() -> None:
     """The number 1 became the word "1" without a word."""
     with pytest.warns(UserWarning, match="found is a word at some points and a number at others"):
-        found = sweep(lambda case: {"found": 1 if case.Omega < 11 else "w"}, P, Omega=[10, 12])
-    assert found["found"].values.tolist() == ["1", "w"]
+        swept = sweep(number_or_word, P, Omega=[10, 12])
+    assert swept["found"].values.tolist() == ["1", "w"]

@@ -101,30 +101,58 @@ def test_intervals_of_all_shares_have_the_stated_confidence(
 UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
 
 
-@pytest.mark.parametrize(
-    ("undecided", "expected"),
-    [(4, (np.nan, 0.0, 1.0)), (2, (0.5, 0.0456, 0.9544)), (0, (0.5, 0.1500, 0.8500))],
-)
-@pytest.mark.parametrize("share", ["separating_fraction", "basin_fraction"])
-def test_undecided_starts_widen_the_interval_of_the_share_that_separates(
-    made: None,
-    undecided: int,
-    expected: tuple[float, float, float],
-    share: str,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    """All four starts undecided gave an interval from 0 to 0.49, and most separated later.
+Arrays = dict[str, np.ndarray]
 
-    Of four starts, one that separates is 0.25 [0.0456, 0.6994], and three are 0.75 [0.3006, 0.9544]."""
+
+@pytest.fixture
+def of_four_starts(made: None, undecided: int, monkeypatch: pytest.MonkeyPatch) -> Arrays:
+    """A table of four starts of which the first are undecided, and of the others every second one
+    separates."""
+
+    def least(p: Parameters, i: int) -> float:
+        return 1.0 * (i % 2)
+
     results = dict.fromkeys(range(undecided), UNDECIDED)
     monkeypatch.setattr(Made, "classes", results)
-    monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0 * (i % 2)))
-    table = found(energies=[0.5], n_starts=4).arrays
-    names = [f"{share}{end}" for end in ("_low", "_high")]
-    place = (0, SEPARATES) if share == "basin_fraction" else (0,)
-    assert [table[name][place] for name in names] == pytest.approx(expected[1:], abs=1e-4)
-    assert table["separating_fraction"][0] == pytest.approx(expected[0], nan_ok=True)
-    assert table["basin_fraction"][0].sum() == pytest.approx(1)
+    monkeypatch.setattr(Made, "least", staticmethod(least))
+    return found(energies=[0.5], n_starts=4).arrays
+
+
+INTERVALS = {
+    4: (0.0, 1.0),
+    2: (0.0456, 0.9544),  # of one, 0.0456 to 0.6994, and of three, 0.3006 to 0.9544
+    0: (0.1500, 0.8500),
+}
+"""Ends of the interval of the share that separates, by the number of undecided starts."""
+
+
+@pytest.mark.parametrize("undecided", INTERVALS)
+def test_undecided_starts_widen_the_interval_of_the_share_that_separates(
+    of_four_starts: Arrays, undecided: int
+) -> None:
+    """All four starts undecided gave an interval from 0 to 0.49, and most separated later."""
+    low = of_four_starts["separating_fraction_low"][0]
+    high = of_four_starts["separating_fraction_high"][0]
+    assert (low, high) == pytest.approx(INTERVALS[undecided], abs=1e-4)
+
+
+@pytest.mark.parametrize("undecided", INTERVALS)
+def test_undecided_starts_widen_the_interval_of_the_class_that_separates(
+    of_four_starts: Arrays, undecided: int
+) -> None:
+    low = of_four_starts["basin_fraction_low"][0, SEPARATES]
+    high = of_four_starts["basin_fraction_high"][0, SEPARATES]
+    assert (low, high) == pytest.approx(INTERVALS[undecided], abs=1e-4)
+
+
+@pytest.mark.parametrize(("undecided", "share"), [(4, np.nan), (2, 0.5), (0, 0.5)])
+def test_the_share_that_separates_is_that_of_the_decided_starts(
+    of_four_starts: Arrays, share: float
+) -> None:
+    of_classes = of_four_starts["basin_fraction"][0]
+    separating = of_four_starts["separating_fraction"][0]
+    assert separating == pytest.approx(share, nan_ok=True)
+    assert of_classes.sum() == pytest.approx(1)
 
 
 @pytest.mark.parametrize(("first", "said"), [(3.0, "yes"), (np.nan, "not_yet")])
@@ -135,9 +163,11 @@ def test_a_start_that_will_lose_contact_does_not_keep_it(
     leaves = OutcomeResult(APART.kind, 95.0, attractor=APART, first_separation=first)
     monkeypatch.setattr(Made, "classes", {0: leaves})
     monkeypatch.setattr(Made, "least", staticmethod(lambda p, i: 1.0))
-    table = found(energies=[0.5], n_starts=2)
+    table = found(energies=[0.5], n_starts=2).arrays
     words = AttractorBasins.COLUMNS["lost_contact"].flags
-    assert [words[code] for code in table.arrays["lost_contact"][0, 0]] == [said, "no"]
+    leaving, staying = table["lost_contact"][0, 0]
+    assert words[leaving] == said
+    assert words[staying] == "no"
 
 
 def test_the_least_kick_is_bisected_along_the_start_that_separates_first(made: None) -> None:
@@ -266,13 +296,18 @@ def test_a_study_says_how_many_starts_are_undecided(
 ) -> None:
     """Only the function said so, and a study's list of remarks was empty with all starts undecided."""
     lost = OutcomeResult(Outcome.UNDECIDED, 60.0, first_separation=2.0)
-    gone = OutcomeResult(None, 1.0, failed=LOST)
     monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: lost})
+    [message] = found(energies=[0.01], n_starts=4).messages
     told = "2 of 4 starts (1 after contact was lost) undecided within the horizon: raise it"
-    assert found(energies=[0.01], n_starts=4).messages == [told]
+    assert message == told
+
+
+def test_a_study_tells_failed_starts_from_undecided_ones(
+    made: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    gone = OutcomeResult(None, 1.0, failed=LOST)
     monkeypatch.setattr(Made, "classes", {0: UNDECIDED, 1: gone})
-    both = [
-        "1 of 4 starts failed, such as lost",
-        "1 of 4 starts undecided within the horizon: raise it",
-    ]
-    assert found(energies=[0.01], n_starts=4).messages == ["; ".join(both)]
+    [message] = found(energies=[0.01], n_starts=4).messages
+    of_failed, of_undecided = message.split("; ")
+    assert of_failed == "1 of 4 starts failed, such as lost"
+    assert of_undecided == "1 of 4 starts undecided within the horizon: raise it"

@@ -262,27 +262,62 @@ def test_turns_count_up_to_the_greatest_number_of_diameters(diameters: int, coun
 
 
 STEEL = {
-    "N": 5000, "E": 210e9, "rho": 7850, "nu": 0.3, "h": 6e-3, "m": 0.3, "k": 5e5, "k_p": 2e5, "c_p": 20,
-    "mu_s": 0.45, "mu_k": 0.35, "damping_ratio": 5e-4, "normalization": "orthonormal",
-    "friction_offset": "surface", "contact_arc": 0.4, "n_diameters": 6,
-}  # fmt: skip
+    "N": 5000,
+    "E": 210e9,
+    "rho": 7850,
+    "nu": 0.3,
+    "h": 6e-3,
+    "m": 0.3,
+    "k": 5e5,
+    "k_p": 2e5,
+    "c_p": 20,
+    "mu_s": 0.45,
+    "mu_k": 0.35,
+    "damping_ratio": 5e-4,
+    "normalization": "orthonormal",
+    "friction_offset": "surface",
+    "contact_arc": 0.4,
+    "n_diameters": 6,
+}
 """A disc with 14 modes, of which the eleventh to the thirteenth may be the most unstable ones."""
 
 
-@pytest.mark.compiled
-def test_the_most_unstable_mode_is_known_whatever_the_room() -> None:
+def campbell_of_steel(**options: Any) -> xr.Dataset:
+    """A study of this disc at two speeds."""
+    speeds = {"Omega": [60, 61]}
+    return computed(quantity="campbell", options=options, base=STEEL, axes=speeds)
+
+
+@pytest.fixture(scope="module")
+def largest_of_steel() -> float:
+    """The largest growth rate of all modes at the first speed."""
+    sliding = dm.steady_sliding(Parameters(Omega=60, **STEEL))
+    return sliding.growth_rate
+
+
+def test_the_most_unstable_mode_has_room(largest_of_steel: float) -> None:
     """Of 14 modes 12 had room, and their largest growth rate was 2.16/s; that of all is 2.39/s."""
-    largest = dm.steady_sliding(Parameters(Omega=60, **STEEL)).growth_rate
-    assert largest == pytest.approx(2.39, abs=0.005)
-    axes = {"Omega": [60, 61]}
-    found = computed(quantity="campbell", options={}, base=STEEL, axes=axes)
-    assert float(found["sliding_growth_rate"].sel(Omega=60).max()) == pytest.approx(largest)
-    few = computed(quantity="campbell", options={"modes": 12}, base=STEEL, axes=axes)
-    assert float(few["sliding_growth_rate"].sel(Omega=60).max()) < 2.2
-    assert float(few["largest_sliding_growth_rate"].sel(Omega=60)) == pytest.approx(largest)
-    for study in (found, few):
-        assert study["n_modes"].values.tolist() == [14, 14]
-    assert all(text.endswith("room for 12: raise modes") for text in few["message"].values)
+    study = campbell_of_steel()
+    of_modes = study["sliding_growth_rate"].sel(Omega=60)
+    assert largest_of_steel == pytest.approx(2.39, abs=0.005)
+    assert of_modes.max().item() == pytest.approx(largest_of_steel)
+    assert study["n_modes"].values.tolist() == [14, 14]
+
+
+def test_the_most_unstable_mode_is_known_whatever_the_room(largest_of_steel: float) -> None:
+    study = campbell_of_steel(modes=12)
+    first = study.sel(Omega=60)
+    of_modes = first["sliding_growth_rate"]
+    of_all = first["largest_sliding_growth_rate"]
+    assert of_modes.max().item() < 2.2
+    assert of_all.item() == pytest.approx(largest_of_steel)
+
+
+def test_modes_without_room_are_counted_and_told() -> None:
+    study = campbell_of_steel(modes=12)
+    assert study["n_modes"].values.tolist() == [14, 14]
+    for message in study["message"].values:
+        assert message.endswith("room for 12: raise modes")
 
 
 @pytest.mark.compiled
