@@ -208,17 +208,24 @@ def test_a_motion_has_settled_when_both_its_sections_have(
 def test_points_of_a_motion_that_may_have_settled_are_divided_at_a_stated_time() -> None:
     """They were "first half of the run" up to their mean time, wherever the window was; and a settled
     cycle was called "not shown to have settled"."""
-    case = simulate(
-        Parameters(N=385, Omega=14, n_diameters=1), 15, windows={"poincare": Poincare(start=5)}
-    ).to_tree()
+    p = Parameters(N=385, Omega=14, n_diameters=1)
+    section = Poincare(start=5)
+    result = simulate(p, 15, windows={"poincare": section})
+    case = result.to_tree()
     samples = case["poincare"].to_dataset()
     found = stages_of(case, samples)
-    middle = round(float(samples["time"][0] + samples["time"][-1]) / 2, 1)
+
+    time = samples["time"].values
+    middle = round((time[0] + time[-1]) / 2, 1)
+    early_name, later_name, *_ = found.names
     assert middle == pytest.approx(10, abs=0.5)
-    expected = [f"up to {middle:g} s", f"after {middle:g} s, undecided whether settled"]
-    assert [*found.names[:2]] == expected
-    early = samples["time"].values[found.masks["early"]]
-    assert early.max() < middle <= samples["time"].values[found.masks["later"]].min()
+    assert early_name == f"up to {middle:g} s"
+    assert later_name == f"after {middle:g} s, undecided whether settled"
+
+    early = time[found.masks["early"]]
+    later = time[found.masks["later"]]
+    assert early.max() < middle
+    assert later.min() >= middle
 
 
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
@@ -271,22 +278,36 @@ def test_a_spectrum_in_time_at_the_start_of_a_run_begins_at_zero(
     assert span_of(spectrum) == pytest.approx(span)
 
 
+def titled(separates: bool, title: str) -> xr.DataTree:
+    """A case with a title."""
+    case = simulated(separates).copy()
+    case.attrs = dict(case.attrs)
+    case.attrs["title"] = title
+    return case
+
+
 def test_the_title_of_a_case_stands_above_its_figure_before_its_parameters() -> None:
     """No figure had it, and two cases that stop at different times had the same heading."""
-    case = simulated(True).copy()
-    case.attrs = {**case.attrs, "title": "Until contact is lost"}
-    heading = asked("history", case, window="history").get_suptitle()
-    assert heading.splitlines()[0] == "Until contact is lost"
-    assert "385 N" in heading
-    own = asked("history", case, window="history", title="Seen").get_suptitle()
-    assert own.splitlines()[0] == "Seen"
+    case = titled(True, "Until contact is lost")
+    figure = asked("history", case, window="history")
+    first, *further = figure.get_suptitle().splitlines()
+    assert first == "Until contact is lost"
+    assert "385 N" in " ".join(further)
+
+
+def test_the_title_that_a_figure_is_given_stands_in_place_of_that_of_its_case() -> None:
+    case = titled(True, "Until contact is lost")
+    figure = asked("history", case, window="history", title="Seen")
+    first, *further = figure.get_suptitle().splitlines()
+    assert first == "Seen"
+    assert "contact" not in " ".join(further)
 
 
 @pytest.mark.parametrize("alike", [True, False])
 def test_rows_of_cases_with_equal_parameters_have_their_titles(alike: bool) -> None:
-    cases = {"A": simulated(True).copy(), "B": simulated(alike).copy()}
-    for name, case in cases.items():
-        case.attrs = {**case.attrs, "title": f"Case {name}"}
-    plot = kind_of("poincare").model_validate({"kind": "poincare", "case": "A", "below": ["B"]})
-    texts = said_in(render(plot, cases))
-    assert any("Case B" in text for text in texts) is alike
+    cases = {"A": titled(True, "Case A"), "B": titled(alike, "Case B")}
+    wish = {"kind": "poincare", "case": "A", "below": ["B"]}
+    plot = kind_of("poincare").model_validate(wish)
+    figure = render(plot, cases)
+    said = " ".join(said_in(figure))
+    assert ("Case B" in said) is alike

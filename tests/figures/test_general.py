@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
@@ -272,55 +273,96 @@ def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:
         assert np.allclose(ax.lines[0].get_ydata()[1:], [1000.0, 1100.0])  # ms
 
 
+def panel_of_levels(*levels: float) -> Axes:
+    """A panel with level lines that are named by their heights."""
+    _figure, [ax] = panels(PAGE, 2.4)
+    for level in levels:
+        ax.plot([0, 1], [level, level], label=str(level))
+    return ax
+
+
+def names_for_legend(ax: Axes) -> list[str]:
+    """What a legend of a panel would say."""
+    _, names = ax.get_legend_handles_labels()
+    return [" ".join(name.split()) for name in names]
+
+
 @pytest.mark.parametrize(
     ("limits", "named"),
     [
-        ((0.0, 2.5), ["10", "20", "outside the limits: 30"]),
+        ((0, 25), ["10", "20", "outside the limits: 30"]),
         ((1e3, 2e3), ["outside the limits: 10, 20, 30"]),
-        ((0.0, 4.0), ["10", "20", "30"]),
+        ((0, 40), ["10", "20", "30"]),
     ],
 )
 def test_the_legend_says_which_lines_the_limits_leave_out(
     limits: tuple[float, float], named: list[str]
 ) -> None:
     """It listed a line of which nothing was drawn."""
-    _figure, [ax] = panels(PAGE, 2.4)
-    for height in (1.0, 2.0, 3.0):
-        ax.plot([0, 1], [height, height], label=f"{10 * height:g}")
-    ax.plot([0, 1], [9.0, 9.0], label="_nolegend_")
+    ax = panel_of_levels(10, 20, 30)
+    ax.plot([0, 1], [90, 90], label="_nolegend_")
     is_noted = note_outside([ax], limits)
-    said = [" ".join(label.split()) for label in ax.get_legend_handles_labels()[1]]
-    assert said == named
-    assert is_noted is (limits[1] != 4.0)
+    is_outside = "outside" in named[-1]
+    assert names_for_legend(ax) == named
+    assert is_noted is is_outside
 
 
-def test_a_single_line_outside_the_limits_is_said_and_one_across_them_is_seen() -> None:
+def test_a_single_line_across_the_limits_is_seen() -> None:
     _figure, [ax] = panels(PAGE, 2.4)
     ax.plot([0, 1], [14.0, 15.0])
-    assert not note_outside([ax], (14.4, 14.6))
-    assert note_outside([ax], (0.0, 0.2))
-    [said] = ax.get_legend_handles_labels()[1]
-    assert " ".join(said.split()) == "outside the limits: all values"
+    is_noted = note_outside([ax], (14.4, 14.6))
+    assert not is_noted
+    assert names_for_legend(ax) == []
+
+
+def test_a_single_line_outside_the_limits_is_said() -> None:
+    _figure, [ax] = panels(PAGE, 2.4)
+    ax.plot([0, 1], [14.0, 15.0])
+    is_noted = note_outside([ax], (0.0, 0.2))
+    assert is_noted
+    assert names_for_legend(ax) == ["outside the limits: all values"]
+
+
+def exponents(points: int) -> xr.Dataset:
+    """Two exponents at some speeds with errors of 0.1/s, which are not known at the last speed."""
+    axes = ["Omega", "exponent_number"]
+    ascending = np.linspace(-0.3, -0.1, 2 * points)
+    errors = np.full((points, 2), 0.1)
+    errors[-1] = np.nan
+    status = np.zeros(points, dtype=np.int8)
+    of_exponents = {"units": "s-1", "long_name": "Lyapunov exponent"}
+    of_errors = {"units": "s-1", "long_name": "its error"}
+    return xr.Dataset(
+        {
+            "status": ("Omega", status, {"flag_meanings": "ok failed"}),
+            "exponent": (axes, ascending.reshape(points, 2), of_exponents),
+            "exponent_error": (axes, errors, of_errors),
+        },
+        {"Omega": np.linspace(10.0, 20.0, points), "exponent_number": [0, 1]},
+    )
 
 
 @pytest.mark.parametrize("points", [4, 60])
 def test_curves_of_exponents_show_their_errors(points: int) -> None:
     """An exponent of -0.16/s with an error of 0.53/s looked as certain as any."""
-    axes = ["Omega", "exponent_number"]
-    values = np.linspace(-0.3, -0.1, 2 * points).reshape(points, 2)
-    errors = np.full((points, 2), 0.1)
-    errors[-1] = np.nan
-    study = xr.Dataset(
-        {
-            "status": ("Omega", np.zeros(points, np.int8), {"flag_meanings": "ok failed"}),
-            "exponent": (axes, values, {"units": "s-1", "long_name": "Lyapunov exponent"}),
-            "exponent_error": (axes, errors, {"units": "s-1", "long_name": "its error"}),
-        },
-        {"Omega": np.linspace(10.0, 20.0, points), "exponent_number": [0, 1]},
-    )
+    study = exponents(points)
     figure = draw("curve", study, variable="exponent", x="Omega", by="exponent_number")
-    drawn = [each.get_paths() for each in figure.axes[0].collections]
-    highest = max(path.vertices[:, 1].max() for paths in drawn for path in paths)
-    assert highest == pytest.approx(values[-2].max() + 0.1)
-    names = ["largest exponent", "exponent 2", "bar or band: one error"]
-    assert [label.replace("\n", " ") for label in labels(figure)] == names
+    [ax] = figure.axes
+    tops = []
+    for bars_or_band in ax.collections:
+        for path in bars_or_band.get_paths():
+            heights = path.vertices[:, 1]
+            tops.append(heights.max())
+    largest_with_error = study["exponent"][-2].max().item()
+    assert max(tops) == pytest.approx(largest_with_error + 0.1)
+
+
+@pytest.mark.parametrize("points", [4, 60])
+def test_errors_of_exponents_have_an_entry(points: int) -> None:
+    study = exponents(points)
+    figure = draw("curve", study, variable="exponent", x="Omega", by="exponent_number")
+    assert [label.replace("\n", " ") for label in labels(figure)] == [
+        "largest exponent",
+        "exponent 2",
+        "± standard error",
+    ]

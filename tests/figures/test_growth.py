@@ -98,9 +98,17 @@ def test_a_map_without_neutral_cells_does_not_name_them() -> None:
 
 def test_one_large_rate_does_not_level_all_others() -> None:
     """The scale was linear up to it over thirty, and all other cells had one colour."""
-    rates = np.append(np.linspace(-1.6, -0.8, 15), 60.0)
-    norm = growth_norm(rates)
-    places = norm(np.array([-1.6, -0.8, 0.0]))
-    assert places[1] - places[0] > 0.05
-    assert places[2] - places[1] > 0.1
-    assert growth_norm(0.01 * rates).linear_width == growth_norm(np.array([0.1])).linear_width
+    usual = np.linspace(-1.6, -0.8, 15)
+    norm = growth_norm(np.append(usual, 60.0))
+    lowest = norm(-1.6)
+    highest = norm(-0.8)
+    zero = norm(0.0)
+    assert highest - lowest > 0.05
+    assert zero - highest > 0.1
+
+
+def test_small_rates_have_the_usual_scale_beside_a_larger_one() -> None:
+    small = np.linspace(-0.016, -0.008, 15)
+    beside_larger = growth_norm(np.append(small, 0.6))
+    usual = growth_norm(np.array([0.1]))
+    assert beside_larger.linear_width == usual.linear_width

@@ -290,56 +290,66 @@ def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
     pyplot.close("all")
 
 
+def names_of_sweeps(function: str, *options: dict[str, Any]) -> list[str]:
+    """What the legend says of sweeps of a function that differ in these options."""
+    _, ax = pyplot.subplots()
+    for each in options:
+        study = xr.Dataset(
+            {"value": ("N", [1.0, 2.0, 3.0])},
+            {"N": [300.0, 320.0, 340.0]},
+            {"function": function, "options": json.dumps(each)},
+        )
+        dm.plot_sweep(study, ax=ax)
+    names = named(ax)
+    pyplot.close("all")
+    return names
+
+
 @pytest.mark.parametrize(
-    ("function", "unset", "option", "expected"),
+    ("unset", "expected"),
     [
-        ("critical", {}, {"precision": 0.01}, "precision of a millionth of the range"),
-        ("own", {}, {"order": 3}, "default order"),
-        ("own", {"order": None}, {"order": 3}, "default order"),
-        ("own", {"order": [1, 2]}, {"order": 3}, "order = 1 and 2"),
-        ("own", {"order": {"of": 2}}, {"order": 3}, "sweep 1"),
+        ({}, "default order"),
+        ({"order": None}, "default order"),
+        ({"order": [1, 2]}, "order = 1 and 2"),
+        ({"order": {"of": 2}}, "sweep 1"),
     ],
 )
 def test_an_option_that_is_not_set_has_words_beside_one_that_is(
-    function: str, unset: dict[str, Any], option: dict[str, Any], expected: str
+    unset: dict[str, Any], expected: str
 ) -> None:
     """It was "sweep 1"."""
-    value = ("N", [1.0, 2.0, 3.0])
-    _, ax = pyplot.subplots()
-    for options in (unset, option):
-        attrs = {"function": function, "options": json.dumps({"name": "c_p", **options})}
-        found = xr.Dataset({"value": value}, {"N": [300.0, 320.0, 340.0]}, attrs)
-        dm.plot_sweep(found, ax=ax)
-    assert named(ax)[0] == expected
-    pyplot.close("all")
+    first, _ = names_of_sweeps("own", unset, {"order": 3})
+    assert first == expected
 
 
-@pytest.mark.parametrize(
-    ("function", "options", "expected"),
-    [
-        ("outcome", {"extrapolate": [False, True]}, "departures not extrapolated"),
-        ("outcome", {"early_end": [True, False]}, "early ends"),
-        ("own", {"refine_twice": [True, False]}, "with refine twice"),
-        ("basins", {"energies": [[0.001, 0.1], [0.1]]}, "energies 0.001 and 0.1 J"),
-        ("critical_speed", {"horizon": [[1, 2, 5], 5]}, "horizon 1, 2 and 5 s"),
-        ("critical_speed", {"bounds": [[8, 9], [8, 12]]}, "bounds 8 to 9 rad/s"),
-        ("critical_speed", {"horizon": [["1 min", "2 min"], 5]}, "horizon 1 min and 2 min"),
-        ("own", {"kinds": [["a", "b"], ["a"]]}, "kinds = a and b"),
-        ("basins", {"progress": [True, False]}, "sweep 1"),
-    ],
-)
-def test_sweeps_are_named_by_options_that_are_true_or_false_or_lists(
-    function: str, options: dict[str, list[Any]], expected: str
-) -> None:
+def test_the_precision_of_a_critical_value_has_words_where_it_is_not_set() -> None:
+    unset = {"name": "c_p"}
+    coarse = {"name": "c_p", "precision": 0.01}
+    first, _ = names_of_sweeps("critical", unset, coarse)
+    assert first == "precision of a millionth of the range"
+
+
+OPTIONS_OF_PAIRS: dict[str, tuple[str, str, list[Any]]] = {
+    "departures not extrapolated": ("outcome", "extrapolate", [False, True]),
+    "early ends": ("outcome", "early_end", [True, False]),
+    "with refine twice": ("own", "refine_twice", [True, False]),
+    "energies 0.001 and 0.1 J": ("basins", "energies", [[0.001, 0.1], [0.1]]),
+    "horizon 1, 2 and 5 s": ("critical_speed", "horizon", [[1, 2, 5], 5]),
+    "bounds 8 to 9 rad/s": ("critical_speed", "bounds", [[8, 9], [8, 12]]),
+    "horizon 1 min and 2 min": ("critical_speed", "horizon", [["1 min", "2 min"], 5]),
+    "kinds = a and b": ("own", "kinds", [["a", "b"], ["a"]]),
+    "sweep 1": ("basins", "progress", [True, False]),
+}
+"""Names of the first of two sweeps of a function that differ in an option."""
+
+
+@pytest.mark.parametrize("expected", OPTIONS_OF_PAIRS)
+def test_sweeps_are_named_by_options_that_are_true_or_false_or_lists(expected: str) -> None:
     """They were "sweep 1" and "sweep 2"."""
-    [(name, values)] = options.items()
-    _, ax = pyplot.subplots()
-    for value in values:
-        attrs = {"function": function, "options": json.dumps({name: value})}
-        found = xr.Dataset({"value": ("N", [1.0, 2.0])}, {"N": [300.0, 320.0]}, attrs)
-        dm.plot_sweep(found, ax=ax)
-    assert named(ax)[0] == expected
-    pyplot.close("all")
+    function, option, values = OPTIONS_OF_PAIRS[expected]
+    options = [{option: value} for value in values]
+    first, _ = names_of_sweeps(function, *options)
+    assert first == expected
 
 
 def test_the_title_says_how_long_a_sweep_stays_at_each_value() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from matplotlib import pyplot
 from matplotlib.colors import to_hex
+from matplotlib.lines import Line2D
 
 import disc_model as dm
 from tests.figures.test_wishes import legend_texts
@@ -168,23 +169,29 @@ def test_both_spectra_go_on_to_the_end_of_the_axis() -> None:
 @pytest.mark.parametrize("kind", ["portrait", "spectrum"])
 def test_every_line_of_many_cases_shows_below_thinner_ones(kind: str) -> None:
     """The fourth was as thin as the first, and lay under the wide line of the third."""
+    slow, fast = SPEEDS
     _, ax = pyplot.subplots(layout="constrained")
-    for number in range(5):
-        DRAWN[kind](SPEEDS[number % 2], ax=ax)
+    for speed in (slow, fast, slow, fast, slow):
+        DRAWN[kind](speed, ax=ax)
     shown = [line for line in ax.lines if np.size(line.get_xdata()) > 2]
-    from_below = sorted(shown, key=lambda line: line.get_zorder())
+    from_below = sorted(shown, key=Line2D.get_zorder)
     widths = [line.get_linewidth() for line in from_below]
+    steps = np.diff(widths)
     assert len(widths) == 5
-    assert np.diff(widths).max() < -0.9, "an edge of 0.45 points shows on each side"
+    assert steps.max() < -0.9, "an edge of 0.45 points shows on each side"
+
     samples = ax.get_legend().get_lines()
-    assert sorted((line.get_linewidth() for line in samples), reverse=True) == widths
+    of_samples = [line.get_linewidth() for line in samples]
+    assert sorted(of_samples, reverse=True) == widths
 
 
 def test_cases_of_one_name_are_told_apart() -> None:
     """Both had one entry in the legend, in the look of the first."""
+    slow, fast = SPEEDS
+    name = {"case": "A"}
     _, ax = pyplot.subplots(layout="constrained")
-    for speed in (*SPEEDS, SPEEDS[0]):
-        DRAWN["run"](speed, ax=ax, labels={"case": "A"})
+    for speed in (slow, fast, slow):
+        DRAWN["run"](speed, ax=ax, labels=name)
     assert legend_texts(ax) == [
         f"A, {NAMES[0]}, case 1",
         f"A, {NAMES[1]}",

@@ -212,17 +212,33 @@ def test_names_of_decaying_modes_do_not_lie_on_each_other(rates: list[float], bl
     pyplot.close("all")
 
 
+def two_of_modes(count: int, study: xr.Dataset) -> xr.Dataset:
+    """A study with room for two of its modes, and a larger growth rate than theirs."""
+    few = study.isel(mode=[0, 1])
+    largest = few["mode_growth_rate"].max("mode")
+    few["largest_growth_rate"] = largest + 1.0
+    few["n_modes"] = count
+    return few
+
+
 def test_modes_without_room_are_told_from_growth_at_rest(over_mu: xr.Dataset) -> None:
     """The line of the most unstable mode was called "0 Hz" where the study had no room for it."""
-    few = over_mu.isel(mode=[0, 1])
-    few["largest_growth_rate"] = few["mode_growth_rate"].max("mode") + 1.0
-    few["n_modes"] = 4
-    [line] = [line for line in lines_of(few.isel(N=0)) if np.isfinite(line.rate).all()][-1:]
-    assert line.name == "not computed"
-    assert np.isnan(line.frequency).all()
-    figure = render(kind_of("sliding_modes")(highest=1.0), {"study": xr.DataTree(few)})
-    said = labels(figure)
+    drawn = lines_of(two_of_modes(4, over_mu).isel(N=0))
+    known = [line for line in drawn if np.isfinite(line.rate).all()]
+    most_unstable = known[-1]
+    assert most_unstable.name == "not computed"
+    assert np.isnan(most_unstable.frequency).all()
+
+
+def test_modes_without_room_are_counted_in_the_legend(over_mu: xr.Dataset) -> None:
+    study = xr.DataTree(two_of_modes(4, over_mu))
+    plot = kind_of("sliding_modes")(highest=1.0)
+    said = labels(render(plot, {"study": study}))
     assert "2 modes of 4 not computed" in said
     assert "cut at 1 Hz: 4 modes above" in said
-    full = few.assign(n_modes=2)
-    assert lines_of(full.isel(N=0))[-1].name == "0 Hz"
+
+
+def test_growth_of_no_frequency_is_at_rest_where_all_modes_have_room(over_mu: xr.Dataset) -> None:
+    drawn = lines_of(two_of_modes(2, over_mu).isel(N=0))
+    most_unstable = drawn[-1]
+    assert most_unstable.name == "0 Hz"

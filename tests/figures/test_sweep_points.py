@@ -48,6 +48,12 @@ def points_on(ax: Axes) -> list[Any]:
     return [line for line in ax.lines if line.get_linestyle() == "None"]
 
 
+def words_above(ax: Axes) -> list[str]:
+    """The words of the rows above a panel."""
+    words = [row.words.get_text() for row in rows_above(ax)]
+    return [" ".join(each.split()) for each in words]
+
+
 def test_a_bifurcation_is_drawn_as_its_diagram_unasked() -> None:
     """It was what the motion has come to at switches, even of samples once a turn."""
     study = sections().assign_attrs(quantity="bifurcation")
@@ -115,8 +121,9 @@ def test_samples_once_per_turn_say_so_along_their_axis() -> None:
 def test_samples_of_a_section_are_a_map_or_lines_on_request() -> None:
     assert as_map(sections(), "psi").get_ylabel() == "Number of the turn"
     ax = dm.plot_sweep(sections(), "psi", lines="sample")
-    filled = [line.get_xdata() for line in points_on(ax) if len(line.get_xdata())]
-    assert filled == SAMPLES * [SPEEDS[3:]], "only marks of the motion that had not settled"
+    places = [line.get_xdata().tolist() for line in points_on(ax)]
+    filled = [place for place in places if place]
+    assert filled == SAMPLES * [[16.0]], "only marks of the motion that had not settled"
 
 
 def test_arrays_of_a_function_are_points() -> None:
@@ -181,15 +188,17 @@ def test_few_values_are_a_map_on_request(wish: dict[str, Any]) -> None:
 
 def test_points_of_modes_have_a_name() -> None:
     """They were black lines without one; the last of four modes has no value."""
-    rates = np.full((4, 4), np.nan)
-    rates[:, :3] = [-0.1, -0.2, -0.3]
+    rates = [-0.1, -0.2, -0.3, np.nan]
+    of_rates = {"units": "s-1", "long_name": "growth rate"}
+    of_modes = {"long_name": "number of the mode"}
     study = xr.Dataset(
-        {"rate": (("Omega", "mode"), rates, {"units": "s-1", "long_name": "growth rate"})},
-        {"Omega": SPEEDS, "mode": ("mode", range(4), {"long_name": "number of the mode"})},
+        {"rate": (("Omega", "mode"), [rates] * 4, of_rates)},
+        {"Omega": SPEEDS, "mode": ("mode", range(4), of_modes)},
     )
     ax = dm.plot_sweep(study, "rate")
+    [dots] = points_on(ax)
     assert labels(ax.figure) == ["3 modes"]
-    assert len(points_on(ax)) == 1
+    assert np.isfinite(dots.get_ydata()).sum() == 12
 
 
 def test_a_motion_without_samples_that_had_not_settled_is_named_so() -> None:
@@ -197,8 +206,11 @@ def test_a_motion_without_samples_that_had_not_settled_is_named_so() -> None:
     study = sections().assign_attrs(quantity="bifurcation")
     study["psi"][3] = np.nan
     ax = dm.plot_sweep(study, "psi")
-    said = [row.words.get_text().replace("\n", " ") for row in rows_above(ax)]
-    assert said == ["no further event while sampled, not settled"]
-    study["psi"][3] = 0.2
-    ax = dm.plot_sweep(study.isel(sample=0), "psi")
+    assert words_above(ax) == ["no event while sampled, not settled"]
+
+
+def test_a_selected_sample_of_a_motion_that_had_not_settled_is_named_so() -> None:
+    study = sections().assign_attrs(quantity="bifurcation")
+    first_samples = study.isel(sample=0)
+    ax = dm.plot_sweep(first_samples, "psi")
     assert "not settled" in labels(ax.figure)

@@ -143,15 +143,22 @@ def test_own_axes_are_used_and_their_figure_keeps_its_title(name: str) -> None:
     assert ax.get_title() == "panel title"
 
 
+def title_above(ax: Axes) -> str:
+    """What stands at the left above a panel, in one line."""
+    title = ax.get_title(loc="left")
+    return " ".join(title.split())
+
+
 @pytest.mark.parametrize("name", DRAWN)
 def test_own_axes_have_the_values_of_the_case_above_them_on_request(name: str) -> None:
     """Panels of several runs did not say which case they show."""
     _, ax = pyplot.subplots(layout="constrained")
     DRAWN[name](ax=ax, title=True)
-    said = " ".join(ax.get_title(loc="left").split())
     new = one(DRAWN[name]()).figure
-    assert said.startswith(" ".join(new.get_suptitle().split()))
-    note = " ".join(new.axes[0].get_title(loc="left").split())
+    note = title_above(new.axes[0])
+    said = title_above(ax)
+    in_one_line = " ".join(new.get_suptitle().split())
+    assert said.startswith(in_one_line)
     assert said.endswith(note)
 
 
@@ -165,20 +172,32 @@ def test_new_figures_have_their_title_unless_it_is_false(name: str) -> None:
 
 
 def test_values_above_own_axes_are_those_that_all_cases_there_have() -> None:
+    first = dm.floquet(CASE)
+    slower = dm.floquet(CASE.replace(Omega=14))
     _, ax = pyplot.subplots(layout="constrained")
-    dm.floquet(CASE).plot(ax=ax, title=True)
-    dm.floquet(CASE.replace(Omega=14)).plot(ax=ax)
-    assert ax.get_title(loc="left") == "N = 385 N, nodal diameters up to 2"
+    first.plot(ax=ax, title=True)
+    slower.plot(ax=ax)
+    assert title_above(ax) == "N = 385 N, nodal diameters up to 2"
+
+
+def test_a_title_of_a_reader_above_own_axes_is_kept() -> None:
+    first = dm.floquet(CASE)
+    lighter = dm.floquet(CASE.replace(N=300))
+    _, ax = pyplot.subplots(layout="constrained")
+    first.plot(ax=ax, title=True)
     ax.set_title("mine", loc="left")
-    dm.floquet(CASE.replace(N=300)).plot(ax=ax)
-    assert ax.get_title(loc="left") == "mine"
+    lighter.plot(ax=ax)
+    assert title_above(ax) == "mine"
 
 
 def test_values_above_a_narrow_panel_stay_whole() -> None:
+    damped = dm.floquet(CASE.replace(c_p=4))
     _, axes = pyplot.subplots(2, 2, figsize=(3.31, 4), layout="constrained")
-    dm.floquet(CASE.replace(c_p=4)).plot(ax=axes[0, 0], title=True, legend=False)
-    lines = axes[0, 0].get_title(loc="left").splitlines()
-    assert [line.rstrip(",") for line in lines[:2]] == ["N = 385 N", "Ω = 15 rad/s"]
+    ax = axes[0, 0]
+    damped.plot(ax=ax, title=True, legend=False)
+    first, second, *_ = ax.get_title(loc="left").splitlines()
+    assert first.rstrip(",") == "N = 385 N"
+    assert second.rstrip(",") == "Ω = 15 rad/s"
 
 
 @pytest.mark.parametrize("name", [name for name in DRAWN if name not in ("map", "words")])
@@ -602,11 +621,15 @@ def test_gaps_are_widened_while_panels_keep_their_least_size(
 
 def test_a_long_title_of_a_new_figure_stays_on_the_page() -> None:
     """It ran beyond both edges of a column."""
-    figure = one(DRAWN["line"](title="Growth rates of a steel disc of 6 mm " * 3)).figure
+    words = "Growth rates of a steel disc of 6 mm " * 3
+    figure = one(DRAWN["line"](title=words)).figure
     figure.draw_without_rendering()
-    [title] = [text for text in figure.texts if text.get_text() == figure.get_suptitle()]
+    shown = figure.get_suptitle()
+    [title] = [text for text in figure.texts if text.get_text() == shown]
     box = title.get_window_extent()
-    assert 0 <= box.x0 < box.x1 <= figure.bbox.x1
+    assert shown.split() == words.split()
+    assert box.x0 >= 0
+    assert box.x1 <= figure.bbox.x1
 
 
 def test_pictures_leave_the_title_of_a_plain_figure_its_room() -> None:
@@ -615,4 +638,6 @@ def test_pictures_leave_the_title_of_a_plain_figure_its_room() -> None:
     title = figure.suptitle("A disc\nof steel\nand a slider\nof 300 g")
     DRAWN["line"](ax=ax)
     figure.draw_without_rendering()
-    assert title.get_window_extent().y0 >= ax.get_tightbbox().y1
+    box = title.get_window_extent()
+    panel = ax.get_tightbbox()
+    assert box.y0 >= panel.y1
