@@ -9,7 +9,7 @@ from disc_model import Parameters, Ramp, Window, initial_state, simulate
 from disc_model.display import html_table, rounded_text
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
-from disc_model.stability.critical import Critical
+from disc_model.stability.critical_values import Critical
 from disc_model.stability.lyapunov import Lyapunov
 
 P = Parameters(N=385, Omega=15)

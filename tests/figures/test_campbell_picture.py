@@ -12,7 +12,8 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures import campbell
-from disc_model.figures.campbell import ALONE, Peak, peaks
+from disc_model.figures.campbell_legend import ALONE
+from disc_model.figures.campbell_peaks import Peak, peaks
 from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS

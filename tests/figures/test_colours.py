@@ -7,14 +7,8 @@ from cmcrameri import cm
 from matplotlib import colormaps
 from matplotlib.colors import AsinhNorm, LogNorm
 
-from disc_model.figures.colours import (
-    ColourWishes,
-    colours_of,
-    counted,
-    growth_colours,
-    is_diverging,
-    within_a_decade,
-)
+from disc_model.figures.colour_wishes import ColourWishes, is_diverging
+from disc_model.figures.colours import colours_of, counted, growth_colours, within_a_decade
 
 RATE = xr.DataArray(0.0, name="growth_rate")
 PERIOD = xr.DataArray(0.0, name="period")

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
-from disc_model.figures import heat_map, line_names, rate_scale, selection
+from disc_model.figures import cells, line_names, rate_scale, selection
 from disc_model.figures.drawing import PAGE, panels
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
@@ -262,7 +262,7 @@ def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, 
 )
 def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
     along = xr.DataArray(values, name=name)
-    assert heat_map.scale(along) == kind
+    assert cells.scale_along(along) == kind
 
 
 def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:

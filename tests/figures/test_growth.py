@@ -10,9 +10,9 @@ from matplotlib.patches import PathPatch
 
 from disc_model.figures.cells import edges_of, lay_over
 from disc_model.figures.classes import STABLE
+from disc_model.figures.colour_maps import draw_maps
 from disc_model.figures.colours import growth_norm
 from disc_model.figures.growth import growth_panels
-from disc_model.figures.heat_map import draw_maps
 
 SPEEDS = [10.0, 11.0, 12.0]
 LOADS = [100.0, 200.0]

@@ -2,8 +2,8 @@
 
 import pytest
 
+from disc_model.figures.drawings import DRAWINGS
 from disc_model.figures.kinds import KINDS, CasePlot, General, Plot, kind_of
-from disc_model.figures.render import DRAWINGS
 from disc_model.parameters import Parameters
 from disc_model.studies.registry import quantity_names
 from tests.figures.every_kind import EXAMPLES

@@ -21,7 +21,8 @@ from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
 from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
-from disc_model.figures.campbell import Column, Peak, peaks
+from disc_model.figures.campbell_legend import ALONE
+from disc_model.figures.campbell_peaks import Column, Peak, peaks, unjoined
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, OPEN_STEP, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
@@ -813,7 +814,7 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
     ("rates", "name"),
     [
         ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
-        ([-0.05, -0.05, -0.30, -0.05, -0.05], campbell_diagram.ALONE),
+        ([-0.05, -0.05, -0.30, -0.05, -0.05], ALONE),
         ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: a step of over 0.1/s"),
     ],
 )
@@ -852,7 +853,7 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
 def test_rates_that_differ_by_more_than_a_tenth_are_not_joined(
     rates: list[float], alone: list[bool]
 ) -> None:
-    found = campbell_diagram.unjoined(np.array(rates))
+    found = unjoined(np.array(rates))
     assert found.tolist() == alone
 
 

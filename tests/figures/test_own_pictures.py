@@ -26,7 +26,7 @@ from disc_model.figures.family import LOOKS
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from disc_model.simulation.states import static_start
-from disc_model.stability.critical import Critical
+from disc_model.stability.critical_values import Critical
 from disc_model.stability.curves import NeutralCurves, StabilityCurve
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.lyapunov import Lyapunov

@@ -17,7 +17,8 @@ from scipy.stats import binom
 
 import disc_model as dm
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_measured
-from disc_model.fitting.prediction import Prediction, Unpredicted
+from disc_model.fitting.block_cycle import Unpredicted
+from disc_model.fitting.prediction import Prediction
 from disc_model.fitting.problem import Problem
 from tests.refusals import refusal
 

@@ -5,7 +5,8 @@ import math
 import pytest
 
 import disc_model as dm
-from disc_model.fitting.prediction import Prediction, Unpredicted
+from disc_model.fitting.block_cycle import Unpredicted
+from disc_model.fitting.prediction import Prediction
 
 BLOCK = dm.Parameters(N=30, Omega=0.5, n_diameters=-1, m=0.2, k=0, k_p=2e3, mu_s=0.5, mu_k=0.3)
 """A block on a rigid disc."""

@@ -183,7 +183,7 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
         handed.extend(parts)
         return found
 
-    monkeypatch.setattr(functions, "_quantity", take)
+    monkeypatch.setattr(functions, "compute_quantity", take)
     start = {"start": {"u": 1e-3}} if function in STARTED else {}
     function(P, tol=1e-9, **arguments, **start)
     name, case, chosen, *starts = handed

@@ -73,6 +73,8 @@ LONG_TERM_OUTCOMES = (
     "failed",
     *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)),
 )
+UNKNOWN_OUTCOMES = ("undecided", "failed")
+"""Outcomes of starts of which it is not known what they come to."""
 # words for motions that are followed beyond a separation
 _BEYOND_SEPARATION = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
 OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _BEYOND_SEPARATION))
@@ -271,6 +273,12 @@ def unit_of_mode(name: str) -> str:
     """Unit for readers of a number of one of a disc's modes, such as omega_2_0; "" of any other."""
     column = name.rsplit("_", 2)[0]
     return _OF_A_MODE[column].unit if column in _OF_A_MODE else ""
+
+
+def unit_of_parameter(name: str) -> str:
+    """Return the unit of a parameter or of a number of a disc's table for readers; "" without one."""
+    unit = Parameters.unit(name) or unit_of_mode(name)
+    return "" if unit == "1" else unit
 
 
 def attributes_of_mode(name: str) -> dict[str, Any]:

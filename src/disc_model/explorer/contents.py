@@ -16,8 +16,8 @@ from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
-from disc_model.figures.heat_map import as_classes
 from disc_model.figures.selection import classes_of_gaps, statuses
+from disc_model.figures.truths import as_classes
 from disc_model.figures.words import (
     BY_SIZE,
     NO_VALUE,

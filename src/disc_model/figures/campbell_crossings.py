@@ -10,6 +10,25 @@ from disc_model.display import counted
 from disc_model.figures.drawing import sample
 from disc_model.figures.types import Artist
 
+SYMBOLS = ("$f_s$", "$f_Ω$")
+"""Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
+
+
+def meeting_of(crossing: xr.Dataset) -> tuple[float, float]:
+    """Speed and frequency at which a mode meets a multiple, rad/s and Hz."""
+    return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
+
+
+def multiple_text(crossing: xr.Dataset) -> str:
+    """The multiple of a frequency that a mode meets."""
+    return f"{float(crossing['crossing_multiple']):g} {symbol_of_line(crossing)}"
+
+
+def symbol_of_line(crossing: xr.Dataset) -> str:
+    """The symbol of the frequency of which a mode meets a multiple."""
+    by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
+    return SYMBOLS[0 if by_slips else 1]
+
 
 def entries_of_unresolved(studies: Sequence[xr.Dataset]) -> list[Artist]:
     """The entry of a legend for crossings at which it is not known what growth rates do, if there are

@@ -6,15 +6,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import raise_faults, require, violations
-from disc_model.figures.campbell import (
-    FREQUENCY,
-    RATE,
-    column_of,
-    draw_panels,
-    entries_of,
-    highest_of,
-    name_peaks,
-)
+from disc_model.figures.campbell import column_of, highest_of
+from disc_model.figures.campbell_legend import entries_of
+from disc_model.figures.campbell_names import name_peaks
+from disc_model.figures.campbell_panels import FREQUENCY, RATE, draw_panels
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.named_axes import Quantities, check_free

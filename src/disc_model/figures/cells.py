@@ -217,3 +217,11 @@ def entries(used: Iterable[str], looks: Mapping[str, Look] = LOOKS) -> list[Arti
 
 
 # ---- Colours of a reader
+
+
+def scale_along(coordinate: xr.DataArray) -> str:
+    """Scale of an axis, as in maps of regions, but linear from 0 on and along words."""
+    if coordinate.dtype.kind in "UO":
+        return "linear"
+    known = scale_of(str(coordinate.name), coordinate.values)
+    return "linear" if known == "symlog" else known

@@ -1,10 +1,8 @@
 """Colours of numbers on a map: of counts, of values of one sign or two, of growth rates, and on a
 logarithmic scale."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -21,8 +19,7 @@ from matplotlib.colors import (
 )
 from matplotlib.ticker import Formatter
 
-from disc_model.errors import require
-from disc_model.figures.classes import WEIGHTS
+from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.drawing import parents_of_bar
 from disc_model.figures.least_span import equal_but_for_rounding
 from disc_model.figures.types import Array, Axes, FigureBase
@@ -43,50 +40,6 @@ EXTENDS = {
     (True, True): "both",
 }
 """What matplotlib calls the ends of a bar beyond which there are numbers, below and above."""
-LIGHTER = 0.2  # lightness of the middle of diverging colours over that of both ends, at least
-
-
-@dataclass(frozen=True)
-class ColourWishes:
-    """What a reader asks of the colours of a map of numbers.
-
-    log : whether the scale is logarithmic
-    cmap : another colour map of matplotlib, or its name
-    limits : numbers at the ends of the scale, in the unit of its bar
-    linear : whether the scale is linear, even that of growth rates
-    """
-
-    log: bool = False
-    cmap: str | Colormap | None = None
-    limits: tuple[float, float] | None = None
-    linear: bool = False
-
-    @property
-    def has_no_middle(self) -> bool:
-        """Whether the colours asked for say nothing of a sign: their middle is not set apart."""
-        return self.cmap is not None and not is_diverging(colormaps.get_cmap(self.cmap))
-
-    def refuse(self, *, of_lines: bool = False) -> None:
-        """Raise `ParameterError` where there are no colours of numbers to choose; lines have limits all
-        the same."""
-        rule = "is for maps of numbers: classes and lines have colours of their own"
-        require(
-            (self.cmap is None, "cmap", self.cmap, rule),
-            (of_lines or self.limits is None, "limits", self.limits, rule),
-        )
-
-
-USUAL = ColourWishes()
-
-
-def are_limits(limits: Any) -> bool:
-    """Whether these are the ends of a scale, or None."""
-    if limits is None:
-        return True
-    if not isinstance(limits, tuple | list) or len(limits) != 2:
-        return False
-    numbers = all(isinstance(end, Real) and math.isfinite(end) for end in limits)
-    return numbers and limits[0] < limits[1]
 
 
 @dataclass(frozen=True)
@@ -110,12 +63,7 @@ def colours_of(numbers: Array, array: xr.DataArray, wishes: ColourWishes = USUAL
     if array.dtype.kind == "i" and numbers.max() < FEW and wishes.limits is None:
         return counted(int(numbers.max()) + 1, wishes.cmap)
     values = numbers[np.isfinite(numbers)]
-    ends = (0.0, 1.0)
-    if wishes.log:
-        ends = (1.0, 10.0)
-    if values.size:
-        ends = (float(values.min()), float(values.max()))
-    low, high = wishes.limits or ends
+    low, high = wishes.limits or _ends_of(values, wishes.log)
 
     # colours that have a middle have it at zero
     around_zero = low < 0 < high and not wishes.has_no_middle
@@ -135,6 +83,13 @@ def colours_of(numbers: Array, array: xr.DataArray, wishes: ColourWishes = USUAL
         scale = _constant(usual, low)
     beyond = (bool((values < low).any()), bool((values > high).any()))
     return replace(scale, cmap=_chosen(wishes, scale.cmap), open_ends=beyond)
+
+
+def _ends_of(values: Array, log: bool) -> tuple[float, float]:
+    """The least and the greatest of some numbers; the ends of an empty scale without any."""
+    if values.size:
+        return float(values.min()), float(values.max())
+    return (1.0, 10.0) if log else (0.0, 1.0)
 
 
 def _chosen(wishes: ColourWishes, usual: Colormap) -> Colormap:
@@ -266,19 +221,6 @@ def texts_of(places: Sequence[float]) -> list[str]:
 def within_a_decade(norm: Normalize) -> bool:
     """Whether a logarithmic scale has no two powers of ten, and needs further ticks."""
     return norm.vmin is not None and norm.vmax is not None and norm.vmax < 10 * norm.vmin
-
-
-def is_colormap(cmap: object) -> bool:
-    """Whether this is a colour map, its name, or nothing."""
-    if isinstance(cmap, str):
-        return cmap in colormaps
-    return cmap is None or isinstance(cmap, Colormap)
-
-
-def is_diverging(cmap: Colormap) -> bool:
-    """Whether the middle of a colour map is lighter than both of its ends, or darker."""
-    low, middle, high = (float(np.dot(cmap(place)[:3], WEIGHTS)) for place in (0.0, 0.5, 1.0))
-    return middle - max(low, high) > LIGHTER or min(low, high) - middle > LIGHTER
 
 
 # ---- Bars

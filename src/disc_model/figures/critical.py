@@ -16,7 +16,7 @@ from disc_model.figures.runs import stated
 from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:
-    from disc_model.stability.critical import Critical
+    from disc_model.stability.critical_values import Critical
 
 
 class Words(NamedTuple):

@@ -6,6 +6,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import stated_in
+from disc_model.figures.unknown_starts import OF_STARTS
 
 OF_HORIZON = (
     "outcome",
@@ -15,12 +16,7 @@ OF_HORIZON = (
     "n_crossings",
     "crossing",
     "crossing_kind",
-    "separating_fraction",
-    "separating_fraction_low",
-    "separating_fraction_high",
-    "critical_energy",
-    "critical_energy_lower",
-    "critical_energy_sampled",
+    *OF_STARTS,
 )
 """Variables that say what motions do within the horizon that a study states."""
 OF_RUNS = (

@@ -11,8 +11,8 @@ from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation, blended_transform_factory
 
+from disc_model.figures.covered import twins_of
 from disc_model.figures.drawing import GREY, large, mark, wide
-from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Array, Axes
 
 FIRST = 4.0  # points, height of the first row above its panel,

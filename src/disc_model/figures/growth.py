@@ -11,14 +11,8 @@ from matplotlib.colors import to_hex
 from disc_model.data.variables import EXCLUDED, flag_names
 from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, paint, unresolved
 from disc_model.figures.classes import DOUBTS, LOOKS, STABLE, UNRESOLVED, Look
-from disc_model.figures.colours import (
-    ROUNDING,
-    USUAL,
-    ColourWishes,
-    draw_bar,
-    growth_colours,
-    growth_norm,
-)
+from disc_model.figures.colour_wishes import USUAL, ColourWishes
+from disc_model.figures.colours import ROUNDING, draw_bar, growth_colours, growth_norm
 from disc_model.figures.selection import classes_of_gaps, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
 from disc_model.figures.words import NO_VALUE, label_of, missing_text

@@ -8,15 +8,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib import rcParams
-from matplotlib.collections import Collection, PolyCollection
-from matplotlib.colors import to_hex
 from matplotlib.font_manager import FontProperties
-from matplotlib.legend_handler import HandlerLine2D
-from matplotlib.lines import Line2D
 from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 
+from disc_model.figures.covered import covers, other_legends, twins_of
+from disc_model.figures.legend_samples import draw_legend
 from disc_model.figures.places import set_places
-from disc_model.figures.types import Artist, Axes, FigureBase
+from disc_model.figures.types import Artist, Axes, FigureBase, Legend
 from disc_model.figures.words import CHARACTER
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
@@ -25,7 +23,6 @@ EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
 LEFT = 0.02  # inch, least distance of such a legend from the left edge of the figure
 HALF_GAP = 0.03  # inch, and from the middle between its axes and those beside them
-INSIDE = 0.6  # of the width of axes, for a legend in them: other panels may make them narrower
 PLACES = (
     "upper right",
     "upper left",
@@ -50,10 +47,7 @@ MOVES = 2  # of a legend below a panel after it has changed the size of the pane
 ANCHOR = "_disc_model_anchor"
 """Attribute of a legend below axes: where it hangs."""
 ROUNDING = 1.0  # pixel, to which places are rounded
-MARK_PAD = 0.3  # distance of marks at the ends of a sample from these, over the size of the text
 LETTER = 0.3  # inch, kept free for the letter of one of several panels
-
-Legend = Any
 
 
 class Key(NamedTuple):
@@ -93,7 +87,7 @@ def figure_legend(
         room = round(page.bbox.width / page.get_figure(root=True).dpi / CHARACTER)
         lines = [fill(line, room) for line in look["title"].splitlines()]
         look["title"] = "\n".join(lines)
-    draw = partial(_draw, page, handles, loc=loc, **look)
+    draw = partial(draw_legend, page, handles, loc=loc, **look)
     return _widest_that_fits(draw, min(columns or count, count), PAGE_SHARE * page.bbox.width)
 
 
@@ -106,7 +100,13 @@ def legend_above(
     if not entries:
         return None
     draw = partial(
-        _draw, ax, entries, loc="lower right", bbox_to_anchor=(1, 1), borderaxespad=0.2, **look
+        draw_legend,
+        ax,
+        entries,
+        loc="lower right",
+        bbox_to_anchor=(1, 1),
+        borderaxespad=0.2,
+        **look,
     )
     return _widest_that_fits(draw, min(columns, len(entries)), _room_above(ax))
 
@@ -120,13 +120,13 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
     page: Any = ax.get_figure(root=True)
     legend: Legend = None
     for size in ({}, small()):
-        legend = _draw(ax, entries, loc="best", **{**size, **look})
+        legend = draw_legend(ax, entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
         set_places(page)  # sets the places
         for place in _places_inside(ax):
             legend.set_loc(place)
-            if not _covers(legend, ax):
+            if not covers(legend, ax):
                 return legend
     legend.remove()
     return None
@@ -177,120 +177,6 @@ def small(share: float = SMALLER) -> dict[str, Any]:
     }
 
 
-def _draw(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
-    """Draw a legend of axes or of a figure, whose samples are so long that dashes show between marks
-    where they alone tell lines apart."""
-    dashed = [handle for handle in handles if _is_dashed_with_marks(handle)]
-    if dashed and _share_marks(handles):
-        usual = FontProperties(size=look.get("fontsize") or rcParams["legend.fontsize"])
-        size = usual.get_size_in_points()
-        length = max(map(_sample_length, dashed)) / size + 2 * MARK_PAD
-        given = look.get("handlelength") or rcParams["legend.handlelength"]
-        at_ends = HandlerLine2D(MARK_PAD, 2)  # one in the middle would cover a gap
-        handlers = {handle: at_ends for handle in handles if _joins_marks(handle)}
-        look = {"handler_map": handlers, **look, "handlelength": max(length, given)}
-    return parent.legend(handles=list(handles), **look)
-
-
-def _joins_marks(handle: Any) -> bool:
-    """Whether an entry of a legend is a line with marks."""
-    if not isinstance(handle, Line2D):
-        return False
-    has_marks = handle.get_marker() not in ("", "None", None)
-    return has_marks and handle.get_linestyle() != "None"
-
-
-def _share_marks(handles: Sequence[Any]) -> bool:
-    """Whether some lines with marks have the same ones in the same colour."""
-    lines = [handle for handle in handles if _joins_marks(handle)]
-    looks = {(to_hex(line.get_color()), line.get_marker()) for line in lines}
-    return len(looks) < len(lines)
-
-
-def _is_dashed_with_marks(handle: Any) -> bool:
-    """Whether an entry of a legend is a line with gaps, and marks."""
-    return _joins_marks(handle) and bool(handle.is_dashed())
-
-
-def _sample_length(line: Line2D) -> float:
-    """The length in points at which a sample with a mark at each end shows the dashes of a line: all of
-    them and the first once more."""
-    _, dashes = vars(line)["_dash_pattern"]  # points, which matplotlib tells in no other way
-    return sum(dashes) + dashes[0] + line.get_markersize()
-
-
-def _covers(legend: Legend, ax: Axes) -> bool:
-    """Whether a legend reaches beyond its axes, nearly fills their width, or covers lines, points,
-    areas or texts in them."""
-    box = legend.get_window_extent()
-    frame = ax.get_window_extent()
-    if frame.count_contains(box.corners()) < len(box.corners()):
-        return True
-    if box.width > INSIDE * frame.width or box.count_overlaps(_other_legends(ax)) > 0:
-        return True
-    return any(_meets_contents(box, each) for each in (ax, *twins_of(ax)))
-
-
-def twins_of(ax: Axes) -> list[Axes]:
-    """Other axes on the same place, such as those of ``ax.twinx()``."""
-    figure = ax.get_figure(root=False)
-    assert figure is not None
-    return [each for each in figure.axes if each is not ax and _share_place(each, ax)]
-
-
-def _share_place(ax: Axes, other: Axes) -> bool:
-    """Whether axes lie on each other: in the same cells of a grid, where a layout may not have moved
-    new ones yet, or at the same place."""
-    cells = [each.get_subplotspec() for each in (ax, other)]
-    if None not in cells:
-        return cells[0] == cells[1]
-    places = [each.get_position(original=True).bounds for each in (ax, other)]
-    return np.allclose(*places)
-
-
-def _other_legends(ax: Axes) -> list[Bbox]:
-    """The extents of legends of axes on the same place."""
-    legends: list[Legend] = [each.get_legend() for each in twins_of(ax)]
-    return [legend.get_window_extent() for legend in legends if legend is not None]
-
-
-def _meets_contents(box: Bbox, ax: Axes) -> bool:
-    """Whether a box covers lines, points, areas or texts in axes."""
-    texts = [text.get_window_extent() for text in ax.texts if text.get_text()]
-    return (
-        box.count_overlaps(texts) > 0
-        or any(_meets_line(box, line) for line in ax.lines)
-        or any(_meets_shape(box, shape) for shape in ax.collections)
-    )
-
-
-def _meets_line(box: Bbox, line: Line2D) -> bool:
-    """Whether a box covers a part of a line, or its marks; not of one across the axes, such as that
-    of zero."""
-    path = line.get_transform().transform_path(line.get_path())
-    points = np.asarray(path.vertices)
-    page: Any = line.get_figure(root=True)
-    size = 0.0
-    if line.get_marker() not in ("", "None", None):
-        size = 0.5 * line.get_markersize() * page.dpi / 72
-    if box.padded(size).count_contains(points):
-        return True
-    assert line.axes is not None
-    of_data = all(line.get_transform().contains_branch_seperately(line.axes.transData))
-    joined = line.get_linestyle() != "None" and of_data
-    return joined and bool(path.intersects_bbox(box, filled=False))
-
-
-def _meets_shape(box: Bbox, shape: Collection) -> bool:
-    """Whether a box covers a part of an area, or a mark of many."""
-    if not isinstance(shape, PolyCollection):
-        return bool(box.count_contains(shape.get_offset_transform().transform(shape.get_offsets())))
-    to_page = shape.get_transform()
-    return any(
-        to_page.transform_path(path).intersects_bbox(box, filled=True) for path in shape.get_paths()
-    )
-
-
 def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     """Draw a legend on the right of a panel, in one column of broken lines where there is no room for
     more, at the height of its middle; nothing, and None, if it has no room even then."""
@@ -301,7 +187,7 @@ def legend_beside(ax: Axes, handles: Sequence[Artist], **look: Any) -> Legend:
     for size in ({}, small()):
         offset = ScaledTranslation(gap / page.dpi, 0, page.dpi_scale_trans)
         draw = partial(
-            _draw,
+            draw_legend,
             ax,
             handles,
             loc="center left",
@@ -354,7 +240,7 @@ def legend_below(
         # as far below the axes when the layout has made them smaller
         offset = ScaledTranslation(-shift / page.dpi, -depth / page.dpi, page.dpi_scale_trans)
         draw = partial(
-            _draw,
+            draw_legend,
             ax,
             handles,
             loc="upper left",
@@ -490,7 +376,7 @@ def finds_room_below(ax: Axes, bars: Sequence[Axes] = ()) -> bool:
     legend: Legend = ax.get_legend()
     box = legend.get_window_extent()
     free = _free_below(ax, bars)
-    clear = box.count_overlaps(_other_legends(ax)) == 0
+    clear = box.count_overlaps(other_legends(ax)) == 0
     for each in _labels_below(ax):
         clear = clear and box.y1 <= each.y0 + ROUNDING
     return clear and box.x0 >= free.left - ROUNDING and box.x1 <= free.right + ROUNDING
@@ -505,13 +391,13 @@ def _labels_below(ax: Axes) -> list[Bbox]:
 def _stands_below(ax: Axes) -> list[Bbox]:
     """The extents of what stands below axes already: labels, and legends of others on the same
     place."""
-    legends = [box for box in _other_legends(ax) if box.y1 <= ax.bbox.y0]
+    legends = [box for box in other_legends(ax) if box.y1 <= ax.bbox.y0]
     return [*_labels_below(ax), *legends]
 
 
 def finds_room_inside(ax: Axes) -> bool:
     """Whether the legend in axes covers nothing."""
-    return not _covers(ax.get_legend(), ax)
+    return not covers(ax.get_legend(), ax)
 
 
 def _as_wide_as(ax: Axes, legend: Legend, renderer: Any = None) -> Bbox:

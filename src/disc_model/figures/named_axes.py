@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
 from disc_model.errors import Fault, raise_faults
+from disc_model.figures.covered import twins_of
 from disc_model.figures.labels import words_of
-from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Axes
 
 UNIT = re.compile(r"\(([^()]+)\)$")

@@ -112,19 +112,9 @@ def plot_sweep(  # noqa: PLR0913
     >>> [text.get_text() for text in ax.figure.legends[0].get_texts()]
     ['Preload N = 300 N', '400 N']
     """
+    looks = {"lines": lines, "points": points, "log": log, "cmap": cmap, "limits": limits}
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-    return draw(
-        "plot_sweep",
-        study,
-        variable,
-        x,
-        lines=lines,
-        points=points,
-        log=log,
-        cmap=cmap,
-        limits=limits,
-        **wishes,
-    )
+    return draw("plot_sweep", study, variable, x, **looks, **wishes)
 
 
 def plot_campbell(

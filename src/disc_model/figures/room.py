@@ -5,7 +5,6 @@ from itertools import chain
 from typing import Any
 from weakref import WeakSet
 
-from matplotlib.legend import Legend
 from matplotlib.text import Text
 
 from disc_model.figures.case_titles import case_above
@@ -24,10 +23,11 @@ from disc_model.figures.legends import (
     move_to_page,
 )
 from disc_model.figures.named_axes import own_labels, shown_on
-from disc_model.figures.pages import PLACED, Page, Wishes, write_legend
+from disc_model.figures.page_legends import PLACED, write_legend
+from disc_model.figures.pages import Page, Wishes
 from disc_model.figures.places import set_places
 from disc_model.figures.placing import fit_to_page, restore_margins
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Axes, Legend
 
 ROUNDS = 4  # in which legends find their places after axes have got other sizes
 SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes

@@ -485,3 +485,15 @@ def history(case: xr.DataTree, window: str = "history", until: float | None = No
     if shown.sizes["time"] < 2:
         return ranges
     return shown
+
+
+def titles_of_shown(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, str]:
+    """What the legend calls each line, by the names of lines; without those of which all points are left
+    out."""
+    included = array.copy(data=statuses_like(study, array) != EXCLUDED)
+    parts = parts_along(included, by)
+    shown = [part for part in parts if part.data.any()]
+    if len(parts) > 1 and len(shown) == 1:
+        return {part.name: part.name for part in shown}
+    names = [part.name for part in shown]
+    return dict(zip(names, titles_of(shown), strict=True))

@@ -10,11 +10,11 @@ import xarray as xr
 from disc_model.errors import require
 from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.colours import ColourWishes, are_limits, is_colormap
+from disc_model.figures.colour_maps import draw_maps
+from disc_model.figures.colour_wishes import ColourWishes, are_limits, is_colormap
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.gap_rows import name_rows
-from disc_model.figures.heat_map import draw_maps
 from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.selected import selected_of

@@ -386,31 +386,54 @@ def _usual_variable(study: xr.Dataset, choices: Sequence[str]) -> str:
 
 def _chosen_variable(study: xr.Dataset, variable: str) -> str:
     """The variable that is drawn; raises `ParameterError`."""
-    numbers = {*_drawn_dims(study)}
-    over = {str(name): {*values.dims} for name, values in study.items()}
-    choices = [
-        name
-        for name, dims in over.items()
-        if dims & numbers and study[name].dtype.kind != "c" and len(dims - {*study.coords}) < 2
-    ]
-    single = [name for name in choices if over[name] <= {*study.coords}]
+    choices = _choices(study)
+    single = [name for name in choices if {*study[name].dims} <= {*study.coords}]
     results = [name for name in single if name not in OF_POINTS]
     chosen = variable or _usual_variable(study, results or choices)
     points = "must have two points or more along a number or a word"
-    require((bool(numbers), "study", "a single point", points))
-    real = chosen not in study or study[chosen].dtype.kind != "c"
-    parts = f"is complex: draw a part of it, as by study.assign(size=abs(study.{chosen}))"
-    require((real, "variable", chosen, parts))
+    require((bool(_drawn_dims(study)), "study", "a single point", points))
+    _refuse_complex(study, chosen)
     rule = f"must be one over the grid{suggestion(chosen, choices)}"
-    further = [dim for dim in over.get(chosen, ()) if dim not in study.coords]
+    further = _dims_without_coordinates(study, chosen)
     if further and chosen not in choices:
         rule = f"must not vary along {further[0]}: select one, as by study.isel({further[0]}=0)"
     require((chosen in choices, "variable", chosen, rule))
-    apart = "has another unit for each name: select one, as by study.isel(name=0)"
-    of_names = function_of(study) == "critical" and "name" in over[chosen]
-    no_unit = chosen in ("value", "border") and "units" not in study[chosen].attrs
-    require((not (of_names and no_unit), "variable", chosen, apart))
+    _refuse_several_units(study, chosen)
     return chosen
+
+
+def _choices(study: xr.Dataset) -> list[str]:
+    """The variables that can be drawn: real ones along a number or a word of the grid."""
+    drawn = {*_drawn_dims(study)}
+    choices = []
+    for name, values in study.items():
+        along_grid = bool({*values.dims} & drawn)
+        several = len(_dims_without_coordinates(study, str(name))) > 1
+        if along_grid and values.dtype.kind != "c" and not several:
+            choices.append(str(name))
+    return choices
+
+
+def _dims_without_coordinates(study: xr.Dataset, variable: str) -> list[Any]:
+    """The dimensions of a variable that have no coordinate; none of what is no variable."""
+    if variable not in study.data_vars:
+        return []
+    return [dim for dim in study[variable].dims if dim not in study.coords]
+
+
+def _refuse_complex(study: xr.Dataset, variable: str) -> None:
+    """Raise `ParameterError` if a variable has complex numbers."""
+    real = variable not in study or study[variable].dtype.kind != "c"
+    rule = f"is complex: draw a part of it, as by study.assign(size=abs(study.{variable}))"
+    require((real, "variable", variable, rule))
+
+
+def _refuse_several_units(study: xr.Dataset, variable: str) -> None:
+    """Raise `ParameterError` if the values of a variable are of several parameters, in units of their own."""
+    of_names = function_of(study) == "critical" and "name" in study[variable].dims
+    no_unit = variable in ("value", "border") and "units" not in study[variable].attrs
+    rule = "has another unit for each name: select one, as by study.isel(name=0)"
+    require((not (of_names and no_unit), "variable", variable, rule))
 
 
 def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:

@@ -4,7 +4,7 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.figures.curve import draw_lines
+from disc_model.figures.curve_lines import draw_lines
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.curve_points import draw_points
 from disc_model.figures.curve_samples import MOST_NAMED, draw_samples

@@ -11,9 +11,9 @@ from weakref import WeakKeyDictionary, ref
 import xarray as xr
 
 from disc_model.errors import require
+from disc_model.figures.covered import twins_of
 from disc_model.figures.durations import duration_of
 from disc_model.figures.family import Member, name_in, names_of, retitle
-from disc_model.figures.legends import twins_of
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.sweep_options import COMPARED, function_of, sought_in, unset_text

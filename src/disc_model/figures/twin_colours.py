@@ -7,8 +7,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import to_hex
 from matplotlib.lines import Line2D
 
+from disc_model.figures.covered import twins_of
 from disc_model.figures.drawing import INDIGO, is_in_data
-from disc_model.figures.legends import twins_of
 from disc_model.figures.types import Artist, Axes
 
 SECOND = INDIGO

@@ -3,10 +3,8 @@ draws."""
 
 import xarray as xr
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import UNKNOWN_OUTCOMES, flag_names
 
-UNKNOWN = ("undecided", "failed")
-"""Outcomes of starts of which it is not known what they come to."""
 OF_STARTS = (
     "separating_fraction",
     "separating_fraction_low",
@@ -19,7 +17,7 @@ OF_STARTS = (
 
 
 def with_starts_of(
-    study: xr.Dataset, variable: str, outcomes: tuple[str, ...] = UNKNOWN
+    study: xr.Dataset, variable: str, outcomes: tuple[str, ...] = UNKNOWN_OUTCOMES
 ) -> xr.DataArray | None:
     """Points at which some starts have one of several outcomes; None of variables that do not rest on
     all starts."""

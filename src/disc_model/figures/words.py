@@ -11,7 +11,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
-from disc_model.data import variables
 from disc_model.data.variables import (
     EXCLUDED,
     SERIES,
@@ -22,6 +21,7 @@ from disc_model.data.variables import (
     flag_names,
     stated_in,
     typeset,
+    values_text,
 )
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
@@ -615,7 +615,7 @@ def what_case(values: Mapping[str, Any], selected: Mapping[str, str] = MappingPr
 def _numbers_text(values: Mapping[str, Any], chosen: Collection[str]) -> str:
     """The chosen ones among values of parameters, for titles."""
     numbers = {name: value for name, value in values.items() if name in chosen}
-    said = variables.values_text(numbers, UNITS.get())
+    said = values_text(numbers, UNITS.get())
     for name, phrase in IN_WORDS.items():
         said = said.replace(name, phrase)
     return said

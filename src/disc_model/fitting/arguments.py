@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from disc_model.data.variables import unit_of_parameter
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
-from disc_model.fitting.prediction import unit_of_parameter
 from disc_model.fitting.table import in_row, is_table, measurements_in
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number, number

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from disc_model.arrays import Array
-from disc_model.fitting.prediction import unit_of_parameter
+from disc_model.data.variables import unit_of_parameter
 from disc_model.fitting.result import Combined
 
 AS_WELL = 2.0

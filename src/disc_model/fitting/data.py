@@ -10,8 +10,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.missing import explained
-from disc_model.data.variables import Variable, attributes
-from disc_model.fitting.prediction import unit_of_parameter
+from disc_model.data.variables import Variable, attributes, unit_of_parameter
 from disc_model.parameters import RATIOS, Disc, Parameters
 from disc_model.sources import versions_text
 from disc_model.units import is_number

@@ -12,8 +12,7 @@ better, so that a relative step of 1e-4 leaves errors of some 1e-8 of a derivati
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -21,15 +20,11 @@ import pandas as pd
 from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
 from disc_model.fitting.arguments import Interval, checked_measurements, limits_in_si
-from disc_model.fitting.limits import (
-    bounds_within,
-    limits_of_cases,
-    limits_of_interval,
-    with_limits,
-)
+from disc_model.fitting.limits import limits_of_cases, limits_of_interval, with_limits
 from disc_model.fitting.measured import Measurement
+from disc_model.fitting.outcome import Outcome, fit_of
 from disc_model.fitting.problem import Problem
-from disc_model.fitting.result import STILL_FALLING, Combined, Fit, Fitted, Gap
+from disc_model.fitting.result import Fit
 from disc_model.fitting.search import Search
 from disc_model.parameters import Parameters
 
@@ -37,8 +32,6 @@ SHARES_OF_MARGIN = (1.0, 0.1, 0.01)
 """Shares of the way from a limit that are tried."""
 MARGIN = 0.01
 """Distance of the first step from limits, relative to a parameter's scale."""
-STOPPED = "The steps became too short in front of a gap."
-"""Message of a search that has stopped where a measured quantity does not exist."""
 
 
 def fit(
@@ -106,7 +99,7 @@ def fit(
         named = [(each.name, each.value, each.unit) for each in measurements]
         warn_of_measured(named, computed.tolist())
         outcome = _search(search, begin, limits, confidence)
-        found = _result(search, outcome, confidence)
+        found = fit_of(search, outcome, confidence)
         found = with_limits(found, problem, outcome.end, search.deviations)
     warn_of_doubts(found.case)
     return found
@@ -132,19 +125,6 @@ def _predictable(problem: Problem, start: Array, begin: Array) -> Array:
         if not problem.is_missing(nearer):
             return nearer
     return begin
-
-
-class Outcome(NamedTuple):
-    """The end of a search over scaled parameters, the limits within which they were, the gap in front
-    of which it has stopped, whether it is at a minimum, the parameters that are not determined, and
-    combinations of these that are."""
-
-    end: Any
-    limits: Mapping[str, Interval]
-    gap: Gap | None
-    is_minimum: bool
-    indistinct: tuple[str, ...] = ()
-    determined: Mapping[str, Combined] = MappingProxyType({})
 
 
 def _search(
@@ -180,90 +160,3 @@ def _is_led_to(
     """Whether measurements have led a search to limits of cases, and not only by chance, as they do
     where they do not tell other parameters apart."""
     return search.is_held_back(end, limits) or {*search.indistinct(end)} <= {*closer}
-
-
-def _result(search: Search, outcome: Outcome, confidence: float) -> Fit:
-    """Return the fit at the end of a search."""
-    from scipy import stats
-
-    end, limits, gap, is_minimum, indistinct, determined = outcome
-    problem = search.problem
-    names = problem.names
-    covariance = search.covariance(end)
-
-    fitted = end.x * problem.scale
-    deviation = np.sqrt(np.diag(covariance))
-    reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
-    low = fitted - reach
-    high = fitted + reach
-    at_bounds, passed = bounds_within(problem, fitted, deviation, reach, limits)
-    if at_bounds:  # what holds one of them moves the others
-        indistinct = ()
-        determined = {}
-    passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
-    unpredicted: dict[str, tuple[float, ...]] = {}
-    for i, name in enumerate(names):
-        if name in indistinct or name in at_bounds:
-            deviation[i] = low[i] = high[i] = np.nan
-            continue
-        for bound in passed.get(name, ()):
-            beyond = low if bound < fitted[i] else high
-            beyond[i] = np.nan
-        # the others change with it as the covariance says
-        move = reach[i] * covariance[:, i] / covariance[i, i]
-        gone = _without_prediction(problem, fitted, move, [low[i], high[i]])
-        if gone:
-            unpredicted[name] = gone
-        low[i] = np.nan if low[i] in gone else low[i]
-        high[i] = np.nan if high[i] in gone else high[i]
-    rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
-    parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
-    case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
-    computed = problem.predictions(fitted)
-    unstable = problem.unstable(fitted)
-    return Fit(
-        case=case,
-        parameters=parameters,
-        covariance=covariance,
-        confidence=confidence,
-        measurements=problem.measurements,
-        computed=computed,
-        deviations=np.asarray(end.fun),
-        chi_squared=float(end.fun @ end.fun),
-        converged=bool(end.success) and is_minimum,
-        message=_why_ended(outcome),
-        indistinct=indistinct,
-        determined=determined,
-        unpredicted=unpredicted,
-        at_bounds=at_bounds,
-        passed_bounds=passed,
-        gap=gap,
-        unstable=unstable,
-        elsewhere=problem.elsewhere(fitted, unstable),
-    )
-
-
-def _without_prediction(
-    problem: Problem, fitted: Array, move: Array, ends: Sequence[float]
-) -> tuple[float, ...]:
-    """Return those of the known ends of an interval, below and above, at which a measured quantity does
-    not exist.
-
-    fitted, move : values of all parameters, and their way to the upper end, each (n,)
-    """
-    below, above = ends
-    gone = []
-    if not np.isnan(below) and problem.is_missing(fitted - move):
-        gone.append(float(below))
-    if not np.isnan(above) and problem.is_missing(fitted + move):
-        gone.append(float(above))
-    return tuple(gone)
-
-
-def _why_ended(outcome: Outcome) -> str:
-    """Return why a search has ended, in words."""
-    if outcome.gap:
-        return STOPPED
-    if not outcome.is_minimum:
-        return STILL_FALLING
-    return str(outcome.end.message).strip("`. ").replace("`", "") + "."

@@ -13,12 +13,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.data.variables import unit_of_mode
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
+from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid
 from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.floquet import cycle_near_start
 from disc_model.stability.sliding import steady_sliding
@@ -28,26 +27,8 @@ MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
 COUPLED = re.compile(r"coupled_frequency_([1-9]\d*)")
 """Names of natural frequencies with the slider attached, by their number from the lowest on."""
 
-REPEATS = 1e-6
-"""Relative difference of successive periods up to which a simulated motion counts as a cycle."""
 TOLERANCE = 1e-12
 """Relative residual of cycles."""
-LONGEST = 6
-"""Number of times that a simulation is doubled until the motion repeats."""
-
-
-class Unpredicted(Exception):
-    """A case has no such quantity; the message says why."""
-
-
-class Cycle(NamedTuple):
-    """A stick-slip cycle: its period (s), growth rate (1/s; nan if it is not known), share of
-    stick, and number of releases in a period."""
-
-    period: float
-    growth_rate: float
-    stick_fraction: float
-    releases: int
 
 
 class Prediction:
@@ -143,37 +124,6 @@ class Prediction:
         return value
 
 
-def is_rigid(p: Parameters) -> bool:
-    """Whether the disc has no modes, and the slider is a block on a belt."""
-    return p.disc is None and p.n_diameters < 0
-
-
-def block_cycle(p: Parameters) -> Cycle:
-    """Find the stick-slip cycle of a block on a rigid disc, by simulation from the static start.
-
-    Raises `Unpredicted` if the motion does not repeat from one release to the next.
-    """
-    if min(p.k_p, p.Omega, p.N, p.mu_s) == 0:
-        raise Unpredicted("without load, friction, spring and drive nothing sticks and slips")
-    loading = p.mu_s * p.N / (p.r_0 * p.k_p * p.Omega)
-    swing = math.tau * math.sqrt(p.m / p.k_p)
-    t_end = 3 * (loading + swing)
-    for _ in range(LONGEST):
-        run = simulate(p, t_end)
-        run.raise_for_status()
-        events = run.events
-        releases = events["time"][events["kind"] == "stick_to_slip"].to_numpy()
-        stops = events["time"][events["kind"] == "slip_to_stick"].to_numpy()
-        if len(releases) >= 3:
-            last = releases[-1] - releases[-2]
-            before = releases[-2] - releases[-3]
-            if abs(last - before) <= REPEATS * last:
-                stop = stops[stops > releases[-2]][0]
-                return Cycle(float(last), math.nan, float((releases[-1] - stop) / last), 1)
-        t_end *= 2
-    raise Unpredicted(f"stick and slip do not repeat within {t_end / 2:.3g} s")
-
-
 class Quantity(NamedTuple):
     """A quantity of a case: its unit, its meaning, and how it follows from a prediction."""
 
@@ -241,12 +191,6 @@ def unit_of(name: str) -> str:
     if mode or COUPLED.fullmatch(name):
         return "Hz"
     return ""
-
-
-def unit_of_parameter(name: str) -> str:
-    """Return the unit of a parameter or of a number of a disc's table; "" without one."""
-    unit = Parameters.unit(name) or unit_of_mode(name)
-    return "" if unit == "1" else unit
 
 
 def unknown_quantity(name: object) -> str:

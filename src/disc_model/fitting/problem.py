@@ -9,14 +9,9 @@ import numpy as np
 
 from disc_model.arrays import Array
 from disc_model.errors import DiscModelError, Fault, ParameterError
+from disc_model.fitting.block_cycle import Unpredicted, is_rigid
 from disc_model.fitting.measured import Measurement
-from disc_model.fitting.prediction import (
-    Prediction,
-    Unpredicted,
-    is_of_modes,
-    is_of_steady_cycle,
-    is_rigid,
-)
+from disc_model.fitting.prediction import Prediction, is_of_modes, is_of_steady_cycle
 from disc_model.parameters import Parameters
 
 STEP = 1e-4

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.arrays import Array, EqualByValue
+from disc_model.data.variables import unit_of_parameter
 from disc_model.display import (
     DEVIATION_DIGITS,
     Drawn,
@@ -21,7 +22,6 @@ from disc_model.display import (
 )
 from disc_model.fitting.data import dataset_of
 from disc_model.fitting.measured import Measurement
-from disc_model.fitting.prediction import unit_of_parameter
 from disc_model.fitting.problem import Problem
 from disc_model.parameters import Parameters
 

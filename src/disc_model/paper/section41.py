@@ -14,12 +14,11 @@ from disc_model.analysis import classify, spectra
 from disc_model.data import texts
 from disc_model.data.dataset import Missing
 from disc_model.data.swept_speeds import swept_speeds
-from disc_model.data.variables import Outcome, flag_names
+from disc_model.data.variables import UNKNOWN_OUTCOMES, Outcome, flag_names
 from disc_model.paper import energy, judging_tables, measures, model
 from disc_model.paper.measures import Absent, CaseView, extent, or_none, pairs, published
 from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded
 from disc_model.paper.section2 import BASE, moving_load_speed
-from disc_model.studies.quantities.basins import UNKNOWN
 
 
 def force_grows_to_zero(case: CaseView, *, factor: float) -> Answer:
@@ -388,7 +387,7 @@ def _separating_kicks(basins: xr.Dataset) -> tuple[int, int, Any]:
     are, and the least and the greatest of their energies (J)."""
     kicks = basins.sizes["energy"] * basins.sizes["start"]
     study = published(basins).sel(Omega=15.0)
-    known = float(np.mean(~np.isin(flag_names(study["kind"]), UNKNOWN)))
+    known = float(np.mean(~np.isin(flag_names(study["kind"]), UNKNOWN_OUTCOMES)))
     separating = 0
     if known:
         separating = round(kicks * known * float(study["separating_fraction"]))

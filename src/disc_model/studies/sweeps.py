@@ -16,11 +16,12 @@ from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
 from disc_model.studies.calls import Call, are_recorded, checked_call
-from disc_model.studies.gathering import stacked, variables_of_result
+from disc_model.studies.gathering import variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from disc_model.studies.samples import OF_SWEEPS
+from disc_model.studies.stacking import stacked
 from disc_model.studies.varied_arguments import hint_of_lists, values_along
 from disc_model.studies.workers import checked_workers
 

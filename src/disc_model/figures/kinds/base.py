@@ -2,7 +2,7 @@
 
 A kind is a class that checks the keys of a figure against a grid (`Plot`) or against recorded cases
 (`CasePlot`). Its drawing is a module of `disc_model.figures`, found in the table of
-`disc_model.figures.render`. No module of this folder imports matplotlib: that would add half to the
+`disc_model.figures.drawings`. No module of this folder imports matplotlib: that would add half to the
 time in which a study is checked.
 """
 

@@ -6,15 +6,13 @@ ones unchanged.
 """
 
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 import numpy as np
 from pydantic import Field, PrivateAttr
 
-from disc_model.analysis.classify import share
 from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
-from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
@@ -29,21 +27,19 @@ from disc_model.studies.quantity import (
     listed,
     with_ends,
 )
+from disc_model.studies.shares_of_starts import (
+    CLASSES,
+    columns_of_attractor,
+    columns_of_starts,
+    fractions_of,
+    remarks_of_undecided,
+)
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.attractors import Basins
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
-CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
-UNKNOWN = ("undecided", "failed")
-"""Outcomes of starts of which it is not known what they come to."""
-SHOWN = (
-    "range",
-    "separation_rate",
-    "stick_fraction",
-    "separation_fraction",
-)  # statistics of a stretch on an attractor
 SMALLEST = (
     2.0**-40
 )  # fraction of the least separating energy of the sample, below which the bisection gives up
@@ -197,16 +193,16 @@ class AttractorBasins(Start, Quantity):
         values: dict[str, Any] = {"status": "ok"}
         if len(failed) == len(every):
             values["status"] = failed[0].status
-        values.update(_columns_of_starts(results, attractors))
-        values.update(self._fractions(results, every))
+        values.update(columns_of_starts(results, attractors))
+        values.update(fractions_of(results, every, self.confidence))
         values.update(self._critical_energy(results, follow))
-        values.update(listed([_described(each, count) for each, count in attractors]))
+        values.update(listed([columns_of_attractor(each, count) for each, count in attractors]))
         remarks = []
         if failed:
             remarks.append(
                 f"{len(failed)} of {len(every)} starts failed, such as {failed[0].message}"
             )
-        remarks += _undecided_starts(every)
+        remarks += remarks_of_undecided(every)
         return values, "; ".join(remarks)
 
     def _basins_of(self, p: Parameters) -> "Basins":
@@ -217,20 +213,6 @@ class AttractorBasins(Start, Quantity):
         if self._found is None or self._found.p != p:
             self._found = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
         return self._found.copy()
-
-    def _fractions(
-        self, results: Sequence[Sequence[OutcomeResult]], every: Sequence[OutcomeResult]
-    ) -> dict[str, Any]:
-        """Fractions of the outcomes by energy and of all starts, with confidence intervals."""
-        values = _shares("basin_fraction_by_energy", results, self.confidence)
-        for name, (fractions,) in _shares("basin_fraction", [every], self.confidence).items():
-            values[name] = fractions
-        decided = [reached for reached in every if reached.attractor is not None]
-        separating = sum(reached.separates for reached in decided)
-        unknown = len(every) - len(decided)
-        shown = share(separating, len(decided), unknown, self.confidence)
-        values.update(with_ends("separating_fraction", shown))
-        return values
 
     def _critical_energy(
         self, results: Sequence[Sequence[OutcomeResult]], follow: Follow
@@ -273,78 +255,3 @@ class AttractorBasins(Start, Quantity):
             else:
                 low = middle
         return low, high
-
-
-def _columns_of_starts(
-    results: Sequence[Sequence[OutcomeResult]], attractors: Sequence[tuple[Any, int]]
-) -> dict[str, Any]:
-    """Columns by energy and start; attractors are numbered from 1 in their order, 0 is none."""
-    numbers: dict[Any, int] = {None: 0}
-    for i, (attractor, _) in enumerate(attractors, start=1):
-        numbers[attractor] = i
-    columns: dict[str, Any] = {
-        "kind": [],
-        "attractor_index": [],
-        "simulated_time": [],
-        "lost_contact": [],
-    }
-    for row in results:
-        columns["kind"].append([reached.word for reached in row])
-        columns["attractor_index"].append([numbers[reached.attractor] for reached in row])
-        columns["simulated_time"].append([reached.simulated for reached in row])
-        columns["lost_contact"].append([_lost_contact(reached) for reached in row])
-    return columns
-
-
-def _lost_contact(reached: OutcomeResult) -> str:
-    """Whether a motion lost contact while it was followed; "not_yet" if it only comes to an
-    attractor on which contact is lost."""
-    if not np.isnan(reached.first_separation):
-        return "yes"
-    return "not_yet" if reached.separates else "no"
-
-
-def _undecided_starts(every: Sequence[OutcomeResult]) -> list[str]:
-    """How many starts are undecided, and how many of these have lost contact; nothing without one."""
-    undecided = [reached for reached in every if reached.word == "undecided"]
-    if not undecided:
-        return []
-    lost = sum(not np.isnan(reached.first_separation) for reached in undecided)
-    starts = f"{len(undecided)} of {counted(len(every), 'start')}"
-    if lost:
-        starts = f"{starts} ({lost} after contact was lost)"
-    return [f"{starts} undecided within the horizon: raise it"]
-
-
-def _described(attractor: Any, count: int) -> dict[str, Any]:
-    """Columns of an attractor that `count` starts reach."""
-    described: dict[str, Any] = {"attractor_starts": count}
-    for name in ("kind", "releases", "period", "growth_rate"):
-        described[f"attractor_{name}"] = getattr(attractor, name)
-    for name in SHOWN:
-        described[f"attractor_{name}"] = getattr(attractor.segment, name)
-    return described
-
-
-def _shares(
-    name: str, results: Sequence[Sequence[OutcomeResult]], confidence: float
-) -> dict[str, Any]:
-    """Fractions of the outcomes in each row, with Wilson intervals: shape (rows, classes)."""
-    shares = []
-    for row in results:
-        counts = Counter(reached.word for reached in row)
-        shares.append([_share_of(word, counts, confidence) for word in CLASSES])
-    return with_ends(name, np.moveaxis(np.array(shares), -1, 0))
-
-
-def _share_of(
-    word: str, counts: Mapping[str, int], confidence: float
-) -> tuple[float, float, float]:
-    """Fraction of the starts that come to an outcome, and its Wilson interval, at whose upper end
-    the starts of unknown outcome come to it as well."""
-    starts = sum(counts.values())
-    unknown = 0
-    if word not in UNKNOWN:
-        unknown = sum(counts[other] for other in UNKNOWN)
-    _, low, high = share(counts[word], starts - unknown, unknown, confidence)
-    return counts[word] / starts, low, high

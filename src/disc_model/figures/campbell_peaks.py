@@ -1,0 +1,102 @@
+"""Peaks of growth rates in a Campbell diagram, and the crossings at them."""
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import xarray as xr
+
+from disc_model.figures.growth import ROUNDING
+from disc_model.figures.rate_scale import LINEAR
+from disc_model.figures.selection import doubts, stretches
+from disc_model.figures.types import Array, Mask
+
+MOST = 5  # number of peaks that are named at most
+NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
+
+
+class Peak(NamedTuple):
+    """A peak of the cycle's growth rate: the place of its speed, the crossing at it, if any, and whether
+    it is a point by itself, which the steps do not resolve."""
+
+    place: int
+    crossing: xr.Dataset | None
+    alone: bool = False
+
+
+class Column(NamedTuple):
+    """A study of one model, which has a column of panels, and the peaks of its growth rate."""
+
+    study: xr.Dataset
+    peaks: Sequence[Peak]
+
+
+def growing_modes(study: xr.Dataset) -> xr.DataArray:
+    """Modes of steady sliding that grow, at each speed; none where a study does not know it."""
+    frequency = study["sliding_frequency"]
+    if "sliding_growth_rate" not in study:
+        return xr.zeros_like(frequency, dtype=bool)
+    return (study["sliding_growth_rate"] > ROUNDING).transpose(*frequency.dims)
+
+
+def followed_rates(study: xr.Dataset) -> Array:
+    """Growth rates over the speed, nan also where the motion is not near the cycle."""
+    return np.where(elsewhere_of(study), np.nan, study["growth_rate"].values)
+
+
+def elsewhere_of(study: xr.Dataset) -> Mask:
+    """Speeds at which the motion is not near the cycle."""
+    away = np.zeros(study["growth_rate"].shape, dtype=bool)
+    for mask in doubts(study, "growth_rate").values():
+        away |= mask.values
+    return away
+
+
+def peaks(study: xr.Dataset) -> Iterator[Peak]:
+    """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
+    crossing, of the leading mode if possible; without ends of lines, beyond which the rate may rise, and
+    points by themselves beside gaps, which are of another cycle."""
+    speeds = study["Omega"].values
+    followed = followed_rates(study)
+    alone = unjoined(followed)
+    rate = _without_lone_points(followed)
+    extent = np.ptp(speeds)
+    beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
+    highest = np.where(beside, rate, -np.inf).max(axis=1)
+    largest = (rate >= LINEAR) & (rate == highest)
+    tops = np.flatnonzero(largest & _above_neighbours(followed))
+    for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
+        leading = int(np.nanargmax(study["cycle_growth_rate"].values[i]))
+        apart = np.abs(study["crossing_Omega"].values - speeds[i])
+        # crossings of other modes come after those of the leading one
+        other = np.where(study["crossing_mode"] == study["mode"][leading], 0.0, extent)
+        distance = np.where(apart <= NEAR * extent, apart + other, np.inf)
+        crossing = None
+        if np.isfinite(distance).any():
+            crossing = study.isel(crossing=int(distance.argmin()))
+        yield Peak(int(i), crossing, bool(alone[i]))
+
+
+def _above_neighbours(rate: Array) -> Mask:
+    """Points whose growth rate is higher than those of both neighbours; none beside a gap or at an end
+    of the range."""
+    extended = np.concatenate([[np.nan], rate, [np.nan]])
+    before = extended[:-2]
+    after = extended[2:]
+    return (rate > before) & (rate > after)
+
+
+def _without_lone_points(rate: Array) -> Array:
+    """Growth rates, minus infinity where there is none and at lone points beside gaps."""
+    rate = rate.copy()
+    for first, after in stretches(unjoined(rate)):
+        around = [max(first - 1, 0), min(after, rate.size - 1)]
+        if np.isnan(rate[around]).any():
+            rate[first:after] = np.nan
+    return np.nan_to_num(rate, nan=-np.inf)
+
+
+def unjoined(rate: Array) -> Mask:
+    """Points whose growth rate differs by more than `LINEAR` from those of both neighbours."""
+    joined = np.concatenate([[False], np.abs(np.diff(rate)) <= LINEAR, [False]])
+    return np.isfinite(rate) & ~(joined[:-1] | joined[1:])

@@ -1,0 +1,112 @@
+"""Scales, ticks and labels of axes on which lines of a variable are drawn."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
+
+from disc_model.figures.cells import scale_along
+from disc_model.figures.class_axis import name_classes, words_along
+from disc_model.figures.curve_marks import measured_along, set_margins
+from disc_model.figures.drawing import is_in_data, plain_decades
+from disc_model.figures.rate_scale import scale_heights
+from disc_model.figures.types import Array, Axes
+from disc_model.figures.words import CHARACTER, label_in, named
+
+LINE = 1.1  # height of a line of text over its size
+
+
+def set_scales(
+    ax: Axes, study: xr.Dataset, names: Sequence[str], array: xr.DataArray, x: str, log: bool
+) -> None:
+    """Set the scales, ticks and labels of axes with lines of a variable.
+
+    names, array : of its classes, and its heights, as `heights_of` gives them
+    """
+    variable = str(array.name)
+    label, along = measured_along(array[x])
+    _forget_empty(ax)
+    shows = _shows_numbers(ax)
+    scale_heights(ax, array, log)
+    _scale_across(ax, array[x], along)
+    ax.set_xlabel(label)
+    ax.set_ylabel(label_in(study, variable))
+    _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
+    set_margins(ax)
+
+
+def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
+    """Scale the horizontal axis for the values along it, or turn the words there."""
+    if along.dtype.kind == "U":
+        _turn_words(ax, words_along(ax, along.astype(str).tolist()))
+        return
+    ax.set_xscale(scale_along(values))
+    if values.dtype.kind == "i":
+        _number_whole(ax.xaxis)
+    if ax.get_xscale() == "log":
+        plain_decades(ax.xaxis)
+
+
+def _turn_words(ax: Axes, words: Sequence[str]) -> None:
+    """Turn words along the horizontal axis if they have no room beside each other, and write only some
+    of them if they have none then, either."""
+    page: Any = ax.get_figure(root=True)
+    room = page.get_figwidth() * ax.get_position().width
+    if CHARACTER * sum(map(len, words)) <= room:
+        return
+    ax.tick_params(axis="x", labelrotation=90)
+    label: Any = ax.xaxis.get_major_ticks()[0].label1
+    line = LINE * label.get_fontsize() / 72
+    every = int(np.ceil(line * len(words) / room))
+    ax.set_xticks(range(0, len(words), every), labels=words[::every])
+
+
+def _are_counts(variable: xr.DataArray) -> bool:
+    """Whether a variable counts something, also where some points have no value."""
+    return variable.dtype.kind in "iu" or named(variable).name.startswith("Number of ")
+
+
+class NoNumbers(NullLocator):
+    """No ticks of an axis along which nothing has a value yet."""
+
+
+def _forget_empty(ax: Axes) -> None:
+    """Let an axis have numbers again on which no line had a value."""
+    if isinstance(ax.yaxis.get_major_locator(), NoNumbers):
+        ax.set_yscale("linear")
+        ax.relim()
+
+
+def _shows_numbers(ax: Axes) -> bool:
+    """Whether anything has a value along the vertical axis, also in other panels that share it."""
+    for each in ax.get_shared_y_axes().get_siblings(ax):
+        in_panel = [patch for patch in each.patches if patch.get_clip_on()]  # no strip above it
+        if in_panel or each.collections:
+            return True
+        for line in each.lines:
+            if is_in_data(each, line) and np.isfinite(line.get_ydata()).any():
+                return True
+    return False
+
+
+def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None:
+    """Write the names of classes along the vertical axis, if there are any; whole numbers beside
+    counts; nothing where no point of any line has a value, as numbers would be made up."""
+    axis: Any = ax.yaxis
+    if names:
+        name_classes(ax, names)
+    elif not shows:
+        axis.set_major_locator(NoNumbers())
+        axis.set_minor_locator(NullLocator())
+    elif whole:
+        _number_whole(axis)
+    if isinstance(axis.get_major_formatter(), ScalarFormatter):
+        axis.get_major_formatter().set_useOffset(False)  # a sum beside the panel is overlooked
+
+
+def _number_whole(axis: Any) -> None:
+    """Write whole numbers only along an axis of counts."""
+    if isinstance(axis.get_major_locator(), AutoLocator):
+        axis.get_major_locator().set_params(integer=True, min_n_ticks=1)

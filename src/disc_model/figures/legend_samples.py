@@ -1,0 +1,56 @@
+"""Samples of legends that show the dashes of lines between their marks."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from matplotlib import rcParams
+from matplotlib.colors import to_hex
+from matplotlib.font_manager import FontProperties
+from matplotlib.legend_handler import HandlerLine2D
+from matplotlib.lines import Line2D
+
+from disc_model.figures.types import Legend
+
+MARK_PAD = 0.3  # distance of marks at the ends of a sample from these, over the size of the text
+
+
+def draw_legend(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
+    """Draw a legend of axes or of a figure, whose samples are so long that dashes show between marks
+    where they alone tell lines apart."""
+    dashed = [handle for handle in handles if _is_dashed_with_marks(handle)]
+    if dashed and _share_marks(handles):
+        usual = FontProperties(size=look.get("fontsize") or rcParams["legend.fontsize"])
+        size = usual.get_size_in_points()
+        length = max(map(_sample_length, dashed)) / size + 2 * MARK_PAD
+        given = look.get("handlelength") or rcParams["legend.handlelength"]
+        at_ends = HandlerLine2D(MARK_PAD, 2)  # one in the middle would cover a gap
+        handlers = {handle: at_ends for handle in handles if _joins_marks(handle)}
+        look = {"handler_map": handlers, **look, "handlelength": max(length, given)}
+    return parent.legend(handles=list(handles), **look)
+
+
+def _joins_marks(handle: Any) -> bool:
+    """Whether an entry of a legend is a line with marks."""
+    if not isinstance(handle, Line2D):
+        return False
+    has_marks = handle.get_marker() not in ("", "None", None)
+    return has_marks and handle.get_linestyle() != "None"
+
+
+def _share_marks(handles: Sequence[Any]) -> bool:
+    """Whether some lines with marks have the same ones in the same colour."""
+    lines = [handle for handle in handles if _joins_marks(handle)]
+    looks = {(to_hex(line.get_color()), line.get_marker()) for line in lines}
+    return len(looks) < len(lines)
+
+
+def _is_dashed_with_marks(handle: Any) -> bool:
+    """Whether an entry of a legend is a line with gaps, and marks."""
+    return _joins_marks(handle) and bool(handle.is_dashed())
+
+
+def _sample_length(line: Line2D) -> float:
+    """The length in points at which a sample with a mark at each end shows the dashes of a line: all of
+    them and the first once more."""
+    _, dashes = vars(line)["_dash_pattern"]  # points, which matplotlib tells in no other way
+    return sum(dashes) + dashes[0] + line.get_markersize()

@@ -1,0 +1,63 @@
+"""Pages on axes of a reader, whose figure keeps its style and its title."""
+
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
+from typing import Any
+
+from matplotlib.text import Text
+
+from disc_model.figures.labels import break_labels, set_upright
+from disc_model.figures.page_legends import write_legend
+from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
+from disc_model.figures.placing import check_room, stack_narrow
+from disc_model.figures.room import make_room, set_own_upright
+from disc_model.figures.shared_labels import clear_repeated
+from disc_model.figures.style import readers_style
+
+
+@contextmanager
+def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Iterator[Page]:
+    """The page of a picture on the axes of a reader, which is finished by its legend, labels and title.
+
+    count : of its panels
+    case : the values of its case, in words
+    stacked : height in inches of axes of a row in a narrow figure, which are set below each other; 0 if they
+        stay beside each other
+    """
+    asked = wishes.labels or {}
+    page = Page(given_axes(wishes.ax, count), own=False, asked=asked, case=case)
+    if stacked:
+        stack_narrow(page.axes, stacked)
+    figure: Any = page.ax.get_figure(root=True)
+    before = set(figure.axes)
+    # what is added to a figure of this package has its style
+    style = readers_style() if figure.get_gid() == OWN else nullcontext()
+    with style:
+        yield page
+        page.bars = [ax for ax in figure.axes if ax not in before]
+        with warnings.catch_warnings():  # of sizes before everything has its place
+            warnings.filterwarnings("ignore", message="constrained_layout not applied")
+            page.keep_labels()
+            _finish(page, wishes)
+        page.remember()
+        clear_repeated(page.axes)
+        if figure.get_gid() == OWN:
+            set_upright(figure.findobj(Text))
+        else:
+            set_own_upright(figure)
+
+
+def _finish(page: Page, wishes: Wishes) -> None:
+    """Write labels, title and legend on a reader's axes."""
+    figure: Any = page.ax.get_figure(root=True)
+    restate(page, wishes)
+    shown = [*page.axes, *page.bars]
+    break_labels(figure, shown)  # long ones would leave the legend no room
+    write_legend(page, wishes)
+    break_labels(figure, shown)  # of axes that may be lower or narrower now
+    if page.beside == "below":  # also below labels that have more lines now
+        write_legend(page, wishes)
+    make_room(page, wishes)
+    if page.bars:
+        check_room(page.axes)

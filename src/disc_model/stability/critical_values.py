@@ -1,0 +1,148 @@
+"""Values of one parameter at which a motion gains or loses stability, as `critical` finds them."""
+
+import math
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from disc_model.arrays import Array, EqualByValue, Mask
+from disc_model.display import Drawn, counted, html_table
+from disc_model.parameters import Parameters
+from disc_model.stability.continuation.problem import value_text
+from disc_model.stability.cycle import STICK_SLIP
+from disc_model.stability.parameter_scan import SLIDING
+
+MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
+"""Kinds of motion whose stability is followed, and what texts call them."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Critical(Drawn, EqualByValue):
+    """Values of a parameter at which a motion gains or loses stability: the one near the static
+    start, or steady sliding.
+
+    `plot` draws the growth rate over the parameter, with the intervals in which the motion is
+    unstable.
+
+    Attributes
+    ----------
+    parameters, name : the case, and the parameter
+    value : the least value computed at which the motion is unstable, or no cycle is found and stick-slip goes on; if
+        there is a lower one, it is stable there, less than `precision` away; nan if there is none. The lower bound,
+        where that motion is unstable there already: it may be so below, too
+    border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
+        stable there, or unstable at all values. Tongues of instability may lie below it
+    at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
+    message : says so if `value` is the lower bound or nan, or the motion from the static start is elsewhere; else ""
+    near_motion : whether the motion from the static start may be near the unstable cycle at `value`, as in
+        `FloquetResult`; None, which sweeps have as nan, without such a cycle. Where it is False, that motion may be
+        stable at `value`
+    other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
+    kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
+        or "sliding", steady sliding
+    crossings : shape (n,), all values at which stability was seen to change, ascending
+    unstable_above : bool, (n,), whether that motion is unstable just above each
+    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
+        sliding (1/s; nan without)
+    resolution : the largest step between neighbouring values computed. No stretch of stability or
+        of instability that is wider has been overlooked. Most narrower ones are seen, because they
+        are looked for where multipliers meet
+
+    Examples
+    --------
+    The least unstable value may lie in a narrow tongue; from the border on, the motion stays unstable:
+
+    >>> import disc_model as dm
+    >>> light = dm.Parameters(N=385, Omega=15, mu_s=0.44, mu_k=0.24, m=0.1)
+    >>> found = dm.critical(light, "Omega", (12, 22), points=9)
+    >>> print(f"{found.value:.2f} and {found.border:.2f} rad/s")
+    12.00 and 18.79 rad/s
+    """
+
+    _picture = "plot_critical"
+    parameters: Parameters
+    name: str
+    value: float
+    crossings: Array
+    unstable_above: Mask
+    values: Array
+    growth_rate: Array
+    resolution: float
+    kind: str = STICK_SLIP
+    near_motion: bool | None = None
+    other_growth_rate: float = math.nan
+
+    def __repr__(self) -> str:
+        found = self._without_loss or f"unstable from {self.value:.6g}"
+        first = "; ".join(filter(None, (found, self._elsewhere)))
+        crossings = counted(len(self.crossings), "crossing")
+        seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
+        return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
+
+    def _repr_html_(self) -> str:
+        """The intervals of one stability in a notebook, and what may have been overlooked."""
+        unit = self.parameters.unit(self.name).removeprefix("1")
+        edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
+        unstable = {float(low) for low, _ in self.unstable}
+        rows = []
+        for low, high in pairwise(edges):
+            stability = "unstable" if low in unstable else "stable"
+            rows.append((f"{low:.9g}", f"{high:.9g}", stability))
+        if self.message:
+            rows.append((self.message, "", ""))
+        rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
+        upper = f"to ({unit})" if unit else "to"
+        return html_table((f"{self.name} from", upper, MOTIONS[self.kind]), rows)
+
+    @property
+    def message(self) -> str:
+        """Why `value` is no value at which the motion loses stability, in words; "" where it is one."""
+        return "; ".join(filter(None, (self._without_loss, self._elsewhere)))
+
+    @property
+    def _elsewhere(self) -> str:
+        """Where the motion is, if it is not near the unstable cycle; else ""."""
+        if self.near_motion is not False:
+            return ""
+        if math.isnan(self.other_growth_rate):
+            return "the motion from the static start is not near the unstable cycle there"
+        rate = f"with growth rate {self.other_growth_rate:.6g} 1/s"
+        return f"the motion from the static start is near another cycle there, {rate}"
+
+    @property
+    def _without_loss(self) -> str:
+        """Why stability is not lost at `value`, in words; "" where it is."""
+        if math.isnan(self.value):
+            count = len(self.values)
+            if self.kind == SLIDING:  # which may be neutral
+                return f"steady sliding has no growing mode at any of the {count} values computed"
+            message = f"{MOTIONS[self.kind]} is stable at all {count} values computed"
+            return f"{message}; steady sliding is asked for by kind='sliding'"
+        if not self.at_lower_bound:
+            return ""
+        return f"already unstable at the lower bound, {value_text(self.name, self.value)}"
+
+    @property
+    def at_lower_bound(self) -> bool:
+        """Whether the motion is unstable at the lower bound already, which is the `value` then."""
+        return bool(self.value == self.values[0])
+
+    @property
+    def border(self) -> float:
+        """The value above which the motion stays unstable up to the upper bound; nan if it is stable
+        there, or unstable at all values."""
+        if len(self.crossings) and self.unstable_above[-1]:
+            return float(self.crossings[-1])
+        return math.nan
+
+    @property
+    def unstable(self) -> Array:
+        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may
+        be stable there."""
+        edges = np.array([self.values[0], *self.crossings, self.values[-1]])
+        unstable_at_first = math.isfinite(self.value)
+        if len(self.crossings):
+            unstable_at_first = not self.unstable_above[0]
+        grows = np.array([unstable_at_first, *self.unstable_above])
+        return np.column_stack([edges[:-1], edges[1:]])[grows]
