@@ -163,7 +163,7 @@ def test_what_is_drawn_unasked_is_named(function: Callable[..., Any]) -> None:
     assert ax.get_xlabel() == "Speed Ω (rad/s)"
     title = "N = 385 N, nodal diameters up to 2"
     if function is dm.hysteresis:
-        title += ", stays of 2 s"
+        title = "N = 385 N, stays of 2 s, nodal diameters up to 2"
     assert ax.figure.get_suptitle() == title, "what does not vary"
     pyplot.close("all")
 

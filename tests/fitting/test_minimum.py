@@ -188,6 +188,7 @@ def test_a_tangential_amplitude_can_be_fitted() -> None:
     ("name", "bounds", "ends"),
     [
         ("omega_2_0", ("7000 rad/s", "8000"), (7000.0, 8000.0)),
+        ("tangential_2_0", ("0.1", "0.2 kg^-1/2"), (0.1, 0.2)),
         ("amplitude_2_0", ("0.5 kg^-1/2", "0.6 kg^-1/2"), (0.5, 0.6)),
         ("damping_ratio_2_0", ("0.01 %", "1 %"), (1e-4, 1e-2)),
         ("mu_s", ("0.4", 0.5), (0.4, 0.5)),
@@ -203,8 +204,12 @@ def test_bounds_may_be_texts(name: str, bounds: tuple, ends: tuple[float, float]
 @pytest.mark.parametrize(
     ("name", "bounds", "message"),
     [
-        ("omega_2_0", ("1 kHz", 8000), "bounds.omega_2_0.0='1 kHz': must be a number in rad/s"),
-        ("amplitude_2_0", (0.1, "1 m"), "bounds.amplitude_2_0.1='1 m': must be a number in kg"),
+        ("omega_2_0", ("1 m", 8000), "bounds.omega_2_0.0='1 m': the unit of omega must be Hz, kHz"),
+        (
+            "amplitude_2_0",
+            (0.1, "1 m"),
+            "bounds.amplitude_2_0.1='1 m': the unit of amplitude must be",
+        ),
         ("mu_s", ("0.1 kg", 1), "bounds.mu_s.0='0.1 kg': must be a number without a unit"),
         ("mu_s", (0.1, "much"), "bounds.mu_s.1='much': must be a number"),
     ],

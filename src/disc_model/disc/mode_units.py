@@ -6,7 +6,7 @@ from typing import Any
 from disc_model.disc.files.heads import read_head
 from disc_model.errors import Fault, ParameterError
 
-COLUMNS = ("omega", "amplitude", "damping_ratio")
+COLUMNS = ("omega", "amplitude", "damping_ratio", "tangential")
 """Numbers that each mode has, with which their names begin."""
 _OF_A_MODE = re.compile(r"(.*)_\d+_\d+")
 _WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)?")

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from disc_model.data.variables import unit_of_parameter
+from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
 from disc_model.fitting.table import in_row, is_table, measurements_in
@@ -123,6 +124,8 @@ def _ends_in_si(name: str, pair: Any, faults: list[Fault]) -> Any:
     """Return the bounds of a parameter with texts as numbers in its unit; texts that are none, or have
     a unit of another kind, become faults."""
     path = ("bounds", name)
+    if column_of(name) and isinstance(pair, tuple | list):
+        return _ends_of_mode_number(name, pair, faults)
     unit = unit_of_parameter(name) or "1"
     ends = in_si(pair, unit, faults, path)
     if not isinstance(ends, tuple | list):
@@ -135,4 +138,15 @@ def _ends_in_si(name: str, pair: Any, faults: list[Fault]) -> Any:
             if not faults:
                 faults.append(Fault.of((*path, str(i)), end, str(error)))
             found.append(end)
+    return found
+
+
+def _ends_of_mode_number(name: str, pair: Sequence[Any], faults: list[Fault]) -> list[Any]:
+    """Return the bounds of a number of one mode of a disc in SI units; units of another kind become
+    faults."""
+    found = []
+    for i, end in enumerate(pair):
+        of_end: list[Fault] = []
+        found.append(mode_number_in_si(name, end, of_end))
+        faults += [Fault.of(("bounds", name, str(i)), end, fault.rule) for fault in of_end]
     return found
