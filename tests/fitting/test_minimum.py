@@ -188,7 +188,7 @@ def test_a_tangential_amplitude_can_be_fitted() -> None:
     ("name", "bounds", "ends"),
     [
         ("omega_2_0", ("7000 rad/s", "8000"), (7000.0, 8000.0)),
-        ("tangential_2_0", ("0.1", "0.2 kg^-1/2"), (0.1, 0.2)),
+        ("tangential_2_0", ("-0.2", "-0.1 kg^-1/2"), (-0.2, -0.1)),
         ("amplitude_2_0", ("0.5 kg^-1/2", "0.6 kg^-1/2"), (0.5, 0.6)),
         ("damping_ratio_2_0", ("0.01 %", "1 %"), (1e-4, 1e-2)),
         ("mu_s", ("0.4", 0.5), (0.4, 0.5)),
