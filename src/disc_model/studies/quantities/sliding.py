@@ -87,7 +87,8 @@ class Sliding(Quantity):
         values = self.scan.values
         cases = [self._case_at(p, value) for value in values]
         followed = follow_modes(cases)
-        n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
+        counts = [int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed]
+        n_modes = max(counts, default=0)
         shape = (len(values), max(n_modes, self.modes))
         message = ""
         columns = {
