@@ -72,7 +72,7 @@ def test_a_horizon_that_varies_is_an_axis_and_is_named_once_it_is_selected() -> 
 
 def test_a_critical_value_of_multipliers_has_no_horizon() -> None:
     study = study_of("critical", "value", '{"bounds": [8, 22]}', units="rad s-1")
-    assert missing_text(study, "value") == "none found up to 22 rad/s"
+    assert missing_text(study, "value") == "none found from 8 to 22 rad/s"
     assert label_in(study, "value") == "Value (rad/s)"
 
 

@@ -339,7 +339,7 @@ def test_ramps_on_which_separation_never_ends_are_marked_at_the_lowest_speed() -
     ax = draw("ramps", study).axes[0]
     shown = lines(ax)
     assert "end, falling ramp" not in shown
-    on = shown["separation goes on at the lowest speed"]
+    on = shown["separation goes on at the lowest speed, 8 rad/s"]
     assert (on.get_xdata().tolist(), on.get_ydata().tolist()) == ([0.1, 0.2], [8, 8])
 
 

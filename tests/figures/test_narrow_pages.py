@@ -262,7 +262,7 @@ def test_no_line_leads_to_a_value_at_the_bound_of_its_search() -> None:
     alone = [line for line in ax.lines if line.get_linestyle() == "None"]
     assert any([*line.get_xdata()] == [280.0, 300.0] for line in alone)
     [row] = rows_above(ax)
-    assert row.words.get_text() == "none found up to 14.5 rad/s"
+    assert row.words.get_text() == "none found from 12 to 14.5 rad/s"
     pyplot.close("all")
 
 

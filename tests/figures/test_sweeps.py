@@ -173,11 +173,12 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     critical = dm.critical
     study = swept(critical).sel(N=385)
     unit = {"units": "rad s-1"}
-    meaning = "value of speed of the drive point above which the motion stays unstable"
+    meaning = "speed of the drive point above which the motion stays unstable"
     size = study.sizes["Omega"]
     border = np.where(np.arange(size) < 2, np.nan, 12.0)
     critical_speed = {**unit, "long_name": "critical value of speed of the drive point"}
     crossings = np.repeat(border[:, np.newaxis], 2, axis=1)
+    study.attrs["options"] = '{"bounds": [13, 25], "name": "Omega"}'
     study = study.drop_vars(["crossings", "value"]).assign(
         border=("Omega", border, {**unit, "long_name": meaning}),
         value=("Omega", np.full(size, 10.0), critical_speed),
@@ -188,7 +189,8 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     label = "Speed Ω above which the motion stays unstable (rad/s)"
     assert " ".join(ax.get_ylabel().split()) == label
     said = [row.reason for row in rows_above(ax)]
-    assert said == ["unstable at all values", "stable at the upper bound"]
+    unstable = "unstable at all values from 13 to 25 rad/s"
+    assert said == [unstable, "stable at the upper bound, 25 rad/s"]
     both = dm.plot_sweep(study, ["value", "border"])
     assert both.get_ylabel() == "Speed Ω (rad/s)"
     pyplot.close("all")

@@ -109,7 +109,7 @@ def test_points_without_a_separation_are_called_so(name: str, options: str, text
             "onset_speed",
             "N",
             "speed, nan if at none or at the lowest",
-            "none found within the bounds",
+            "none found within the bounds",  # which are not known
         ),
         ("regions", "period", "N", "period of the cycle", "no cycle is followed"),
         ("floquet", "period", "N", "period of the cycle", "no value"),
@@ -150,15 +150,37 @@ def test_a_sweep_that_found_no_separation_names_its_steps() -> None:
     attributes = {"long_name": "speed, nan if at none or at the lowest"}
     onset = xr.DataArray([np.nan], dims="N", attrs=attributes)
     study = xr.Dataset({"onset_speed": onset}, {"sweep_Omega": [8.0, 8.5, 9.0]})
-    text = "none found within the bounds in steps of 0.5 rad/s"
+    text = "none found from 8 to 9 rad/s in steps of 0.5 rad/s"
     assert missing_text(study, "onset_speed") == text
+
+
+def test_a_missing_end_of_separation_on_a_ramp_names_its_speeds() -> None:
+    """It was "none found", of speeds that the figure did not say."""
+    onset = {"long_name": "speed at the first separation on the way up, nan if there is none"}
+    end = {"long_name": "speed at the last, nan if there is none, or it continues"}
+    speeds = {"onset_speed": ("rate", [np.nan], onset), "offset_speed": ("rate", [np.nan], end)}
+    attributes = {"quantity": "ramps", "options": '{"low": 8, "high": 20}'}
+    study = xr.Dataset(speeds, attrs=attributes)
+    assert missing_text(study, "onset_speed") == "none found from 8 to 20 rad/s"
+    assert missing_text(study, "offset_speed") == "none, or it continues at 8 rad/s"
+
+
+@pytest.mark.parametrize("bounds", ["[8, 22]", '["8 rad/s", "22 rad/s"]'])
+def test_a_search_without_a_border_names_its_bounds(bounds: str) -> None:
+    """It was "unstable at all values", though the cycle is stable at other speeds."""
+    border = xr.DataArray([np.nan], dims="N", attrs={"units": "rad s-1"})
+    options = f'{{"bounds": {bounds}, "name": "Omega"}}'
+    study = xr.Dataset({"border": border}, attrs={"function": "critical", "options": options})
+    stable = "stable at the upper bound, 22 rad/s"
+    unstable = "unstable at all values from 8 to 22 rad/s"
+    assert missing_text(study, "border") == f"{stable}, or {unstable}"
 
 
 def test_a_search_without_a_critical_value_names_its_largest_step() -> None:
     value = xr.DataArray([np.nan, np.nan], dims="N", attrs={"units": "rad s-1"})
     attributes = {"function": "critical", "options": '{"bounds": [8, 22]}'}
     study = xr.Dataset({"value": value, "resolution": ("N", [0.25, 0.5])}, attrs=attributes)
-    text = "none found up to 22 rad/s in steps of at most 0.5 rad/s"
+    text = "none found from 8 to 22 rad/s in steps of at most 0.5 rad/s"
     assert missing_text(study, "value") == text
 
 

@@ -154,7 +154,10 @@ def test_crossings_are_the_upper_ends_of_their_intervals(monkeypatch: pytest.Mon
     [
         ((-1.0, 0.2), "already unstable at the lower bound, c = 0 N s/m"),
         ((0.2, 0.7), ""),
-        ((0.41, 0.49), "motion near the static start is stable at all 11 values computed; steady"),
+        (
+            (0.41, 0.49),
+            "motion near the static start is stable at all 11 values computed from 0 to 1 N s/m; steady",
+        ),
     ],
 )
 def test_a_value_that_is_no_border_is_said_to_be_none(

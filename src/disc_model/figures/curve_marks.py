@@ -26,13 +26,16 @@ from disc_model.figures.selection import (
     unstable_everywhere,
 )
 from disc_model.figures.types import Array, Axes, Mask
-from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured, missing_text
+from disc_model.figures.words import (
+    NO_VALUE,
+    WORDS,
+    Measured,
+    measured,
+    missing_text,
+    text_below_lowest,
+    texts_without_border,
+)
 
-CONTACT_LOST = "contact lost at the lowest speed"
-"""Said of points at which separation begins or ends below all speeds of a sweep."""
-UNSTABLE = "unstable at all values"
-STABLE_ABOVE = "stable at the upper bound"
-"""Said of points at which a motion has no border of stability."""
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""
 MARK = 3.0  # points, size of the marks of lines,
@@ -210,12 +213,13 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
     stability is unstable at all values, or stable at the upper bound."""
     everywhere = unstable_everywhere(study, name)
     if everywhere is not None:
-        return {UNSTABLE: gone & everywhere, STABLE_ABOVE: gone & ~everywhere}
+        unstable, stable = texts_without_border(study)
+        return {unstable: gone & everywhere, stable: gone & ~everywhere}
     reason = missing_text(study, name)
     below = beyond_lowest_speed(study, name)
     if below is None:
         return {reason: gone}
-    return {reason: gone & ~below, CONTACT_LOST: gone & below}
+    return {reason: gone & ~below, text_below_lowest(study): gone & below}
 
 
 def reason_of_open_steps(variable: str) -> str:

@@ -31,6 +31,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     for slow ramps."""
     study = study.squeeze()
     options = stated_in(study, "options")
+    low, high = options["low"], options["high"]
     rates, onset, end = (study[name].values for name in ("rate", "onset_speed", "offset_speed"))
     gone = study["rate_status"].values != 0
     going_on = np.isnan(end) & (study["top_separation_rate"].values > 0) & ~gone
@@ -45,14 +46,13 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     _mark_at_bound(
         ax,
         rates[np.isnan(onset) & ~gone],
-        options["high"],
+        high,
         "^",
         ONSET,
-        "none up to the highest speed",
+        f"none up to the highest speed, {high:g} rad/s",
     )
-    _mark_at_bound(
-        ax, rates[going_on], options["low"], "v", END, "separation goes on at the lowest speed"
-    )
+    goes_on = f"separation goes on at the lowest speed, {low:g} rad/s"
+    _mark_at_bound(ax, rates[going_on], low, "v", END, goes_on)
 
     limit = _end_of_cycle(study, overlays, onset)
     if limit is not None:
@@ -63,7 +63,7 @@ def draw(plot: RampedSpeeds, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     ax.margins(x=0.04)
     ax.set_xlabel("Ramp rate (rad/s²)")
     ax.set_ylabel(SPEED)
-    ax.set_ylim(options["low"], options["high"])
+    ax.set_ylim(low, high)
     handles = ax.get_legend_handles_labels()[0]
     figure_legend(figure, handles, loc="outside lower center", columns=1)
     return figure

@@ -109,7 +109,7 @@ TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
 """Variables that have no value where contact is kept up to the horizon."""
 CRITICAL = ("critical value of ", "")
 """What long names of critical values say before and after that of the parameter."""
-BORDER = ("value of ", " above which the motion stays unstable")
+BORDER = ("", " above which the motion stays unstable")
 """What those of borders of stability say before and after it."""
 PERSONS = ("Young", "Poisson")
 """Beginnings of names that are always written with a capital."""
@@ -166,7 +166,6 @@ GONE: Mapping[str, Mapping[str, str]] = {
         ),
         **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
     },
-    "critical": {"border": "stable at the upper bound, or unstable at all values"},
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
@@ -193,15 +192,18 @@ GONE: Mapping[str, Mapping[str, str]] = {
 }
 """Why points that were computed have no value of some variables, by quantity."""
 NOT_SWEPT_OVER = "none found within the bounds"
-"""Said where no speed of a sweep is one at which separation begins or ends."""
+"""Said where no speed of a sweep is one at which separation begins or ends, if its speeds are not known."""
+NONE_FOUND = "none found"
+ENDLESS = "none, or it continues"
+"""Said where separation does not begin, or does not end, on a ramp of the speed."""
 WITHOUT = {
     "if contact is not lost": "contact is not lost",
     "without one": "no cycle",
-    "if there is none": "none found",
+    "if there is none": NONE_FOUND,
     "if this is not examined: of a stable cycle, and without one": "stable: not examined",
     "if at none or at the lowest": NOT_SWEPT_OVER,
     "if it still does at the lowest": NOT_SWEPT_OVER,
-    "if there is none, or it continues": "none, or it continues",
+    "if there is none, or it continues": ENDLESS,
     "if it was not": "it was not left",
     "if no step is audited": "no step is audited",
     "unless every step is audited": "not every step is audited",
@@ -397,8 +399,8 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
         speeds = study["scan_Omega"].values
         found = f"none found from {speeds[0]:g} to {speeds[-1]:g} rad/s"
         return found + _steps_of(study, "scan_Omega")
-    if name == "value" and study.attrs.get("function") == "critical":
-        return _none_up_to_bound(study)
+    if study.attrs.get("function") == "critical" and name in ("value", "border"):
+        return _without_critical(study, name)
     if name not in study:
         return ""
     quantity = study.attrs.get("quantity", study.attrs.get("function", ""))
@@ -410,9 +412,39 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
         if dim in dims:
             return reason
     reason = WITHOUT.get(str(study[name].attrs.get("long_name", "")).partition(", nan ")[2], "")
+    if quantity == "ramps" and reason in (NONE_FOUND, ENDLESS):
+        return _without_in_ramps(study, reason)
     if reason == NOT_SWEPT_OVER:
-        return reason + _steps_of(study, "sweep_Omega")
+        return _none_swept_over(study)
     return reason
+
+
+def _none_swept_over(study: xr.Dataset) -> str:
+    """What is said where no speed of a sweep is one at which separation begins or ends."""
+    steps = _steps_of(study, "sweep_Omega")
+    if "sweep_Omega" not in study.coords:
+        return NOT_SWEPT_OVER
+    speeds = study["sweep_Omega"].values
+    return f"none found from {speeds.min():g} to {speeds.max():g} rad/s{steps}"
+
+
+def _without_in_ramps(study: xr.Dataset, reason: str) -> str:
+    """What is said where separation does not begin or end on a ramp, with the speeds of the ramp."""
+    options = stated_in(study, "options")
+    if not {"low", "high"} <= {*options}:
+        return reason
+    low, high = options["low"], options["high"]
+    if reason == ENDLESS:
+        return f"{reason} at {low:g} rad/s"
+    return f"{reason} from {low:g} to {high:g} rad/s"
+
+
+def text_below_lowest(study: xr.Dataset) -> str:
+    """What is said of points at which separation begins or ends below all speeds of a sweep."""
+    text = "contact lost at the lowest speed"
+    if "sweep_Omega" not in study.coords:
+        return text
+    return f"{text}, {study['sweep_Omega'].values.min():g} rad/s"
 
 
 def _steps_of(study: xr.Dataset, scanned: str) -> str:
@@ -426,24 +458,69 @@ def _steps_of(study: xr.Dataset, scanned: str) -> str:
     return f" in steps of {abs(steps[0]):.3g} rad/s"
 
 
-def _none_up_to_bound(study: xr.Dataset) -> str:
+def _without_critical(study: xr.Dataset, name: str) -> str:
+    """What is said of a search that has found no critical value, or no border of stability."""
+    if name == "value":
+        return _none_within_bounds(study)
+    unstable, stable = texts_without_border(study)
+    return f"{stable}, or {unstable}"
+
+
+def texts_without_border(study: xr.Dataset) -> tuple[str, str]:
+    """What is said of points of a search without a border of stability, which are unstable at all
+    values; and of those that are stable at the upper bound."""
+    unstable = f"unstable at all values {_range_searched(study, 'border')}".rstrip()
+    bounds = _bounds_of(study, "border")
+    if bounds is None:
+        return unstable, "stable at the upper bound"
+    return unstable, f"stable at the upper bound, {bounds[1]} {_unit_of(study, 'border')}".rstrip()
+
+
+def _none_within_bounds(study: xr.Dataset) -> str:
     """What is said of a search that has found no critical value: the motion is stable at all values
-    computed up to the upper bound, in the unit of the value, with their largest step if it is known;
-    "" of a bound that is a text."""
-    highest = stated_in(study, "options").get("bounds", ["", ""])[1]
-    if isinstance(highest, str):
-        return f"none found up to {highest}" if highest else ""
-    found = f"none found up to {_as_value(study, float(highest)):.6g}"
-    unit = unit_text(study["value"].attrs.get("units", "1"))
+    computed, in the unit of the value, with their largest step if it is known; "" without bounds."""
+    if _bounds_of(study, "value") is None:
+        return ""
+    found = f"none found {_range_searched(study, 'value')}"
     if "resolution" in study and study["resolution"].notnull().any():
-        step = _as_value(study, float(study["resolution"].max()))
-        return f"{found} {unit}".rstrip() + f" in steps of at most {step:.2g} {unit}".rstrip()
-    return f"{found} {unit}".rstrip()
+        step = _as_value(study, "value", float(study["resolution"].max()))
+        return f"{found} in steps of at most {step:.2g} {_unit_of(study, 'value')}".rstrip()
+    return found
 
 
-def _as_value(study: xr.Dataset, number: float) -> float:
-    """A number in SI, in the unit that figures have for the critical value."""
-    values = study["value"].copy(data=np.full(study["value"].shape, number))
+def _range_searched(study: xr.Dataset, name: str) -> str:
+    """The bounds of a search, in the unit of a variable; "" without any."""
+    bounds = _bounds_of(study, name)
+    if bounds is None:
+        return ""
+    lowest, highest = bounds
+    return f"from {lowest} to {highest} {_unit_of(study, name)}".rstrip()
+
+
+def _bounds_of(study: xr.Dataset, name: str) -> tuple[str, str] | None:
+    """The bounds of a search as texts, in the unit of a variable or with their own; None without any."""
+    given = stated_in(study, "options").get("bounds")
+    if given is None:
+        return None
+    lowest, highest = (_bound_text(study, name, bound) for bound in given)
+    return lowest, highest
+
+
+def _bound_text(study: xr.Dataset, name: str, bound: float | str) -> str:
+    """A bound of a search as a number in the unit of a variable, also if it was given as a text."""
+    searched = str(stated_in(study, "options").get("name", ""))
+    number = float(in_si(bound, Parameters.unit(searched), [], ("bounds",)))
+    return f"{_as_value(study, name, number):.6g}"
+
+
+def _unit_of(study: xr.Dataset, name: str) -> str:
+    """The unit that figures have for a variable; "" for none."""
+    return named(study[name]).unit
+
+
+def _as_value(study: xr.Dataset, name: str, number: float) -> float:
+    """A number in SI, in the unit that figures have for a variable."""
+    values = study[name].copy(data=np.full(study[name].shape, number))
     return float(measured(values).values.flat[0])
 
 

@@ -114,14 +114,20 @@ class Critical(Drawn, EqualByValue):
     def _without_loss(self) -> str:
         """Why stability is not lost at `value`, in words; "" where it is."""
         if math.isnan(self.value):
-            count = len(self.values)
+            computed = f"{len(self.values)} values computed {self._range_searched}"
             if self.kind == SLIDING:  # which may be neutral
-                return f"steady sliding has no growing mode at any of the {count} values computed"
-            message = f"{MOTIONS[self.kind]} is stable at all {count} values computed"
+                return f"steady sliding has no growing mode at any of the {computed}"
+            message = f"{MOTIONS[self.kind]} is stable at all {computed}"
             return f"{message}; steady sliding is asked for by kind='sliding'"
         if not self.at_lower_bound:
             return ""
         return f"already unstable at the lower bound, {value_text(self.name, self.value)}"
+
+    @property
+    def _range_searched(self) -> str:
+        """The bounds of the search, in the unit of the parameter."""
+        unit = self.parameters.unit(self.name).removeprefix("1")
+        return f"from {self.values[0]:.6g} to {self.values[-1]:.6g} {unit}".rstrip()
 
     @property
     def at_lower_bound(self) -> bool:

@@ -69,10 +69,10 @@ BY_METHODS = ("stable", "at_lower_bound", "border", "stick_time", "slip_time")
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
 OF_PARAMETER = {
     "value": "critical value of {}",
-    "border": "value of {} above which the motion stays unstable",
-    "crossings": "value of {} at which stability changes",
-    "values": "value of {} at which the motion was computed",
-    "resolution": "largest step between values of {} at which the motion was computed",
+    "border": "{} above which the motion stays unstable",
+    "crossings": "{} at which stability changes",
+    "values": "{} at which the motion was computed",
+    "resolution": "largest step in {} between computed values",
 }
 """Variables of `Critical` that are in the unit of its parameter, and their names."""
 

@@ -74,7 +74,7 @@ class Bifurcation(Start, Quantity):
         "least_rate": Variable(
             "s-1", "least rate of change that the record can show, 0 where multipliers decide"
         ),
-        "kind": Variable("1", "what the motion has come to, at switches", LONG_TERM_OUTCOMES),
+        "kind": Variable("1", "what the motion has come to", LONG_TERM_OUTCOMES),
         "period_events": Variable(
             "1",
             "number of events after which the motion repeats, 0 if that is not shown",
