@@ -139,13 +139,13 @@ def test_a_bound_beyond_the_last_value_of_any_case_is_not_the_one_named() -> Non
     assert found.at_bounds == {"mu_s": 0.24}
 
 
-def measured_difference(value: float) -> list[dm.Measurement]:
+def measured_difference(value: float, uncertainty: float = 2.0) -> list[dm.Measurement]:
     """Differences of coefficients, and their product, which is hardly known."""
 
     def product(case: dm.Parameters) -> float:
         return case.mu_s * case.mu_k
 
-    return [dm.Measurement(difference, value, 7e-4), dm.Measurement(product, 1.7, 2.0)]
+    return [dm.Measurement(difference, value, 7e-4), dm.Measurement(product, 1.7, uncertainty)]
 
 
 def test_a_fit_stays_near_its_start_in_directions_that_are_not_determined() -> None:
@@ -158,6 +158,23 @@ def test_a_fit_stays_near_its_start_in_directions_that_are_not_determined() -> N
     known = found.determined["mu_s - mu_k"]
     assert known.value == pytest.approx(0.18, abs=1e-5)
     assert known.deviation == pytest.approx(7e-4, rel=0.01)
+
+
+def test_a_start_within_the_uncertainty_fits_as_well() -> None:
+    """It ended at mu_s = 1.4, since the start is 1.6 standard deviations of the product away."""
+    found = dm.fit(CASE, ["mu_s", "mu_k"], measured_difference(0.18, uncertainty=1.0))
+    assert found.indistinct == ("mu_s", "mu_k")
+    assert found.case.mu_s == pytest.approx(0.4, abs=0.03)
+    assert found.case.mu_k == pytest.approx(0.24, abs=0.03)
+
+
+def test_a_fit_goes_from_its_start_no_farther_than_measurements_ask() -> None:
+    """It ended at mu_s = 1.4, although chi squared is below 3.84 from mu_s = 0.95 on."""
+    found = dm.fit(CASE, ["mu_s", "mu_k"], measured_difference(0.18, uncertainty=0.5))
+    assert found.indistinct == ("mu_s", "mu_k")
+    assert found.case.mu_s == pytest.approx(0.95, abs=0.07)
+    assert found.chi_squared < 3.85
+    assert found.case.mu_s - found.case.mu_k == pytest.approx(0.18, abs=1e-3)
 
 
 def test_a_combination_is_known_beside_a_large_chi_squared() -> None:

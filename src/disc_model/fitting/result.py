@@ -81,7 +81,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     indistinct : names of parameters that the measurements do not determine, or not apart from each other: they act
         alike and are known to 10 % at best, or up to some standard deviations away chi squared rises less than linear
         predictions would have it. If there are several, their values are the nearest to the start with which chi
-        squared is as small
+        squared is at most 3.84 above its minimum, or more where deviations exceed the uncertainties
     determined : combinations of these that the measurements determine, such as "mu_s - mu_k" or "m * k_p^2": by its
         formula, the value, standard deviation and unit of each. Products hold near the fitted values
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as

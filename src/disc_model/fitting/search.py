@@ -18,7 +18,12 @@ from disc_model.fitting.arguments import Interval
 from disc_model.fitting.combinations import combinations_of
 from disc_model.fitting.descent import decrease_over, free_of_limits, lower_point, next_step
 from disc_model.fitting.determination import indistinct_names, sensitivity_of
-from disc_model.fitting.nearness import SHARES, other_directions, undetermined_directions
+from disc_model.fitting.nearness import (
+    HALVINGS,
+    cost_that_is_as_good,
+    other_directions,
+    undetermined_directions,
+)
 from disc_model.fitting.problem import Problem
 from disc_model.fitting.result import Combined, Gap
 
@@ -128,8 +133,8 @@ class Search:
     def near_start(
         self, start: Array, end: Any, names: Sequence[str], limits: Mapping[str, Interval]
     ) -> Any:
-        """Return the end of a search that is as good and nearer to the start in directions of parameters
-        that are not determined; the given end where there is none.
+        """Return the end of a search that is as good and nearest to the start in directions of parameters
+        that are not determined: there the way from the given end back to the start is halved.
 
         start : scaled parameters
         """
@@ -137,17 +142,31 @@ class Search:
         places = [self.problem.names.index(name) for name in names]
         unknown = undetermined_directions(self.first, places)
         known = other_directions(unknown)
-        way = unknown @ (unknown.T @ (end.x - start))
-        freedom = max(len(end.fun) - len(end.x), 1)
-        enough = end.cost + 0.5 * max(1.0, 2 * end.cost / freedom)
-        for share in SHARES:
-            try:
-                found = self._run_along(start + share * way, known)
-            except ParameterError:
-                continue
-            if found.cost <= enough and self._is_within(found.x, limits):
-                return found
+        enough = cost_that_is_as_good(end)
+        found = self._end_along(start, known)
+        if found and self._is_as_good(found, enough, limits):
+            return found
+        begin = found.x if found else start
+        for _ in range(HALVINGS):
+            middle = 0.5 * (begin + end.x)
+            found = self._end_along(middle, known)
+            if found and self._is_as_good(found, enough, limits):
+                end = found
+            else:
+                begin = found.x if found else middle
         return end
+
+    def _is_as_good(self, end: Any, enough: float, limits: Mapping[str, Interval]) -> bool:
+        """Whether the end of a search lies within limits and has no larger cost than is enough."""
+        return end.cost <= enough and self._is_within(end.x, limits)
+
+    def _end_along(self, x: Array, directions: Array) -> Any:
+        """Return the end of such a search as `_run_along` makes; None where measured quantities do not
+        exist."""
+        try:
+            return self._run_along(x, directions)
+        except ParameterError:
+            return None
 
     def _run_along(self, x: Array, directions: Array) -> Any:
         """Return the end of a search from scaled parameters that changes them along some directions
