@@ -2,11 +2,13 @@
 
 import math
 import re
+import time
 
 import numpy as np
+import pytest
 
-from disc_model import Parameters, Ramp, Window, initial_state, simulate
-from disc_model.display import html_table, rounded_text
+from disc_model import Parameters, Ramp, Window, display, initial_state, simulate
+from disc_model.display import html_table, progress_bar, rounded_text
 from disc_model.errors import Status
 from disc_model.mode_choice import ModeChoice
 from disc_model.stability.critical_values import Critical
@@ -19,6 +21,23 @@ def cells(html: str) -> list[list[str]]:
     """The texts of a table, row by row."""
     rows = re.findall("<tr>(.*?)</tr>", html)
     return [re.findall("<t[hd]>(.*?)</t[hd]>", row) for row in rows]
+
+
+def test_what_takes_long_names_its_bar_once(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A choice of modes ran for minutes without a sign of life."""
+    monkeypatch.setattr(display, "PATIENCE", 0.01)
+    monkeypatch.setattr(display, "_SAID", set())
+    for _ in range(2):
+        with progress_bar("choose_modes", None, shown=False):
+            time.sleep(0.1)
+    said = capsys.readouterr().err
+    assert said == "choose_modes is computing; progress=True shows how far it is\n"
+    monkeypatch.setattr(display, "PATIENCE", 10.0)
+    with progress_bar("critical", None, shown=False):
+        pass
+    assert capsys.readouterr().err == ""
 
 
 def test_a_table_escapes_what_it_shows() -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from disc_model import Parameters, choose_modes, mode_choice, steady_sliding
+from disc_model import Disc, Parameters, choose_modes, mode_choice, steady_sliding
 from disc_model.errors import DiscModelError
 from disc_model.mode_choice import RICH, UndecidedModes, choose_when_run, frequency_error
 from disc_model.simulation.case import CaseSpec
@@ -101,6 +101,46 @@ def test_an_undecided_choice_has_the_values_it_looked_at(
     assert error.__notes__[1].startswith("growth with 2 diameters, 0 circles (5 real modes): ")
 
 
+@pytest.mark.parametrize(
+    ("least", "words"),
+    [
+        (16, "some models have a cycle and others none, among 34, 66, 99 modes; "),
+        (8, "models of 34, 66, 99 modes have no cycle, and others do; "),
+    ],
+)
+def test_models_without_a_cycle_are_told_in_words(
+    least: int, words: str, measured: Measured
+) -> None:
+    """The growth rate changed "by inf of itself"."""
+    measured(lambda d, c: math.nan if d >= least else float(d))
+    with pytest.raises(UndecidedModes) as raised:
+        choose_modes(P, quantity="growth")
+    assert words in str(raised.value)
+    assert "inf" not in str(raised.value)
+
+
+def test_modes_that_grow_and_are_left_out_are_told() -> None:
+    """One mode has the largest rate of all five, and the growth of two others was not mentioned."""
+    disc = Disc(
+        diameters=(1, 0, 2, 1, 3),
+        omega=[math.tau * frequency for frequency in (551, 929, 1212, 1760, 2400)],
+        amplitude=(0.556, 0.431, 0.543, 0.139, 0.5),
+        tangential=(-0.268, 0, -0.129, 0.354, -0.05),
+        damping_ratio=(0.001,) * 5,
+    )
+    case = Parameters(
+        N=3000, Omega=60, k=1e6, k_p=1e6, m=0.5, mu_s=0.5, mu_k=0.35, c_p=1, r_0=0.11,
+        friction_offset="surface", disc=disc,
+    )  # fmt: skip
+    choice = choose_modes(case, quantity="sliding_growth")
+    assert steady_sliding(case).growing.size == 3
+    assert steady_sliding(choice.parameters).growing.size == 1
+    assert choice.growing == (1, 3)
+    assert repr(choice).endswith("; with all 5 modes 3 grow, with these 1)")
+    assert dict(choice.summary())["modes that grow"] == "with all 5 modes 3 grow, with these 1"
+    assert json.loads(choice.to_json())["growing"] == [1, 3]
+
+
 STEEL = Parameters(
     N=5000, Omega=60, E=210e9, rho=7850, nu=0.3, h=6e-3, m=0.3, k=5e5, k_p=2e5, mu_s=0.45, mu_k=0.35,
     damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
@@ -116,6 +156,8 @@ def test_growth_of_steady_sliding_converges_under_a_pad_and_not_at_a_point(
     found = steady_sliding(choice.parameters).growth_rate
     assert found == pytest.approx(3.479, rel=2e-2)
     assert choice.error < 1e-2
+    assert choice.growing is not None
+    assert choice.growing[0] == steady_sliding(choice.parameters).growing.size
     # at a point from 1.5/s with four diameters to 134/s with 40; the largest models take half a minute
     monkeypatch.setattr(mode_choice, "LARGER", ())
     with pytest.raises(DiscModelError, match=r"sliding_growth still changes .* give contact_arc"):

@@ -4,11 +4,13 @@ the progress of what takes long."""
 from __future__ import annotations
 
 import math
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from html import escape
 from importlib import import_module
 from importlib.util import find_spec
+from threading import Timer
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -111,6 +113,8 @@ class Drawn:
 # ---- Progress
 
 NOTEBOOK = 90  # characters of a line in a notebook
+PATIENCE = 10.0  # s, after which a reader is told how to see a bar
+_SAID: set[str] = set()  # titles of which this was told
 
 
 class Bar:
@@ -142,9 +146,13 @@ class Bar:
 
 @contextmanager
 def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error, while it is needed; it only counts if the total is not known."""
+    """A bar on standard error, while it is needed; it only counts if the total is not known.
+
+    Where it is not shown, a line after `PATIENCE` says how to see it.
+    """
     if not shown:
-        yield Bar(total)
+        with _named_after_a_while(title):
+            yield Bar(total)
         return
     from rich.progress import (
         BarColumn,
@@ -162,6 +170,26 @@ def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
         counts = [BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), *left]
     with Progress(TextColumn("{task.description}"), *counts, console=_console()) as bar:
         yield Bar(total, bar, bar.add_task(title, total=total))
+
+
+@contextmanager
+def _named_after_a_while(title: str) -> Iterator[None]:
+    """Say on standard error how to see a bar, if what is done takes longer than `PATIENCE`; once
+    for each title."""
+    timer = Timer(PATIENCE, _say_once, [title])
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
+
+
+def _say_once(title: str) -> None:
+    """Say on standard error how to see a bar, unless it was said before."""
+    if title not in _SAID:
+        _SAID.add(title)
+        print(f"{title} is computing; progress=True shows how far it is", file=sys.stderr)
 
 
 def _console() -> Any:

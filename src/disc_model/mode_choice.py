@@ -18,7 +18,7 @@ from disc_model.disc.plausibility import trial_cases, warn_of_doubts
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Bar, Summarised, counted, number_text, progress_bar
 from disc_model.errors import DiscModelError, require, with_known_names
-from disc_model.mode_measures import MEASURES
+from disc_model.mode_measures import LACKING, MEASURES, growing_modes
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import Disc, Parameters
 
@@ -47,6 +47,8 @@ class ModeChoice(Summarised):
     modes : number of real-valued modes; a pair, cosine and sine, counts as two
     rich : (diameters, circles) of the largest model in the comparison; (modes,) for a table
     values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
+    growing : by the growth rate of steady sliding, how many modes grow with the chosen ones, and with those of `rich`;
+        the quantity is the largest rate alone, and modes that were left out may grow as well
     """
 
     parameters: Parameters
@@ -56,6 +58,7 @@ class ModeChoice(Summarised):
     rich: tuple[int, ...]
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+    growing: tuple[int, int] | None = None
 
     def __repr__(self) -> str:
         p = self.parameters
@@ -63,7 +66,26 @@ class ModeChoice(Summarised):
         by = self.quantity
         if by != FREQUENCIES:  # which are those at rest
             by = f"{by} at {number_text(p.Omega, 'rad/s')}"
-        return f"ModeChoice({self.size_text(size)}, by {by}, error {self.error:.2g})"
+        text = f"{self.size_text(size)}, by {by}, error {self.error:.2g}"
+        if self.loses_growing:
+            text += f"; {self._growing_text()}"
+        return f"ModeChoice({text})"
+
+    @property
+    def loses_growing(self) -> bool:
+        """Whether not so many modes grow as with the largest model that was compared."""
+        return self.growing is not None and self.growing[0] < self.growing[1]
+
+    def _growing_text(self) -> str:
+        """How many modes grow with the largest model, and with the chosen one; "" if unknown."""
+        if self.growing is None:
+            return ""
+        chosen, largest = self.growing
+        all_modes = f"all {self.size_text(self.rich)}"
+        if self.parameters.disc is None:
+            all_modes = self.size_text(self.rich)
+        grow = "grows" if largest == 1 else "grow"
+        return f"with {all_modes} {largest} {grow}, with these {chosen}"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
@@ -76,6 +98,7 @@ class ModeChoice(Summarised):
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
         yield "largest model compared", self.size_text(self.rich)
+        yield "modes that grow", self._growing_text()
         shortest = shortest_wave(p)
         if shortest is not None:
             waves = f"waves of {shortest.length:.3g} thicknesses"
@@ -108,6 +131,8 @@ class ModeChoice(Summarised):
             for size, value in self.values.items():
                 values[",".join(map(str, size))] = value if np.isfinite(value) else None
             record |= {"quantity": self.quantity, "values": values}
+        if self.growing is not None:
+            record["growing"] = list(self.growing)
         record["compared_with"] = list(self.rich)
         return json.dumps(record, sort_keys=True)
 
@@ -248,7 +273,8 @@ def choose_modes(
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
         "sliding_growth", that of steady sliding; "first_separation", its time within 600 s.  "growth" and
         "first_separation" need simulations. Modes of a table are compared with the whole table
-    progress : whether a bar on standard error counts the models that are done, with a quantity of the motion
+    progress : whether a bar on standard error counts the models that are done, with a quantity of the motion; if
+        not, a line there names this argument after 10 s
 
     Returns
     -------
@@ -321,14 +347,47 @@ def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) ->
             raise UndecidedModes.after(p, request.quantity, values, reason)
         change = max(_change(values[size], values[other]) for other in others)
         if change <= request.tolerance:
-            count = count_modes(p, size)
-            chosen = resized(p, size)
             return ModeChoice(
-                chosen, request.tolerance, change, count, group[-1], request.quantity, values
+                parameters=resized(p, size),
+                tolerance=request.tolerance,
+                error=change,
+                modes=count_modes(p, size),
+                rich=group[-1],
+                quantity=request.quantity,
+                values=values,
+                growing=_growing(p, request.quantity, size, group[-1]),
             )
-    changes = f"changes by {change:.2g} of itself among {_listed(p, group)}, more than {request.tolerance:g}"
-    reason = f"{request.quantity} still {changes}; {_advice(p)}"
-    raise UndecidedModes.after(p, request.quantity, values, reason)
+    reason = _why_undecided(p, request, values, group)
+    raise UndecidedModes.after(p, request.quantity, values, f"{reason}; {_advice(p)}")
+
+
+def _growing(
+    p: Parameters, quantity: str, size: tuple[int, ...], rich: tuple[int, ...]
+) -> tuple[int, int] | None:
+    """How many modes of steady sliding grow with two sizes; None for other quantities."""
+    if quantity != SLIDING_GROWTH:
+        return None
+    return growing_modes(resized(p, size)), growing_modes(resized(p, rich))
+
+
+def _why_undecided(
+    p: Parameters,
+    request: ModeRequest,
+    values: Mapping[tuple[int, ...], float],
+    group: tuple[tuple[int, ...], ...],
+) -> str:
+    """How the quantity of the last models that were compared still changes."""
+    size, *others = group
+    missing = [each for each in group if np.isnan(values[each])]
+    lacking = LACKING[request.quantity]
+    if len(missing) == len(group):
+        return f"models of {_listed(p, group)} have no {lacking}, and others do"
+    if missing:
+        return f"some models have a {lacking} and others none, among {_listed(p, group)}"
+    change = max(_change(values[size], values[other]) for other in others)
+    by = f"by {change:.2g} of itself" if np.isfinite(change) else "from zero"
+    changes = f"changes {by} among {_listed(p, group)}"
+    return f"{request.quantity} still {changes}, more than {request.tolerance:g}"
 
 
 def _advice(p: Parameters) -> str:

@@ -1,6 +1,8 @@
 """Quantities of the motion by which the number of modes of a case is chosen."""
 
 from collections.abc import Callable
+from functools import lru_cache
+from typing import NamedTuple
 
 from disc_model.mode_request import SLIDING_GROWTH
 from disc_model.parameters import Parameters
@@ -18,7 +20,26 @@ def growth(p: Parameters) -> float:
 
 def sliding_growth(p: Parameters) -> float:
     """Growth rate of steady sliding, 1/s; nan if there is none."""
-    return steady_sliding(p).growth_rate
+    return _sliding(p).growth_rate
+
+
+def growing_modes(p: Parameters) -> int:
+    """Number of modes of steady sliding that grow."""
+    return _sliding(p).growing_modes
+
+
+class _Sliding(NamedTuple):
+    """What is kept of steady sliding, whose matrices are large."""
+
+    growth_rate: float
+    growing_modes: int
+
+
+@lru_cache(maxsize=64)  # the rate is asked for first, and the growing modes of two models later
+def _sliding(p: Parameters) -> _Sliding:
+    """The growth rate of steady sliding, and how many modes grow."""
+    found = steady_sliding(p)
+    return _Sliding(found.growth_rate, found.growing.size)
 
 
 def first_separation(p: Parameters) -> float:
@@ -27,6 +48,12 @@ def first_separation(p: Parameters) -> float:
     return result.raise_for_status().first_separation
 
 
+LACKING = {
+    "growth": "cycle",
+    SLIDING_GROWTH: "state of steady sliding",
+    "first_separation": f"separation within {HORIZON:g} s",
+}
+"""What a model does not have whose quantity is nan."""
 MEASURES: dict[str, Callable[[Parameters], float]] = {
     "growth": growth,
     SLIDING_GROWTH: sliding_growth,

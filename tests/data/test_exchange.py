@@ -258,6 +258,19 @@ def test_a_table_or_a_run_given_for_a_dataset_is_told_what_to_do(tmp_path: Path)
         dm.save(run, tmp_path / "run.nc")  # type: ignore[arg-type]
 
 
+def test_an_array_is_written_as_a_dataset_of_it(tmp_path: Path) -> None:
+    """It was refused, and `to_dataset` had to be called."""
+    growth = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[12, 14]).growth_rate
+    dm.save(growth, tmp_path / "growth.nc")
+    assert dm.load(tmp_path / "growth.nc").identical(growth.to_dataset())
+    dm.save(growth, tmp_path / "growth.csv")
+    assert (tmp_path / "growth.csv").read_text().startswith("Omega (rad s-1),growth_rate")
+    with refusal(r"data: must have a name, which is that of its variable in the file"):
+        dm.save(growth.rename(None), tmp_path / "growth.nc")
+    with refusal(r"data: must have another name than its coordinate Omega"):
+        dm.save(growth.Omega, tmp_path / "growth.nc")
+
+
 GRID: dict[str, Any] = {
     "study": "s",
     "quantity": "outcome",

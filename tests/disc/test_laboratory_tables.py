@@ -290,8 +290,12 @@ def test_halves_that_differ_more_than_tests_err_are_doubted(
 def test_damping_in_per_cent_is_doubted(tmp_path: Path) -> None:
     text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio\n1,300,1,0.2\n2,400,1,0.3\n"
     (tmp_path / "disc.csv").write_text(text)
-    with pytest.warns(dm.ImplausibleValue, match="mode 2 .* damping ratio 0.3, .* not per cent"):
+    both = "2 of 2 modes of the disc have damping ratios of up to 0.3, .* not per cent"
+    with pytest.warns(dm.ImplausibleValue, match=both):
         dm.Disc.from_csv(tmp_path / "disc.csv")
+    (tmp_path / "one.csv").write_text(text.replace("0.2", "0.001"))
+    with pytest.warns(dm.ImplausibleValue, match="mode 2 .* damping ratio 0.3, .* not per cent"):
+        dm.Disc.from_csv(tmp_path / "one.csv")
     doubts = plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.2))
     assert doubts.keys() == {"damping_ratio"}
     assert not plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.05))
@@ -348,6 +352,8 @@ def test_a_static_compliance_is_never_ignored(text: str, phrase: str, tmp_path: 
         ("diameters,f (Hz),amplitude (sqrt(kg))\n", "must be kg^-1/2, not sqrt(kg)"),
         ("diameters,f (Hz),amplitude (kg^-1/2),damping (1/s)\n", "must be none or %, not 1/s"),
         ("diameters,f (Hz),amplitude (kg^-1/2),colour\n", "columns='colour': unknown column"),
+        ("n,f (Hz),amplitude (kg^-1/2)\n", "columns='n': unknown column, did you mean diameters?"),
+        ("l,f (Hz),m [kg]\n", "columns='m [kg]': unknown column, did you mean modal_mass (kg)?"),
         ("diameters,f (Hz),omega (rad/s),amplitude (kg^-1/2)\n", "must have one column frequency_Hz or"),
         ("diameters,amplitude (kg^-1/2)\n", "must have one column frequency_Hz or omega_rad_per_s"),
         ("l,f (Hz),pole (rad/s),amplitude (kg^-1/2)\n", "must not have both pole and omega"),

@@ -200,7 +200,12 @@ def test_a_window_counts_back_from_where_a_run_stops():
     [
         (1, "must be a text"),
         ("", "must not be empty"),
-        ("a", "must not be that of a variable or group of results"),
+        ("a", "must not be the name of a parameter (inner radius of the disc); window_a would do"),
+        (
+            "steps",
+            "must not be the name of a variable of results (number of steps); window_steps would do",
+        ),
+        ("events", "must not be the name of a group of results; window_events would do"),
         ("a/b", "must have no /"),
         (" late", "must begin with a letter, a digit or _"),
         ("late ", "must not end in a space"),

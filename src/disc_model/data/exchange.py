@@ -40,13 +40,13 @@ class HasDataset(Protocol):
     def to_dataset(self) -> xr.Dataset: ...
 
 
-def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
+def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str | Path) -> None:
     """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
 
     Parameters
     ----------
     data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit` or a `Branch` is written
-        as the dataset of its method `to_dataset`
+        as the dataset of its method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
@@ -75,6 +75,7 @@ def save(data: xr.Dataset | xr.DataTree | HasDataset, path: str | Path) -> None:
     >>> dm.load("cycles.mat").identical(cycles)
     True
     """
+    _check_named(data)
     given = _as_dataset(data)
     rule = "must be an xarray.Dataset or xarray.DataTree"
     if hasattr(data, "to_dataset"):
@@ -147,8 +148,22 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
 # ---- What can be written
 
 
+def _check_named(data: object) -> None:
+    """Raise `ParameterError` for an array of xarray without a name, or with that of a coordinate."""
+    if not isinstance(data, xr.DataArray):
+        return
+    if data.name is None:
+        rule = "must have a name, which is that of its variable in the file: data.rename('name')"
+        raise ParameterError(Fault(("data",), "", rule))
+    if data.name in data.coords:
+        rule = f"must have another name than its coordinate {data.name}: data.rename('name')"
+        raise ParameterError(Fault(("data",), "", rule))
+
+
 def _as_dataset(data: object) -> Any:
-    """A result of this package that has a dataset as this dataset; all else as it is."""
+    """A result of this package, or an array with a name, as its dataset; all else as it is."""
+    if isinstance(data, xr.DataArray):
+        return data.to_dataset()
     if is_dataclass(data) and not isinstance(data, type) and hasattr(data, "to_dataset"):
         return data.to_dataset()
     return data

@@ -156,9 +156,8 @@ OF_ARGUMENTS = {
     for function, table in _TABLES["arguments"].items()
 }
 """Arguments of functions that are no options of a quantity, by function."""
-BESIDE_WINDOWS = frozenset(
-    {"events", "final_state", "initial_state", *SCALARS, *Parameters.model_fields}
-)
+GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
+BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
@@ -197,6 +196,17 @@ def attributes(name: str) -> dict[str, Any]:
         )
         variable = Variable(unit, field.description or name, CHOICES.get(name, ()))
     return variable.attributes
+
+
+def rule_of_taken(name: str) -> str:
+    """The rule that the name of a case or window breaks: what of a file has this name."""
+    if name in GROUPS:
+        return "must not be the name of a group of results"
+    kind = "parameter" if name in Parameters.model_fields else "variable of results"
+    if name not in BESIDE_WINDOWS:
+        return f"must not be the name of a {kind}"
+    meaning, *_ = re.split("[,:;]", attributes(name)["long_name"])
+    return f"must not be the name of a {kind} ({meaning})"
 
 
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}

@@ -22,6 +22,7 @@ INNER = ("disc_model", "functools", "contextlib")  # modules between a reader an
 # Damping ratio of a mode from which it is doubted: discs of metal have 0.0001 to 0.01, and per cent would be numbers
 # a hundred times as large.
 MOST_DAMPED = 0.05
+_TOO_DAMPED = f"more than {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
 TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a mode is doubted
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 
@@ -243,13 +244,17 @@ def _overdamped(disc: Disc) -> str:
     most = max(disc.damping_ratio)
     if most <= MOST_DAMPED:
         return ""
-    mode = disc.damping_ratio.index(most) + 1
-    return f"mode {mode} of the disc has the {_damped(most)}"
+    doubted = sum(ratio > MOST_DAMPED for ratio in disc.damping_ratio)
+    if doubted == 1:
+        mode = disc.damping_ratio.index(most) + 1
+        return f"mode {mode} of the disc has the {_damped(most)}"
+    share = f"{doubted} of {counted(len(disc.damping_ratio), 'mode')} of the disc"
+    return f"{share} have damping ratios of up to {most:.3g}, {_TOO_DAMPED}"
 
 
 def _damped(ratio: float) -> str:
     """What is implausible of a damping ratio."""
-    return f"damping ratio {ratio:.3g}, more than {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
+    return f"damping ratio {ratio:.3g}, {_TOO_DAMPED}"
 
 
 def _overdamped_plate(p: Parameters) -> str:

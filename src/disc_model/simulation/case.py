@@ -13,7 +13,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import Field, create_model, field_validator, model_serializer, model_validator
 
-from disc_model.data.variables import BESIDE_WINDOWS
+from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.display import html_table
 from disc_model.errors import Fault, ParameterError, as_text, require
 from disc_model.hashing import canonical_json, content_key
@@ -258,7 +258,7 @@ def _rule_of_name(name: object) -> str:
     if not isinstance(name, str):
         return "must be a text"
     if name in BESIDE_WINDOWS:
-        return "must not be that of a variable or group of results"
+        return f"{rule_of_taken(name)}; window_{name} would do"
     rules = {
         "must not be empty": name,
         "must have at most 60 characters": len(name) <= LONGEST_NAME,

@@ -5,7 +5,6 @@ right.
 """
 
 import json
-import re
 from collections import ChainMap, Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, reduce
@@ -27,7 +26,7 @@ from disc_model.data.variables import (
     BESIDE_WINDOWS,
     SCALARS,
     WITHOUT_CYCLE,
-    attributes,
+    rule_of_taken,
     values_text,
 )
 from disc_model.disc.files.table import read_disc
@@ -99,25 +98,22 @@ def _but(taken: Collection[str], rule: str) -> AfterValidator:
 
 def _no_variable(name: str) -> str:
     """The name of a case, which is not that of a parameter or of another variable."""
-    if name in Parameters.model_fields:
-        meaning, *_ = re.split("[,:;]", attributes(name)["long_name"])
-        rule = f"must not be the name of a parameter ({meaning}); case_{name} would do"
-        raise ValueError(rule)
     if name in TAKEN:
-        rule = f"must not be the name of a variable of results; case_{name} would do"
-        raise ValueError(rule)
+        raise ValueError(f"{rule_of_taken(name)}; case_{name} would do")
+    return name
+
+
+def _no_group(name: str) -> str:
+    """The name of a window, which is not that of a parameter, variable or group of results."""
+    if name in TAKEN | BESIDE_WINDOWS:
+        raise ValueError(f"{rule_of_taken(name)}; window_{name} would do")
     return name
 
 
 _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_length=100)
 Name = Annotated[str, _LETTERS]
 CaseName = Annotated[Name, AfterValidator(_no_variable)]
-WindowName = Annotated[
-    Name,
-    _but(
-        TAKEN | BESIDE_WINDOWS, "must not be the name of a parameter, variable or group of results"
-    ),
-]
+WindowName = Annotated[Name, AfterValidator(_no_group)]
 StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Named cases

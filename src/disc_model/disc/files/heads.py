@@ -59,6 +59,9 @@ OTHER_COLUMNS = (
     "comment",
 )
 """Examples of further columns, for messages."""
+SHORT = {"n": "diameters", "m": "modal_mass (kg)", "m_kg": "modal_mass (kg)"}
+"""Symbols of laboratories, in lower case, that may stand for something else too: what they may
+mean, for messages."""
 LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
 
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
@@ -103,12 +106,20 @@ def read_head(text: str) -> Head:
         return _shape(text, match, unit)
     word, unit = _word(name, unit)
     if not word:
-        rule = f"unknown column{suggestion(text, [*COLUMNS, *OTHER_COLUMNS])}"
+        rule = f"unknown column{_meant(text, name)}"
         raise ParameterError(Fault.of(("columns",), text, rule))
     factor = _factor(text, QUANTITIES[word], unit)
     if word in LOSS_FACTORS:
         factor /= 2
     return Head(text, QUANTITIES[word], factor)
+
+
+def _meant(text: str, name: str) -> str:
+    """What the head of an unknown column may mean, by the name in it, and the known heads."""
+    known = [*COLUMNS, *OTHER_COLUMNS]
+    if name.lower() in SHORT:
+        return f", did you mean {SHORT[name.lower()]}? (known: {', '.join(known)})"
+    return suggestion(text, known)
 
 
 def with_unit(text: str, unit: str) -> str:
