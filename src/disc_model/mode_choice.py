@@ -63,7 +63,8 @@ class ModeChoice(Summarised):
         by = self.quantity
         if by != FREQUENCIES:  # which are those at rest
             by = f"{by} at {number_text(p.Omega, 'rad/s')}"
-        return f"ModeChoice({self.size_text(size)}, by {by}, error {self.error:.2g})"
+        counts = f"{self.size_text(size)} ({counted(self.modes, 'real mode')})"
+        return f"ModeChoice({counts}, by {by}, error {self.error:.2g})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
