@@ -92,6 +92,7 @@ def test_a_choice_of_modes_is_shown_with_what_it_was_compared_with() -> None:
         quantity="growth",
         values={(4, 0): -0.1, (8, 1): -0.125},
     )
+    assert repr(found).startswith("ModeChoice(6 diameters, 1 circle (26 real modes), by growth")
     shown = cells(found._repr_html_())
     assert shown[0] == ["ModeChoice", ""]
     assert shown[1:] == [[*row] for row in found.summary()]

@@ -230,7 +230,9 @@ def test_a_choice_says_for_which_speed_it_is(measured: Measured) -> None:
     """At the highest speed of interest more modes may take part."""
     measured(lambda l, c: 1.0)
     choice = choose_modes(P, quantity="growth")
-    assert repr(choice) == "ModeChoice(1 diameter, 0 circles, by growth at 15.1 rad/s, error 0)"
+    assert repr(choice) == (
+        "ModeChoice(1 diameter, 0 circles (3 real modes), by growth at 15.1 rad/s, error 0)"
+    )
     assert dict(choice.summary())["at"].startswith("15.1 rad/s, 385 N")
     at_rest = choose_modes(P, 1e-2)
     assert "at" not in dict(at_rest.summary()), "frequencies are those at rest"

@@ -25,6 +25,11 @@ def test_points_that_are_missing_have_a_value_that_says_so() -> None:
     [
         ("P_min", "N", "contact force, positive in compression, least within the bin"),
         ("u_velocity_max", "m s-1", "vertical velocity of the slider, greatest within the bin"),
+        (
+            "w_max",
+            "m",
+            "displacement of the disc under the slider, greatest within the bin; from the undeformed disc",
+        ),
         ("rho", "kg m-3", "density of the disc"),
         ("k", "N m-1", "spring of the slider, normal to the disc"),
         ("mu_k_over_mu_s", "1", "mu_k relative to mu_s"),
@@ -34,6 +39,12 @@ def test_attributes_of_derived_names(name: str, unit: str, text: str) -> None:
     found = attributes(name)
     assert found["units"] == unit
     assert found["long_name"] == text
+
+
+@pytest.mark.parametrize("name", ["u", "w", "w_point", "u_0", "u_min"])
+def test_a_displacement_says_what_it_is_measured_from(name: str) -> None:
+    """Those of samples and those of outcomes have two zeros, and samples named none."""
+    assert attributes(name)["long_name"].endswith("the undeformed disc")
 
 
 def test_flags_are_words_by_their_numbers() -> None:

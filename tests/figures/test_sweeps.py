@@ -97,9 +97,10 @@ def swept(function: Callable[..., Any]) -> xr.Dataset:
 
 
 def words_of(variable: xr.DataArray) -> str:
-    """What a label has to say: the long name, or the name, without what nan means."""
+    """What a label has to say: the long name, or the name, without what nan means and remarks."""
     name = str(variable.name)
     words = str(variable.attrs.get("long_name", name.replace("_", " "))).split(", nan ")[0]
+    words = words.split("; ")[0]
     words = words.replace("disturbances of ", "")
     within = WITHIN.get(name, "")
     if name == "surface_speed" and "late stretch" not in words:

@@ -182,9 +182,9 @@ def attributes(name: str) -> dict[str, Any]:
     stem, _, bound = name.rpartition("_")
     if bound in ("min", "max") and stem in SERIES:
         which = "least" if bound == "min" else "greatest"
-        variable = SERIES[stem]._replace(
-            long_name=f"{SERIES[stem].long_name}, {which} within the bin"
-        )
+        what, remark, zero = SERIES[stem].long_name.partition("; ")
+        meaning = f"{what}, {which} within the bin{remark}{zero}"
+        variable = SERIES[stem]._replace(long_name=meaning)
     elif name in (known := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
         variable = known[name]
     else:

@@ -324,7 +324,12 @@ def _words_of(variable: xr.DataArray) -> str:
     """What a variable says that it is, without remarks."""
     own = str(variable.name)
     long_name = str(variable.attrs.get("long_name", own.replace("_", " ")))
-    return SHORT.get(own, long_name.partition(", nan ")[0].partition("; ")[0])
+    return SHORT.get(own, _without_remarks(long_name))
+
+
+def _without_remarks(long_name: str) -> str:
+    """A long name without what it says of missing values and of its zero."""
+    return long_name.partition(", nan ")[0].partition("; ")[0]
 
 
 def known_name(variable: xr.DataArray) -> str:
@@ -351,7 +356,7 @@ def _is_own(variable: xr.DataArray) -> bool:
     if variable.attrs.get("units") != sampled.attributes.get("units"):
         return True
     long_name = str(variable.attrs.get("long_name", ""))
-    return name in SERIES and long_name.partition(", nan ")[0] != sampled.long_name
+    return name in SERIES and _without_remarks(long_name) != _without_remarks(sampled.long_name)
 
 
 def label_in(study: xr.Dataset, name: str) -> str:

@@ -423,7 +423,7 @@ def deflection(
         "r": ("r", radii, {"units": "m", "long_name": "radius"}),
         "theta": ("theta", angles, {"units": "rad", "long_name": "angle fixed to the disc"}),
     }
-    attrs = {"units": "m", "long_name": "displacement of the disc"}
+    attrs = {"units": "m", "long_name": "displacement of the disc; from the undeformed disc"}
     return xr.DataArray(w, coords, ("time", "r", "theta"), name="w", attrs=attrs)
 
 

@@ -351,7 +351,7 @@ def _border(
         if not reaches:
             failures.append(f"{name} from {begin:.6g} to {end:.6g}: {branch.ended}")
         return None
-    stable = branch.growth_rate < 0
+    stable = branch.stable
     next_to_stable = [each for each in borders if stable[each.after : each.after + 2].any()]
     special = next_to_stable[0] if next_to_stable else borders[0]
     kind = BORDER_KINDS[special.kind]

@@ -53,6 +53,7 @@ def test_stability_is_that_of_the_largest_multiplier(branch: Branch, data: xr.Da
     [_, fold, _] = branch.special
     before = data["point"] <= fold.after
     assert_array_equal(stable, before)
+    assert_array_equal(stable, branch.stable)
     assert_array_equal(stable, largest < 1)
     growth = np.log(largest) / data["period"]
     assert_allclose(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
-from disc_model.arrays import Array, ComplexArray, Indices
+from disc_model.arrays import Array, ComplexArray, Indices, Mask
 from disc_model.data.variables import values_text
 from disc_model.display import Summarised, counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
@@ -125,6 +125,7 @@ class Branch:
     parameters : names of the free parameters
     values : shape (n_points, n_parameters), in SI units
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
+    stable : bool, (n_points,), whether the cycle is stable
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations : int, (n_points,), number of separations in a period
@@ -162,6 +163,11 @@ class Branch:
     not_reached: Array = field(default_factory=lambda: np.zeros(0))
     _make_map: MapFactory = ReturnMap
     variables: ClassVar = VARIABLES
+
+    @property
+    def stable(self) -> Mask:
+        """Whether each cycle is stable: disturbances decay; shape (n_points,)."""
+        return self.growth_rate < 0
 
     def __len__(self) -> int:
         return len(self.period)

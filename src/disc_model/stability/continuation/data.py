@@ -59,7 +59,7 @@ def dataset_of(branch: Branch) -> xr.Dataset:
     cycles.add(VARIABLES, lambda name: getattr(branch, name))
     own = {
         "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
-        "stable": branch.growth_rate < 0,
+        "stable": branch.stable,
         "separations": branch.separations,
         "releases": branch.releases,
         "diameters": branch.diameters,
