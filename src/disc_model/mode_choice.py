@@ -66,8 +66,8 @@ class ModeChoice(Summarised):
         by = self.quantity
         if by != FREQUENCIES:  # which are those at rest
             by = f"{by} at {number_text(p.Omega, 'rad/s')}"
-<<<<<<< HEAD
-        text = f"{self.size_text(size)}, by {by}, error {self.error:.2g}"
+        counts = f"{self.size_text(size)} ({counted(self.modes, 'real mode')})"
+        text = f"{counts}, by {by}, error {self.error:.2g}"
         if self.loses_growing:
             text += f"; {self._growing_text()}"
         return f"ModeChoice({text})"
@@ -87,10 +87,6 @@ class ModeChoice(Summarised):
             all_modes = self.size_text(self.rich)
         grow = "grows" if largest == 1 else "grow"
         return f"with {all_modes} {largest} {grow}, with these {chosen}"
-=======
-        counts = f"{self.size_text(size)} ({counted(self.modes, 'real mode')})"
-        return f"ModeChoice({counts}, by {by}, error {self.error:.2g})"
->>>>>>> a719fb959fa7b450f98df2efb7f8ab52656ccba0
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         p = self.parameters
