@@ -44,7 +44,12 @@ PHYSICS = (
 """Parts on which every simulation depends."""
 BATCHES = (
     *PHYSICS,
-    *(f"studies/{name}.py" for name in ("batch", "distributions", "quantity", "refinement", "run")),
+    "studies/batch.py",
+    "studies/distributions.py",
+    "studies/quantity.py",
+    "studies/refinement.py",
+    "studies/run.py",
+    "studies/shares_of_starts.py",
 )
 """Parts on which every batch depends, beside the file of its quantity."""
 MERGING = ("data", "studies/batch.py", "studies/merge.py", "studies/run.py")
