@@ -1,6 +1,7 @@
 """Multiples of the stick-slip frequency that a reader asks for in a Campbell diagram."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -50,7 +51,7 @@ def _name_line(
     apart = np.nan_to_num(np.abs(detuning), nan=np.inf)
     nearest = detuning[apart.argmin()]
     below = nearest > 0
-    look = {"ha": "right", "va": "top" if below else "bottom", "fontsize": large(6)}
+    look: dict[str, Any] = {"ha": "right", "va": "top" if below else "bottom", "fontsize": large(6)}
     name = f"{multiple} {SYMBOLS[0]}"
     offset = (-2, -1 if below else 1)
     ax.annotate(name, place, offset, textcoords="offset points", path_effects=halo(), **look)
