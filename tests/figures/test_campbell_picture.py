@@ -13,11 +13,12 @@ from matplotlib.figure import Figure
 import disc_model as dm
 from disc_model.figures import campbell
 from disc_model.figures.campbell_legend import ALONE
+from disc_model.figures.campbell_looks import CROSSINGS
 from disc_model.figures.campbell_peaks import Peak, peaks
 from disc_model.figures.classes import NOT_NEAR
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS
-from tests.figures.described import campbell_study
+from tests.figures.described import campbell_study, drawn
 from tests.figures.every_kind import flag
 from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart, labels
 from tests.refusals import refusal
@@ -337,3 +338,60 @@ def test_rates_of_other_cycles_count_for_the_scale() -> None:
     _, zero = to_axes.transform((8, 0))
     assert bottom.get_yscale() == "symlog"
     assert zero - lowest > 0.1
+
+
+def named_multiples(top: Any) -> list[str]:
+    """Names of multiples of the stick-slip frequency in the panel of frequencies."""
+    texts = [re.sub(r"\\mathrm{(.*)}", r"\1", text.get_text()) for text in top.texts]
+    return [text for text in texts if text.endswith("$f_s$")]
+
+
+def with_a_crossing_at_no_peak(effect: str) -> xr.Dataset:
+    """A study in which twice the stick-slip frequency meets a mode where no rate peaks."""
+    study = campbell_study()
+    study["crossing_Omega"][0] = 16.0
+    study["crossing_frequency"][0] = 126.4
+    study["crossing_multiple"] = ("crossing", [2.0, 3.0, 1.0])
+    study["crossing_effect"][0] = EFFECTS.index(effect)
+    return study
+
+
+@pytest.mark.parametrize("effect", CROSSINGS)
+def test_crossings_of_multiples_that_are_asked_for_are_marked(effect: str) -> None:
+    """Only those at the highest peaks had a line and a mark."""
+    study = with_a_crossing_at_no_peak(effect)
+    top, _ = dm.plot_campbell(study, multiples=[2])
+    marker, meaning = CROSSINGS[effect]
+    [at] = [line for line in top.lines if line.get_marker() == marker]
+    assert at.get_xydata().tolist() == [[16.0, 126.4]]
+    assert f"crossing: {meaning}" in labels(top.figure)
+    assert "2 $f_s$" in named_multiples(top)
+
+
+def test_a_multiple_goes_on_over_speeds_without_a_cycle() -> None:
+    study = campbell_study()
+    whole = 2 * study["stick_slip_frequency"].values
+    study["stick_slip_frequency"][16:18] = np.nan
+    top, _ = dm.plot_campbell(study, multiples=[2])
+    heights = [np.asarray(line.get_ydata()) for line in top.lines]
+    alike = [each for each in heights if each.shape == whole.shape and np.allclose(each, whole)]
+    assert len(alike) == 1
+
+
+def test_a_picture_without_multiples_has_those_at_peaks_only() -> None:
+    top, _ = dm.plot_campbell(with_a_crossing_at_no_peak("rises"))
+    assert "2 $f_s$" not in named_multiples(top)
+    assert not [text for text in labels(top.figure) if text.startswith("crossing: ")]
+
+
+def test_the_figure_of_a_study_takes_multiples() -> None:
+    figure = drawn("campbell", campbell_study(), multiples=[2, 3])
+    names = named_multiples(figure.axes[0])
+    assert {"2 $f_s$", "3 $f_s$"} <= {*names}
+    assert_fit_for_print(figure)
+
+
+@pytest.mark.parametrize("multiples", [2, [0], [2.5], [True], "2"])
+def test_what_are_no_multiples_is_refused(multiples: Any) -> None:
+    with refusal("must be whole numbers > 0, such as"):
+        dm.plot_campbell(campbell_study(), multiples=multiples)

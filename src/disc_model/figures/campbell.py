@@ -32,11 +32,11 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     below = axes[len(parts) :]
     columns = [column_of(part.data.transpose("Omega", ...)) for part in parts]
     highest = plot.highest or highest_of(columns)
-    draw_panels(above, below, columns, highest)
+    draw_panels(above, below, columns, highest, plot.multiples)
     letters(axes, titles_of(parts))
     for top, bottom, column in zip(above, below, columns, strict=True):
         name_peaks(top, bottom, column, highest)
-    _legend(figure, columns, highest)
+    _legend(figure, columns, highest, plot.multiples)
     return figure
 
 
@@ -50,6 +50,11 @@ def highest_of(columns: Sequence[Column]) -> float:
     return ROOM * max(float(column.study["sliding_frequency"].max()) for column in columns)
 
 
-def _legend(figure: Figure, columns: Sequence[Column], highest: float = np.inf) -> None:
+def _legend(
+    figure: Figure,
+    columns: Sequence[Column],
+    highest: float = np.inf,
+    multiples: Sequence[int] = (),
+) -> None:
     """Name lines, marks and bands that are drawn."""
-    figure_legend(figure, entries_of(columns, highest), columns=3)
+    figure_legend(figure, entries_of(columns, highest, multiples), columns=3)

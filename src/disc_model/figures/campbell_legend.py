@@ -20,6 +20,7 @@ from disc_model.figures.campbell_looks import (
     multiple_look,
     speed_look,
 )
+from disc_model.figures.campbell_multiples import entries_of_crossings
 from disc_model.figures.campbell_peaks import Column, Peak, followed_rates, growing_modes, unjoined
 from disc_model.figures.cut import entries_of_left_out, entry_of_cut, modes_cut
 from disc_model.figures.drawing import BLACK, open_line, sample, wide
@@ -33,9 +34,11 @@ ALONE = "by itself: another cycle, or too wide a step"
 """What a point may be that differs from both neighbours."""
 
 
-def entries_of(columns: Sequence[Column], highest: float) -> list[Artist]:
-    """Entries of a legend for the lines, marks and bands that are drawn, and for what lies above the
-    highest frequency shown (Hz)."""
+def entries_of(
+    columns: Sequence[Column], highest: float, multiples: Sequence[int] = ()
+) -> list[Artist]:
+    """Entries of a legend for the lines, marks and bands that are drawn, for what lies above the
+    highest frequency shown (Hz), and for crossings of multiples that are asked for."""
     handles: list[Artist] = [
         sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
     ]
@@ -48,7 +51,8 @@ def entries_of(columns: Sequence[Column], highest: float) -> list[Artist]:
     handles += entries_of_left_out(studies)
     handles += entries_of_unresolved(studies)
     found = [peak for column in columns for peak in column.peaks]
-    handles += _entries_of_peaks(found, highest)
+    handles += _entries_of_peaks(found, highest, bool(multiples))
+    handles += entries_of_crossings(studies, multiples, highest)
     return handles + _entries_of_rates(studies)
 
 
@@ -66,14 +70,14 @@ def _entries_of_rates(studies: Sequence[xr.Dataset]) -> list[Artist]:
     return handles + entries_of_bands(studies)
 
 
-def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
-    """Entries of a legend for peaks, and for their crossings below and above the highest frequency
-    shown (Hz)."""
+def _entries_of_peaks(found: Sequence[Peak], highest: float, of_slips: bool) -> list[Artist]:
+    """Entries of a legend for multiples, of stick-slip in any case or only at peaks, for peaks, and for
+    their crossings below and above the highest frequency shown (Hz)."""
     if not found:
-        return []
+        return _entries_of_multiples([], of_slips)
     crossings = [peak.crossing for peak in found if peak.crossing is not None]
     shown = [crossing for crossing in crossings if meeting_of(crossing)[1] <= highest]
-    handles = _entries_of_multiples(shown)
+    handles = _entries_of_multiples(shown, of_slips)
     unnamed = []
     for name, alike in _by_name(found, bool(shown)).items():
         if _are_resolved(alike):
@@ -89,9 +93,12 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float) -> list[Artist]:
     return handles
 
 
-def _entries_of_multiples(crossings: Sequence[xr.Dataset]) -> list[Artist]:
-    """The entry of a legend for multiples of frequencies that modes meet at crossings, if there are any."""
+def _entries_of_multiples(crossings: Sequence[xr.Dataset], of_slips: bool) -> list[Artist]:
+    """The entry of a legend for multiples of frequencies that modes meet at crossings, and of
+    stick-slip if they are asked for; none if nothing is drawn."""
     symbols = {symbol_of_line(crossing) for crossing in crossings}
+    if of_slips:
+        symbols.add(SYMBOLS[0])
     if not symbols:
         return []
     said = " or ".join(sorted(symbols, key=SYMBOLS.index))

@@ -54,6 +54,31 @@ def beyond_look() -> dict[str, Any]:
     }
 
 
+CROSSINGS = {
+    "no_rise": ("s", "no rate rises"),
+    "mode_rises": (">", "a mode's rate rises"),
+    "rises": ("P", "the cycle's rate rises"),
+    "destabilises": ("*", "the cycle is unstable there"),
+    "no_cycle": ("h", "no cycle"),
+    "unresolved": ("v", "unresolved"),
+    "not_near": ("X", "motion not near the cycle"),
+}
+"""Marks of crossings by what growth rates do there, and what the legend says of them."""
+
+
+def crossing_look(effect: str) -> dict[str, Any]:
+    """Look of the mark of a crossing by its effect, white on a thick line."""
+    return {
+        "color": BLACK,
+        "linestyle": "",
+        "marker": CROSSINGS[effect][0],
+        "markersize": mark(5),
+        "markerfacecolor": "white",
+        "markeredgewidth": wide(0.7),
+        "zorder": 4,  # on thick lines
+    }
+
+
 def multiple_look() -> dict[str, Any]:
     """Look of the line of a multiple of a frequency."""
     return {"color": GREY, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}

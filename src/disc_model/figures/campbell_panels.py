@@ -16,6 +16,7 @@ from disc_model.figures.campbell_looks import (
     multiple_look,
     speed_look,
 )
+from disc_model.figures.campbell_multiples import draw_multiples
 from disc_model.figures.campbell_peaks import (
     Column,
     Peak,
@@ -39,11 +40,17 @@ EDGE = 1.0  # height of a mark at this edge, as a share of the panel
 
 
 def draw_panels(
-    above: Sequence[Axes], below: Sequence[Axes], columns: Sequence[Column], highest: float
+    above: Sequence[Axes],
+    below: Sequence[Axes],
+    columns: Sequence[Column],
+    highest: float,
+    multiples: Sequence[int] = (),
 ) -> None:
-    """Draw frequencies up to the highest shown (Hz), and growth rates below them, on one scale."""
+    """Draw frequencies up to the highest shown (Hz), with multiples of the stick-slip frequency that
+    are asked for, and growth rates below them, on one scale."""
     for top, bottom, column in zip(above, below, columns, strict=True):
         _draw_column(top, bottom, column, highest)
+        draw_multiples(top, column.study, multiples, highest)
     rates = [column.study["growth_rate"].values for column in columns]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)

@@ -1,5 +1,6 @@
 """A Campbell diagram of a study on a reader's axes."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_choice import values_of
 from disc_model.figures.words import SPEED, what_case
-from disc_model.units import in_si, is_number
+from disc_model.units import in_si, is_number, is_whole
 
 NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
 """What a study has that such a diagram can show."""
@@ -29,6 +30,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
+    multiples: Sequence[int] = (),
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -43,6 +45,12 @@ def plot_campbell(
     faults += violations(
         (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
         (known, "highest", highest, "must be a number > 0, in Hz"),
+        (
+            _are_multiples(multiples),
+            "multiples",
+            multiples,
+            "must be whole numbers > 0, such as [2, 3]",
+        ),
     )
     raise_faults(faults)
     drawn = without_single(study, *OTHERS).transpose("Omega", ...)
@@ -63,7 +71,14 @@ def plot_campbell(
         check_free(page.axes, FREQUENCY, "a Campbell diagram")
         page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
         top, bottom = page.axes
-        draw_panels([top], [bottom], [column], shown)
+        draw_panels([top], [bottom], [column], shown, multiples)
         name_peaks(top, bottom, column, shown)
-        page.explain(entries_of([column], shown), beside="below")
+        page.explain(entries_of([column], shown, multiples), beside="below")
     return np.array(page.axes, dtype=object)
+
+
+def _are_multiples(multiples: Any) -> bool:
+    """Whether these are whole numbers from 1 on, or none."""
+    if np.ndim(multiples) != 1:
+        return False
+    return all(is_whole(each) and each >= 1 for each in multiples)

@@ -121,6 +121,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
+    multiples: Sequence[int] = (),
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -129,8 +130,9 @@ def plot_campbell(
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
 
-    At the highest peaks of growth are the multiples of a frequency that meet a mode there; a peak
-    without such a crossing is a diamond. Lines are thick where a mode of steady sliding grows. Speeds
+    At the five highest peaks of growth at most are the multiples of a frequency that meet a mode there; a
+    peak without such a crossing is a diamond. All other crossings are in the table of the study only,
+    unless `multiples` asks for their lines. Lines are thick where a mode of steady sliding grows. Speeds
     without a cycle are shaded, with what there is in its place, such as "unstable steady sliding". What
     lies above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the
     speed of a crossing above it.
@@ -139,6 +141,9 @@ def plot_campbell(
     ----------
     study : of ``quantity: campbell``, such as `run_study` returns; along the speed only
     highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
+    multiples : whole numbers, such as ``[2, 3]``: these multiples of the stick-slip frequency are drawn over all
+        speeds, interpolated where there is no cycle near the motion, with marks where modes cross them, by what
+        growth rates do there
     ax : two axes to draw on, that of frequencies first, without another Campbell diagram
     legend, labels, title : as in `Result.plot`
 
@@ -159,9 +164,15 @@ def plot_campbell(
     >>> frequencies, rates = dm.plot_campbell(study, highest=400)
     >>> rates.get_xlabel()
     'Speed Ω (rad/s)'
+
+    Twice and three times the stick-slip frequency, and the modes that cross them:
+
+    >>> frequencies, _ = dm.plot_campbell(study, highest=400, multiples=[2, 3])
+    >>> [text.get_text()[0] for text in frequencies.texts if "f_s" in text.get_text()]
+    ['2', '3']
     """
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-    return draw("plot_campbell", study, highest=highest, **wishes)
+    return draw("plot_campbell", study, highest=highest, multiples=multiples, **wishes)
 
 
 def plot_modes(

@@ -1,0 +1,87 @@
+"""Multiples of the stick-slip frequency that a reader asks for in a Campbell diagram."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import flag_names
+from disc_model.figures.campbell_crossings import SYMBOLS
+from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
+from disc_model.figures.campbell_peaks import elsewhere_of
+from disc_model.figures.drawing import halo, large, sample
+from disc_model.figures.types import Artist, Axes, Mask
+
+ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a mode
+
+
+def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highest: float) -> None:
+    """Draw multiples of the stick-slip frequency over the speed, with their names, and marks where
+    modes cross them, up to the highest frequency shown (Hz)."""
+    releases = _followed_frequency(study)
+    for multiple in multiples:
+        line = multiple * releases
+        ax.plot(study["Omega"], line, zorder=ABOVE_MODES, **multiple_look())
+        _name_line(ax, line, multiple, study["sliding_frequency"], highest)
+    for effect, at_effect in _by_effect(study, multiples, highest).items():
+        speeds = study["crossing_Omega"].values[at_effect]
+        frequencies = study["crossing_frequency"].values[at_effect]
+        ax.plot(speeds, frequencies, **crossing_look(effect))
+
+
+def _followed_frequency(study: xr.Dataset) -> xr.DataArray:
+    """The stick-slip frequency as crossings have it, interpolated over speeds without a cycle near the
+    motion, Hz."""
+    near = ~elsewhere_of(study)
+    return study["stick_slip_frequency"].where(near).interpolate_na("Omega")
+
+
+def _name_line(
+    ax: Axes, line: xr.DataArray, multiple: int, modes: xr.DataArray, highest: float
+) -> None:
+    """Write the name of a multiple within the panel, at the last speed at which it is shown, on the
+    side away from the nearest mode."""
+    shown = np.flatnonzero(line.values <= highest)
+    if not shown.size:
+        return
+    end = shown[-1]
+    place = (float(line["Omega"][end]), float(line[end]))
+    detuning = (modes.isel(Omega=end) - place[1]).values
+    apart = np.nan_to_num(np.abs(detuning), nan=np.inf)
+    nearest = detuning[apart.argmin()]
+    below = nearest > 0
+    look: dict[str, Any] = {"ha": "right", "va": "top" if below else "bottom", "fontsize": large(6)}
+    name = f"{multiple} {SYMBOLS[0]}"
+    offset = (-2, -1 if below else 1)
+    ax.annotate(name, place, offset, textcoords="offset points", path_effects=halo(), **look)
+
+
+def entries_of_crossings(
+    studies: Sequence[xr.Dataset], multiples: Sequence[int], highest: float
+) -> list[Artist]:
+    """Entries of a legend for crossings of multiples that a reader asks for, by their effects."""
+    effects = set[str]()
+    for study in studies:
+        effects |= {*_by_effect(study, multiples, highest)}
+    handles: list[Artist] = []
+    for effect, (_, meaning) in CROSSINGS.items():
+        if effect in effects:
+            handles.append(sample(label=f"crossing: {meaning}", **crossing_look(effect)))
+    return handles
+
+
+def _by_effect(study: xr.Dataset, multiples: Sequence[int], highest: float) -> dict[str, Mask]:
+    """Crossings of multiples that are shown, by what growth rates do there."""
+    if not multiples or "crossing_effect" not in study:
+        return {}
+    of_slips = flag_names(study["crossing_line"]) == "stick_slip"
+    asked_for = np.isin(study["crossing_multiple"].values, multiples)
+    shown = of_slips & asked_for & (study["crossing_frequency"].values <= highest)
+    effects = flag_names(study["crossing_effect"])
+    found = {}
+    for effect in CROSSINGS:
+        at_effect = shown & (effects == effect)
+        if at_effect.any():
+            found[effect] = at_effect
+    return found
