@@ -196,6 +196,24 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_names_along_small_axes_of_a_page_do_not_meet(layout: str | None) -> None:
+    """s9, s10 and s11 were printed on each other."""
+    names = [f"s{i}" for i in range(1, 13)]
+    status = ("sample", ["ok"] * 12)
+    rates = ("sample", np.arange(12.0), {"units": "s-1"})
+    study = xr.Dataset({"status": status, "growth_rate": rates}, {"sample": names})
+    figure, panels = pyplot.subplots(2, 2, figsize=(174 / 25.4, 140 / 25.4), layout=layout)
+    for ax in panels.flat:
+        dm.plot_sweep(study, "growth_rate", x="sample", ax=ax)
+    figure.draw_without_rendering()
+    for ax in panels.flat:
+        boxes = [label.get_window_extent() for label in ax.get_xticklabels()]
+        for left, right in pairwise(boxes):
+            assert not left.overlaps(right)
+    pyplot.close("all")
+
+
 @pytest.mark.parametrize("width", [84, 174])
 def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
     """One line joined them, with a greatest value at 0.24 that there is not."""
