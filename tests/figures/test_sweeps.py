@@ -21,6 +21,7 @@ from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
+from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import describe
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
@@ -194,6 +195,19 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     both = dm.plot_sweep(study, ["value", "border"])
     assert both.get_ylabel() == "Speed Ω (rad/s)"
     pyplot.close("all")
+
+
+def test_a_border_is_a_value_of_its_parameter_in_plain_words() -> None:
+    """It was a "value of coefficient of static friction above which" the motion stays unstable."""
+    border = swept(dm.critical)["border"]
+    words = "coefficient of static friction above which the motion stays unstable"
+    assert border.attrs["long_name"].startswith(words)
+
+
+def test_what_a_motion_has_come_to_is_not_sampled_at_switches() -> None:
+    """Only its samples are, but the label said so of the kind of the motion."""
+    kind = Bifurcation.COLUMNS["kind"]
+    assert kind.long_name == "what the motion has come to"
 
 
 @pytest.mark.parametrize("layout", [None, "constrained"])
