@@ -319,7 +319,7 @@ def test_onset_and_end_are_drawn_and_what_has_none_is_marked(
     shown = lines(ax)
     np.testing.assert_allclose(shown["onset, rising ramp"].get_ydata(), [15.3, np.nan, np.nan])
     np.testing.assert_allclose(shown["end, falling ramp"].get_ydata(), [9.7, 9.3, np.nan])
-    assert list(shown["none up to the highest speed"].get_xdata()) == [0.1]
+    assert list(shown["none up to the highest speed, 20 rad/s"].get_xdata()) == [0.1]
     assert list(shown["stable cycle ends (fold)"].get_ydata()) == pytest.approx([15.1, 15.1])
     assert [text.get_text() for text in ax.texts] == ["15.10"], (
         "the fold of another cycle, at 11 rad/s, was drawn too"

@@ -21,6 +21,7 @@ from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
+from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import describe
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
@@ -194,6 +195,37 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     assert said == [unstable, "stable at the upper bound, 25 rad/s"]
     both = dm.plot_sweep(study, ["value", "border"])
     assert both.get_ylabel() == "Speed Ω (rad/s)"
+    pyplot.close("all")
+
+
+def test_a_border_is_a_value_of_its_parameter_in_plain_words() -> None:
+    """It was a "value of coefficient of static friction above which" the motion stays unstable."""
+    border = swept(dm.critical)["border"]
+    words = "coefficient of static friction above which the motion stays unstable"
+    assert border.attrs["long_name"].startswith(words)
+
+
+def test_what_a_motion_has_come_to_is_not_sampled_at_switches() -> None:
+    """Only its samples are, but the label said so of the kind of the motion."""
+    kind = Bifurcation.COLUMNS["kind"]
+    assert kind.long_name == "what the motion has come to"
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_names_along_small_axes_of_a_page_do_not_meet(layout: str | None) -> None:
+    """s9, s10 and s11 were printed on each other."""
+    names = [f"s{i}" for i in range(1, 13)]
+    status = ("sample", ["ok"] * 12)
+    rates = ("sample", np.arange(12.0), {"units": "s-1"})
+    study = xr.Dataset({"status": status, "growth_rate": rates}, {"sample": names})
+    figure, panels = pyplot.subplots(2, 2, figsize=(174 / 25.4, 140 / 25.4), layout=layout)
+    for ax in panels.flat:
+        dm.plot_sweep(study, "growth_rate", x="sample", ax=ax)
+    figure.draw_without_rendering()
+    for ax in panels.flat:
+        boxes = [label.get_window_extent() for label in ax.get_xticklabels()]
+        for left, right in pairwise(boxes):
+            assert not left.overlaps(right)
     pyplot.close("all")
 
 

@@ -1,6 +1,7 @@
 """Scales, ticks and labels of axes on which lines of a variable are drawn."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -13,9 +14,10 @@ from disc_model.figures.curve_marks import measured_along, set_margins
 from disc_model.figures.drawing import is_in_data, plain_decades
 from disc_model.figures.rate_scale import scale_heights
 from disc_model.figures.types import Array, Axes
-from disc_model.figures.words import CHARACTER, label_in, named
+from disc_model.figures.words import label_in, named
 
 LINE = 1.1  # height of a line of text over its size
+CHARACTER = 0.6  # mean width of a character over its size
 
 
 def set_scales(
@@ -53,14 +55,21 @@ def _turn_words(ax: Axes, words: Sequence[str]) -> None:
     """Turn words along the horizontal axis if they have no room beside each other, and write only some
     of them if they have none then, either."""
     page: Any = ax.get_figure(root=True)
-    room = page.get_figwidth() * ax.get_position().width
-    if CHARACTER * sum(map(len, words)) <= room:
+    label: Any = ax.xaxis.get_major_ticks()[0].label1
+    # over the size of the words, which on a reader's own axes is larger
+    room = page.get_figwidth() * ax.get_position().width * 72 / label.get_fontsize()
+    if CHARACTER * len(words) * _widest_pair(words) <= room:
         return
     ax.tick_params(axis="x", labelrotation=90)
-    label: Any = ax.xaxis.get_major_ticks()[0].label1
-    line = LINE * label.get_fontsize() / 72
-    every = int(np.ceil(line * len(words) / room))
+    every = int(np.ceil(LINE * len(words) / room))
     ax.set_xticks(range(0, len(words), every), labels=words[::every])
+
+
+def _widest_pair(words: Sequence[str]) -> float:
+    """The largest distance that the middles of neighbours need, in characters, with half of one between
+    them; 0 of a single word."""
+    pairs = pairwise(words)
+    return max((0.5 * (len(left) + len(right) + 1) for left, right in pairs), default=0.0)
 
 
 def _are_counts(variable: xr.DataArray) -> bool:
