@@ -40,6 +40,21 @@ def test_what_takes_long_names_its_bar_once(
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.parametrize("shown", [True, False])
+def test_a_part_of_what_takes_long_does_not_name_its_bar(
+    shown: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Within a sweep with a bar, its function would have asked for one."""
+    monkeypatch.setattr(display, "PATIENCE", 0.01)
+    monkeypatch.setattr(display, "_SAID", set())
+    with progress_bar("sweep", 1, shown=shown):
+        with progress_bar("critical", None, shown=False):
+            time.sleep(0.1)
+    said = capsys.readouterr().err
+    assert "critical is computing" not in said
+    assert ("sweep is computing" in said) is not shown
+
+
 def test_a_table_escapes_what_it_shows() -> None:
     assert cells(html_table(("a", "<b>"), [(1, "&")])) == [["a", "&lt;b&gt;"], ["1", "&amp;"]]
 

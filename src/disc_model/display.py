@@ -115,6 +115,7 @@ class Drawn:
 NOTEBOOK = 90  # characters of a line in a notebook
 PATIENCE = 10.0  # s, after which a reader is told how to see a bar
 _SAID: set[str] = set()  # titles of which this was told
+_BARS: list[str] = []  # titles of what is being done, the outermost first
 
 
 class Bar:
@@ -148,12 +149,27 @@ class Bar:
 def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
     """A bar on standard error, while it is needed; it only counts if the total is not known.
 
-    Where it is not shown, a line after `PATIENCE` says how to see it.
+    Where it is not shown, a line after `PATIENCE` says how to see it, unless this is part of what has a
+    bar, or a line, of its own.
     """
-    if not shown:
-        with _named_after_a_while(title):
+    is_part = bool(_BARS)
+    _BARS.append(title)
+    try:
+        if shown:
+            with _shown_bar(title, total) as bar:
+                yield bar
+        elif is_part:
             yield Bar(total)
-        return
+        else:
+            with _named_after_a_while(title):
+                yield Bar(total)
+    finally:
+        _BARS.pop()
+
+
+@contextmanager
+def _shown_bar(title: str, total: int | None) -> Iterator[Bar]:
+    """A bar on standard error, while it is needed."""
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,

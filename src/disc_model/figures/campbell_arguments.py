@@ -1,0 +1,54 @@
+"""Checks of the arguments of a Campbell diagram on a reader's axes."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.errors import raise_faults, require, violations
+from disc_model.figures.selection import without_single
+from disc_model.units import in_si, is_number, is_whole
+
+NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
+"""What a study has that such a diagram can show."""
+OTHERS = ("Omega", "mode", "crossing")
+"""Dimensions of such a study beside those of its grid."""
+
+
+def checked_study(
+    study: xr.Dataset, highest: float | str | None, multiples: Sequence[int]
+) -> tuple[xr.Dataset, float | None]:
+    """The study along its speeds, and the highest frequency shown (Hz) if one is asked for, after all
+    checks."""
+    is_study = isinstance(study, xr.Dataset) and all(name in study for name in NEEDED)
+    faults: list[Any] = []
+    limit: Any = in_si(highest, "Hz", faults, ("highest",))
+    known = bool(faults) or limit is None or (is_number(limit) and limit > 0)
+    faults += violations(
+        (is_study, "study", study, "must be a study of `quantity: campbell`, as of run_study"),
+        (known, "highest", highest, "must be a number > 0, in Hz"),
+        (
+            _are_multiples(multiples),
+            "multiples",
+            multiples,
+            "must be whole numbers > 0, such as [2, 3]",
+        ),
+    )
+    raise_faults(faults)
+    drawn = without_single(study, *OTHERS).transpose("Omega", ...)
+    further = [str(dim) for dim in drawn.dims if dim not in OTHERS]
+    rule = f"must not vary along it: select one, as by study.isel({'=0, '.join(further)}=0)"
+    points = "must have two speeds or more"
+    require(
+        (not further, "study", ", ".join(further), rule),
+        (drawn.sizes["Omega"] > 1, "study", "a single speed", points),
+    )
+    return drawn, limit
+
+
+def _are_multiples(multiples: Any) -> bool:
+    """Whether these are whole numbers from 1 on, or none."""
+    if np.ndim(multiples) != 1:
+        return False
+    return all(is_whole(each) and each >= 1 for each in multiples)
