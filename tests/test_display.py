@@ -47,9 +47,8 @@ def test_a_part_of_what_takes_long_does_not_name_its_bar(
     """Within a sweep with a bar, its function would have asked for one."""
     monkeypatch.setattr(display, "PATIENCE", 0.01)
     monkeypatch.setattr(display, "_SAID", set())
-    with progress_bar("sweep", 1, shown=shown):
-        with progress_bar("critical", None, shown=False):
-            time.sleep(0.1)
+    with progress_bar("sweep", 1, shown=shown), progress_bar("critical", None, shown=False):
+        time.sleep(0.1)
     said = capsys.readouterr().err
     assert "critical is computing" not in said
     assert ("sweep is computing" in said) is not shown
