@@ -38,7 +38,9 @@ def test_a_seed_is_the_first_special_point_beside_a_stable_cycle(
         )
         for after in (0, 2)
     ]
-    branch = SimpleNamespace(special=special, growth_rate=np.array(rates), ended="")
+    growth_rate = np.array(rates)
+    stable = growth_rate < 0
+    branch = SimpleNamespace(special=special, growth_rate=growth_rate, stable=stable, ended="")
     monkeypatch.setattr(curves, "continue_cycle", lambda *_, **__: branch)
     seed = curves._border(Parameters(N=385, Omega=15), "Omega", 20.0, 1e-12, [])
     assert seed is not None
