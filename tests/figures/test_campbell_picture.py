@@ -15,7 +15,7 @@ from disc_model.figures import campbell
 from disc_model.figures.campbell_legend import ALONE
 from disc_model.figures.campbell_looks import CROSSINGS
 from disc_model.figures.campbell_peaks import Peak, peaks
-from disc_model.figures.classes import NOT_NEAR
+from disc_model.figures.classes import NOT_NEAR, lightness
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.described import campbell_study, drawn
@@ -257,6 +257,13 @@ def test_modes_that_grow_are_thick() -> None:
     assert GROWING in labels(top.figure)
 
 
+def test_modes_that_grow_differ_from_thin_lines_side_by_side() -> None:
+    """Two modes that decay, at 237 and 241 Hz, looked like a thick line, which means growth."""
+    top, _ = dm.plot_campbell(with_sliding(-1.0, 0.5, -2.0, gone=FAST))
+    thin, *_, growing = top.lines[:4]
+    assert lightness(growing.get_color()) - lightness(thin.get_color()) > 0.3
+
+
 def test_modes_that_grow_are_not_named_where_none_does() -> None:
     stable = with_sliding(-1.0, -0.5, -2.0, gone=FAST)
     assert GROWING not in labels(picture_of(stable))
@@ -320,6 +327,36 @@ def test_unresolved_crossings_are_counted(effects: list[str], said: list[str]) -
     counts = [text for text in labels(figure) if "unresolved" in text]
     assert counts == said
     assert_fit_for_print(figure)
+
+
+def unmarked(figure: Figure) -> list[str]:
+    """What the legend says of crossings without a mark."""
+    return [text for text in labels(figure) if text.endswith("not marked")]
+
+
+def test_crossings_without_a_mark_are_counted() -> None:
+    """Of six crossings in the table the picture neither showed nor said any."""
+    study = without_a_crossing_at_a_peak()
+    figure = picture_of(study)
+    assert unmarked(figure) == ["3 crossings not marked"]
+    assert_fit_for_print(figure)
+
+
+def test_crossings_at_peaks_are_marked() -> None:
+    at_a_peak = campbell_study().isel(crossing=[0])
+    assert not unmarked(picture_of(at_a_peak))
+
+
+def test_unresolved_crossings_are_not_counted_twice() -> None:
+    study = without_a_crossing_at_a_peak()
+    study["crossing_effect"] = flag(("crossing",), ["unresolved"] * 3, EFFECTS)
+    assert not unmarked(picture_of(study))
+
+
+def test_crossings_of_multiples_that_are_asked_for_are_not_unmarked() -> None:
+    study = with_a_crossing_at_no_peak("rises").isel(crossing=[0])
+    assert unmarked(picture_of(study)) == ["1 crossing not marked"]
+    assert not unmarked(picture_of(study, multiples=[2]))
 
 
 def test_rates_of_other_cycles_count_for_the_scale() -> None:

@@ -20,7 +20,7 @@ from disc_model.figures.campbell_looks import (
     multiple_look,
     speed_look,
 )
-from disc_model.figures.campbell_multiples import entries_of_crossings
+from disc_model.figures.campbell_multiples import entries_of_crossings, entries_of_unmarked
 from disc_model.figures.campbell_peaks import Column, Peak, followed_rates, growing_modes, unjoined
 from disc_model.figures.cut import entries_of_left_out, entry_of_cut, modes_cut
 from disc_model.figures.drawing import BLACK, open_line, sample, wide
@@ -53,6 +53,7 @@ def entries_of(
     found = [peak for column in columns for peak in column.peaks]
     handles += _entries_of_peaks(found, highest, bool(multiples))
     handles += entries_of_crossings(studies, multiples, highest)
+    handles += entries_of_unmarked(columns, multiples, highest)
     return handles + _entries_of_rates(studies)
 
 

@@ -2,16 +2,18 @@
 
 from typing import Any
 
+from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, GREY, mark, wide
 
 GROWS = 2.4  # points, width of the line of a mode that grows
+UNSTABLE = LOOKS["unstable"].face  # a thick black line may be two thin ones side by side
 
 
 def growing_look() -> dict[str, Any]:
     """Look of a mode that grows; dots within the line show it at single speeds."""
     width = wide(GROWS)
     dot = {"marker": "o", "markersize": 0.8 * width, "markeredgewidth": 0}
-    return {"color": BLACK, "linewidth": width, **dot}
+    return {"color": UNSTABLE, "linewidth": width, **dot}
 
 
 def dot_look(alone: bool, crossed: bool = True) -> dict[str, Any]:

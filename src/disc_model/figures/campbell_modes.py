@@ -14,8 +14,8 @@ NAMES_APART = 0.045  # of the axis, least distance of the names of modes
 
 
 def draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
-    """Draw the frequencies of steady sliding's modes, thick where they grow, with names at the right
-    ends of those that are shown."""
+    """Draw the frequencies of steady sliding's modes, thick and in a colour where they grow, with
+    names at the right ends of those that are shown."""
     frequency = study["sliding_frequency"]
     ax.plot(study["Omega"], frequency, color=BLACK, linewidth=wide(0.9))
     grows = growing_modes(study)

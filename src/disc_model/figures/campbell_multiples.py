@@ -7,9 +7,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.campbell_crossings import SYMBOLS
+from disc_model.display import counted
+from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of
 from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
-from disc_model.figures.campbell_peaks import elsewhere_of
+from disc_model.figures.campbell_peaks import Column, elsewhere_of
 from disc_model.figures.drawing import halo, large, sample
 from disc_model.figures.types import Artist, Axes, Mask
 
@@ -69,6 +70,35 @@ def entries_of_crossings(
         if effect in effects:
             handles.append(sample(label=f"crossing: {meaning}", **crossing_look(effect)))
     return handles
+
+
+def entries_of_unmarked(
+    columns: Sequence[Column], multiples: Sequence[int], highest: float
+) -> list[Artist]:
+    """The entry of a legend for resolved crossings that the picture does not mark, if there are any."""
+    unmarked = sum(_unmarked_crossings(column, multiples, highest) for column in columns)
+    if not unmarked:
+        return []
+    return [sample(label=f"{counted(unmarked, 'crossing')} not marked", linestyle="")]
+
+
+def _unmarked_crossings(column: Column, multiples: Sequence[int], highest: float) -> int:
+    """The number of resolved crossings up to the highest frequency shown (Hz) that are neither at a
+    peak nor of a multiple that a reader asks for."""
+    study = column.study
+    if "crossing_effect" not in study:
+        return 0
+    speeds = study["crossing_Omega"].values
+    frequencies = study["crossing_frequency"].values
+    resolved = flag_names(study["crossing_effect"]) != "unresolved"
+    unmarked = resolved & (frequencies <= highest)
+    for marked in _by_effect(study, multiples, highest).values():
+        unmarked &= ~marked
+    for peak in column.peaks:
+        if peak.crossing is not None:
+            speed, frequency = meeting_of(peak.crossing)
+            unmarked &= (speeds != speed) | (frequencies != frequency)
+    return int(unmarked.sum())
 
 
 def _by_effect(study: xr.Dataset, multiples: Sequence[int], highest: float) -> dict[str, Mask]:

@@ -132,7 +132,7 @@ def plot_campbell(
 
     At the five highest peaks of growth at most are the multiples of a frequency that meet a mode there; a
     peak without such a crossing is a diamond. All other crossings are in the table of the study only,
-    unless `multiples` asks for their lines. Lines are thick where a mode of steady sliding grows. Speeds
+    unless `multiples` asks for their lines. Lines are thick and red where a mode of steady sliding grows. Speeds
     without a cycle are shaded, with what there is in its place, such as "unstable steady sliding". What
     lies above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the
     speed of a crossing above it.
