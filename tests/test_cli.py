@@ -124,6 +124,13 @@ def test_the_heads_of_modes_are_whole_in_80_columns(
         assert word in out
 
 
+def test_modes_tell_which_slider_is_at_rest_on_the_disc(command: Command) -> None:
+    """A slider that nobody had given was not said."""
+    assert "(slider of 100 g on 50 kN/m)" in command.out("modes")
+    lighter = command.out("modes", "--m", "0.02", "--k", "2e4")
+    assert "(slider of 20 g on 20 kN/m)" in lighter
+
+
 @pytest.mark.compiled
 def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
     assert re.fullmatch(r"kernels compiled and cached: \d+\.\d s\n", command.out("compile"))

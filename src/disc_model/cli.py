@@ -34,6 +34,7 @@ from disc_model.disc.given import DiscReport
 from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.disc.plate import damping_ratios, mode_arrays
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
+from disc_model.display import number_text
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
@@ -228,7 +229,16 @@ def modes(p: Parameters, options: ModesOptions) -> None:
         "lambda (rad/s)": map("{:.3f}".format, at_rest),
         "f (Hz)": map("{:.3f}".format, at_rest / math.tau),
     }
-    table("Disc and slider at rest", columns, justify="right")
+    slider = f"(slider of {shown_value(p, 'm')} on {shown_value(p, 'k')})"
+    table(f"Disc and slider at rest\n{slider}", columns, justify="right")
+
+
+def shown_value(p: Parameters, name: str) -> str:
+    """A parameter of a case in its unit for readers."""
+    from disc_model.data.variables import SHOWN
+
+    shown = SHOWN[name]
+    return number_text(getattr(p, name) * shown.factor, shown.unit)
 
 
 def print_report(report: DiscReport) -> None:
