@@ -104,6 +104,17 @@ def test_a_state_survives_its_file_to_the_last_bit(tmp_path: Path) -> None:
         State.load(result_path)
 
 
+def test_a_window_knows_its_case_without_the_result(tmp_path: Path) -> None:
+    """A window in a file of its own had lost its load and speed."""
+    result = simulate(P, 0.05, WINDOWS)
+    result["late"].to_netcdf(tmp_path / "late.nc")
+    with xr.open_dataset(tmp_path / "late.nc") as late:
+        case = Parameters.model_validate_json(late.attrs["parameters"])
+    events = result.to_tree()["events"]
+    assert case == P
+    assert events.attrs["parameters"] == P.canonical_json
+
+
 def test_what_files_of_states_hold_has_units_and_meanings(tmp_path: Path) -> None:
     simulate(P, 0.05).save(tmp_path / "run.nc")
     run = xr.open_datatree(tmp_path / "run.nc")

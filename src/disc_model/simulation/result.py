@@ -160,8 +160,8 @@ class Result(Summarised, RunPictures, EqualByValue):
         return np.asarray(np.interp(np.asarray(seconds, dtype=float), knots, values))
 
     def __getitem__(self, name: str) -> xr.Dataset:
-        """The samples of a window along `time`, with units, by the window's name; raises
-        `ParameterError`."""
+        """The samples of a window along `time`, with units and the parameters of the case, by the
+        window's name; raises `ParameterError`."""
         from disc_model.data.columns import series_dataset
 
         if not isinstance(name, str) or name not in self.samples:
@@ -169,7 +169,9 @@ class Result(Summarised, RunPictures, EqualByValue):
                 Fault.of(("name",), name, f"no such window{suggestion(name, self.samples)}")
             )
         samples = series_dataset(self.samples[name], "time")
-        return samples.assign_attrs(theta=self.windows[name].theta, theta_units="rad")
+        case = self.parameters.canonical_json
+        angle = self.windows[name].theta
+        return samples.assign_attrs(parameters=case, theta=angle, theta_units="rad")
 
     def to_tree(self) -> xr.DataTree:
         """Return the result in the layout of files, with CF attributes; see
@@ -186,7 +188,9 @@ class Result(Summarised, RunPictures, EqualByValue):
         scalars.attrs["versions"] = self.versions
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
-        groups = {"/": scalars, "events": series_dataset(self._event_columns, "event")}
+        events = series_dataset(self._event_columns, "event")
+        events.attrs["parameters"] = self.parameters.canonical_json
+        groups = {"/": scalars, "events": events}
         for name in self.samples:
             groups[name] = self[name]
         return xr.DataTree.from_dict(groups)
