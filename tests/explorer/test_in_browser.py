@@ -207,6 +207,24 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
             assert not opened.run(hidden)
 
 
+def test_a_motion_is_shown_beyond_its_first_separation(tmp_path: Path) -> None:
+    """A motion that separates at 130 s had a call of 60 s, whose picture keeps contact."""
+    times = ("N", [130.01, 12.0, np.nan], {"units": "s"})
+    axes = {"N": [340.0, 360.0, 380.0]}
+    study = xr.Dataset({"first_separation": times}, axes, {"base": json.dumps({"Omega": 36})})
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("s", study)], []), encoding="utf-8")
+    calls = []
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        for i in range(3):
+            opened.run("choose({N: arguments[0]})", i)
+            calls.append(Explorer(opened).text("motion-call"))
+    ends = [call.split("), ")[1] for call in calls]
+    assert ends == ["150).plot()", "60).plot()", "60).plot()"]
+
+
 def view_call() -> dict[str, Any]:
     """A call of a study that gives all variables of `columns`."""
     return {"quantity": "floquet", "options": {}, "recipes": [], "begins": {}, "along": {}}
