@@ -85,6 +85,14 @@ const seen = {
   untitled: () => [...document.querySelectorAll("select")].filter(x => x.title !== x.selectedOptions[0].text).map(x => x.name),
   // The colour of a number on the bar's scale.
   colourOf: number => colouring([number], view.variable).colour(number),
+  // The words below the bar of growth rates, from left to right.
+  wordsOfBar(rates, scale) {
+    const words = [];
+    const ink = document.createElement("canvas").getContext("2d");
+    ink.fillText = (text, x) => text && words.push([x, text]);
+    colourBar(ink, { left: 0, right: 300, top: 0, bottom: 10 }, coloursOfRates(rates, scale), []);
+    return words.sort((a, b) => a[0] - b[0]).map(([, text]) => text);
+  },
   sizesOfType: of => [...document.querySelectorAll(of)]
     .filter(x => x.innerText).map(x => parseFloat(getComputedStyle(x).fontSize)),
 };

@@ -207,6 +207,45 @@ def test_a_point_without_a_cycle_shows_no_motion_of_others(tmp_path: Path) -> No
             assert not opened.run(hidden)
 
 
+def test_a_motion_is_shown_beyond_its_first_separation(tmp_path: Path) -> None:
+    """A motion that separates at 130 s had a call of 60 s, whose picture keeps contact."""
+    times = ("N", [130.01, 12.0, np.nan], {"units": "s"})
+    axes = {"N": [340.0, 360.0, 380.0]}
+    study = xr.Dataset({"first_separation": times}, axes, {"base": json.dumps({"Omega": 36})})
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", [contents_of("s", study)], []), encoding="utf-8")
+    calls = []
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        for i in range(3):
+            opened.run("choose({N: arguments[0]})", i)
+            calls.append(Explorer(opened).text("motion-call"))
+    ends = [call.split("), ")[1] for call in calls]
+    assert ends == ["150).plot()", "60).plot()", "60).plot()"]
+
+
+def test_bars_say_where_growth_rates_lie_beyond_them(tmp_path: Path) -> None:
+    """A rate of 44 1/s had the colour of 0.3 1/s, and the bar said nothing of it."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents(), []), encoding="utf-8")
+    scale = {"width": 0.01, "end": 0.3}
+    few = [-0.1, 0.0, 0.01, 0.02, 44.4]
+    # zeros of undamped modes by rounding, and rates of which most are large
+    most = [0.0] * 60 + [1e-12] * 60 + [*range(1, 101)]
+    own = "return scaleOfColours(...arguments)"
+    beyond = "return coloursOfRates(...arguments).beyond"
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        assert opened.run(own, few, scale) == scale, "that of the figures"
+        assert opened.run(own, most, scale)["end"] == 99
+        assert opened.run(beyond, few, scale) == ["", "≥ 0.3"]
+        assert opened.run(beyond, [-3.0, *few[:-1]], scale) == ["≤ −0.3", ""]
+        assert opened.run(beyond, most, scale) == ["", "≥ 99"]
+        assert Explorer(opened).ask("wordsOfBar", few, scale)[-1] == "≥ 0.3"
+
+
 def view_call() -> dict[str, Any]:
     """A call of a study that gives all variables of `columns`."""
     return {"quantity": "floquet", "options": {}, "recipes": [], "begins": {}, "along": {}}

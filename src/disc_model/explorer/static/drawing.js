@@ -86,11 +86,12 @@ function inkOn(colour) {
   return lightness < 0.5 ? "#ffffff" : "#000000";
 }
 
-/** Colours of numbers: `colour(x)`, and `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers. */
+/** Colours of numbers: `colour(x)`, `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers, and the words of its
+ * ends `beyond` which numbers lie. */
 function colouring(numbers, { scale, whole }) {
   const finite = numbers.filter(Number.isFinite).sort((a, b) => a - b);
   if (!finite.length) return null;
-  if (scale && view.colours === "auto") return asInFigures(scale);
+  if (scale && view.colours === "auto") return coloursOfRates(finite, scale);
   const [least, greatest] = [finite[0], finite[finite.length - 1]];
   const both = least < 0 && greatest > 0;
   const zero = both ? 0 : least;
@@ -106,6 +107,7 @@ function colouring(numbers, { scale, whole }) {
   const found = (at) => (size === 0 ? least : both ? back(2 * at - 1) : zero + back(at));
   return {
     map,
+    beyond: ["", ""],
     colour: (x) => colourAt(map, place(x)),
     ticks: (pixels) => {
       if (size === 0) return [[0.5, least]]; // one number alone
@@ -123,13 +125,26 @@ const wholeTicks = (least, greatest, pixels) =>
 
 const colourAt = (map, share) => map[Math.round(Math.min(1, Math.max(0, share)) * (map.length - 1))];
 
-/** Colours of growth rates on the scale of the figures, which ends at a rate of either sign. */
-function asInFigures({ width, end }) {
+/** Colours of growth rates in ascending order, on a scale that ends at a rate of either sign. */
+function coloursOfRates(rates, usual) {
+  const { width, end } = scaleOfColours(rates, usual);
   const map = contents.maps.diverging;
   const place = (x) => (1 + Math.asinh(x / width) / Math.asinh(end / width)) / 2;
   const largest = 10 ** Math.floor(log10(end));
-  const rates = [-largest, -largest / 10, 0, largest / 10, largest];
-  return { map, colour: (x) => colourAt(map, place(x)), ticks: () => rates.map((rate) => [place(rate), rate]) };
+  const marked = [-largest, -largest / 10, 0, largest / 10, largest];
+  const beyond = [rates[0] < -end ? `≤ ${number(-end, 3)}` : "", rates.at(-1) > end ? `≥ ${number(end, 3)}` : ""];
+  return { map, beyond, colour: (x) => colourAt(map, place(x)), ticks: () => marked.map((rate) => [place(rate), rate]) };
+}
+
+/** The scale that figures have for a variable; that of the rates of the map alone where most of them lie beyond it. */
+function scaleOfColours(rates, usual) {
+  const { rounding, common, linear_share, linear_of_median } = contents.rates;
+  // the zeros of undamped modes say nothing of the others
+  const sizes = rates.map(Math.abs).filter((size) => size > rounding).sort((a, b) => a - b);
+  const median = sizes[Math.floor(sizes.length / 2)] ?? 0;
+  if (median <= usual.end) return usual;
+  const end = sizes[Math.ceil(common * (sizes.length - 1))];
+  return { end, width: Math.min(linear_of_median * median, linear_share * end) };
 }
 
 // Canvas

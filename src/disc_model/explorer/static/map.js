@@ -126,6 +126,9 @@ function disc(ink, x, y, radius) {
   ink.lineWidth = 1;
 }
 
+/** The room that a text takes at an end of a bar, with a gap beside it. */
+const roomOf = (ink, text) => (text ? ink.measureText(text).width + 6 : 0);
+
 function colourBar(ink, box, colours, title) {
   const size = box.right - box.left;
   colours.map.forEach((colour, i) => {
@@ -135,9 +138,15 @@ function colourBar(ink, box, colours, title) {
   ink.fillStyle = style("--text");
   const ticks = colours.ticks(size);
   const digits = digitsOf(ticks.map(([, found]) => found));
+  const [below, above] = colours.beyond;
+  write(ink, below, box.left, box.bottom + 5, "left", "top");
+  write(ink, above, box.right, box.bottom + 5, "right", "top");
+  const [first, last] = [box.left + roomOf(ink, below), box.right - roomOf(ink, above)];
   for (const [share, found] of ticks) {
     const align = share === 0 ? "left" : share === 1 ? "right" : "center";
-    write(ink, number(found, digits), box.left + share * size, box.bottom + 5, align, "top");
+    const [text, x] = [number(found, digits), box.left + share * size];
+    const half = align === "center" ? ink.measureText(text).width / 2 : 0;
+    if (x - half >= first && x + half <= last) write(ink, text, x, box.bottom + 5, align, "top");
   }
   writeLines(ink, title, box.left, box.top - 4);
 }

@@ -217,14 +217,22 @@ const SIMULATED_FOR = 60; // s, as in the package's first examples
 
 const LONGEST_CASE = 120; // characters of a case that is written twice: a sample or a disc has more
 
+/** How long a simulation shows the motion of a point, s: beyond its first separation where the study has a later one. */
+function simulatedFor(study, place) {
+  const timed = study.variables.find((one) => one.name === "first_separation" && one.unit === "s");
+  const separates = timed ? value(study, timed, place) : NaN;
+  return separates > SIMULATED_FOR ? 10 * Math.ceil(separates / 10) + 10 : SIMULATED_FOR;
+}
+
 /** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
 function simulation(study, place, variable) {
   const scanned = scannedAt(study, place, variable);
   if (Object.keys(study.call.begins).some((name) => !(name in scanned))) return "";
-  if (startOf(study, place)) return `dm.simulate(case, ${SIMULATED_FOR}, initial_state=start).plot()`;
+  const time = simulatedFor(study, place);
+  if (startOf(study, place)) return `dm.simulate(case, ${time}, initial_state=start).plot()`;
   const written = caseOf(study, place, variable);
   const long = written.length > LONGEST_CASE && call(study, place, variable).startsWith("case = ");
-  return `dm.simulate(${long ? "case" : written}, ${SIMULATED_FOR}).plot()`;
+  return `dm.simulate(${long ? "case" : written}, ${time}).plot()`;
 }
 
 /** A stored number with the fewest digits that give it back. */

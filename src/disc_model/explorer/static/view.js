@@ -317,7 +317,7 @@ function fillControls() {
     boxes.push(
       choice(
         "Colours",
-        COLOURS.map(([key, text]) => [key, key === "auto" && view.variable.scale ? "as in the figures" : text]),
+        COLOURS.map(([key, text]) => [key, key === "auto" && view.variable.scale ? "usual for growth rates" : text]),
         view.colours,
         (name) => (view.colours = name),
       ),
