@@ -407,6 +407,7 @@ SHORTER_NAMES = [name.partition(",")[0] for name in LONG_NAMES]
         (LONG_NAMES, 3.5),  # beside letters of 6 points there is no more room
     ],
 )
+@pytest.mark.filterwarnings("ignore:the panel is")
 def test_a_legend_of_long_names_lies_on_a_page_of_84_by_51_mm(
     names: list[str], least: float, layout: Any
 ) -> None:

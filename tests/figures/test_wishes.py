@@ -319,6 +319,7 @@ QUICK = ("branch", "run", "words")
     "name",
     [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in DRAWN],
 )
+@pytest.mark.filterwarnings("ignore:the panel is")
 def test_small_panels_keep_their_width_beside_their_legends(name: str) -> None:
     """A legend wider than a panel of 40 mm squeezed it to nothing, and ran into the next one."""
     with mpl.rc_context({"font.size": 7}):
@@ -431,6 +432,7 @@ def test_a_panel_beside_a_bar_has_eight_millimetres_at_least() -> None:
         check_room(narrow)
 
 
+@pytest.mark.filterwarnings("ignore:the panel is")
 def test_panels_of_a_row_are_stacked_where_they_are_alone_in_a_narrow_figure() -> None:
     size = (COLUMN, 60 / 25.4)
     windows = {"turns": dm.Poincare(start=0.5), "late": dm.Window(last=0.5, rate=1e4)}
@@ -632,6 +634,7 @@ def test_a_long_title_of_a_new_figure_stays_on_the_page() -> None:
     assert box.x1 <= figure.bbox.x1
 
 
+@pytest.mark.filterwarnings("ignore:the panel is")
 def test_pictures_leave_the_title_of_a_plain_figure_its_room() -> None:
     """It met the label of a low panel."""
     figure, ax = pyplot.subplots(figsize=(3.31, 1.8))

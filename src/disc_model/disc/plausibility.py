@@ -149,13 +149,18 @@ def _in_usual_unit(value: float, unit: str) -> str:
 
 
 def _warn(text: str) -> None:
+    """Warn of an implausible value."""
+    warn_reader(text, ImplausibleValue)
+
+
+def warn_reader(text: str, category: type[Warning]) -> None:
     """Warn at the line of the reader that called this package, however far above it is."""
     level = 1
     frame: FrameType | None = sys._getframe()
     while frame is not None and frame.f_globals.get("__name__", "").partition(".")[0] in INNER:
         frame = frame.f_back
         level += 1
-    warnings.warn(text, ImplausibleValue, stacklevel=level)
+    warnings.warn(text, category, stacklevel=level)
 
 
 def _value(p: Parameters, name: str) -> str:

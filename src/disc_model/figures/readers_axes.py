@@ -13,6 +13,7 @@ from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
 from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.shared_labels import clear_repeated
+from disc_model.figures.small_panels import remember_sides, warn_of_small_panels
 from disc_model.figures.style import readers_style
 
 
@@ -29,6 +30,7 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
     page = Page(given_axes(wishes.ax, count), own=False, asked=asked, case=case)
     if stacked:
         stack_narrow(page.axes, stacked)
+    remember_sides(page.axes)
     figure: Any = page.ax.get_figure(root=True)
     before = set(figure.axes)
     # what is added to a figure of this package has its style
@@ -46,6 +48,7 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
             set_upright(figure.findobj(Text))
         else:
             set_own_upright(figure)
+    warn_of_small_panels(figure)
 
 
 def _finish(page: Page, wishes: Wishes) -> None:
