@@ -125,7 +125,6 @@ class Branch:
     parameters : names of the free parameters
     values : shape (n_points, n_parameters), in SI units
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
-    stable : bool, (n_points,), whether the cycle is stable
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
     separations : int, (n_points,), number of separations in a period
