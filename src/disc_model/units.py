@@ -73,9 +73,9 @@ class Unit:
 
 UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `disc_model.parameters`
 
-_WITH_UNIT = re.compile(
-    r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+)\s*((?:1/)?[A-Za-zµΩ°%].*)"
-)
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+"
+"""A number in a text; its exponent is not taken for a unit."""
+_WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _POWER = r"[A-Za-zµΩ°%]+(?:\*\*-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
 """A product of units to small powers; longer expressions could take arbitrarily long to evaluate."""
@@ -112,9 +112,8 @@ def _plain_unit(text: str) -> str:
 
 def _converted(magnitude: float, text: str, unit: str) -> float:
     """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
-    or of Python's tokenizer, which have no common base. The same unit may have a root, such as that of
-    amplitudes, kg^-1/2."""
-    if text.strip() == unit:
+    or of Python's tokenizer, which have no common base."""
+    if text.strip() == unit:  # needs no parser, whose import takes a second
         return magnitude
     text = _plain_unit(text)
     target = "" if unit == "1" else unit

@@ -5,17 +5,17 @@ from typing import Any
 
 from disc_model.disc.files.heads import read_head
 from disc_model.errors import Fault, ParameterError
+from disc_model.modal_disc import UNCERTAIN
+from disc_model.units import NUMBER
 
-COLUMNS = ("omega", "amplitude", "damping_ratio", "tangential")
-"""Numbers that each mode has, with which their names begin."""
 _OF_A_MODE = re.compile(r"(.*)_\d+_\d+")
-_WITH_UNIT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\S.*)?")
+_WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*(\S.*)?")
 
 
 def column_of(name: Any) -> str:
     """What a name such as omega_2_0 is of a mode: omega; "" if it is no such name."""
     match = _OF_A_MODE.fullmatch(name) if isinstance(name, str) else None
-    return match[1] if match and match[1] in COLUMNS else ""
+    return match[1] if match and match[1] in UNCERTAIN else ""
 
 
 def mode_number_in_si(name: str, value: Any, faults: list[Fault]) -> Any:

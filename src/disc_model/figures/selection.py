@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
-from disc_model.data.variables import EXCLUDED, flag_names, stated_in
+from disc_model.data.variables import EXCLUDED, Outcome, flag_names, stated_in
 from disc_model.figures.classes import (
     NOT_CONVERGED,
     NOT_NEAR,
@@ -42,8 +42,6 @@ WITHOUT_CYCLE = (
 """Statuses of points that were computed, and have no stick-slip cycle."""
 ROUNDING = 1e-9
 """Relative difference of equal speeds in files."""
-UNDECIDED = "undecided"
-"""Outcome of starts that are followed to the horizon, and of which it is not known what they come to."""
 NOT_SIMULATED = "not_simulated"
 """Outcome of a sample whose motion was not simulated."""
 OF_STAYS = (
@@ -324,7 +322,7 @@ def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
         here = gone & (words == word)
         if word == EXCLUDED or not here.any():
             continue
-        name = name_of(word if word == UNDECIDED else class_of_gap(word))
+        name = name_of(word if word == Outcome.UNDECIDED else class_of_gap(word))
         masks[name] = here | masks.get(name, False)
     return masks
 

@@ -1,12 +1,11 @@
 """A warning of panels on a reader's figure that labels, legends and strips leave no room."""
 
-import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
 from disc_model.disc.plausibility import warn_reader
-from disc_model.figures.places import set_places
+from disc_model.figures.places import collapses
 from disc_model.figures.sizes import INCH
 from disc_model.figures.types import Axes
 
@@ -38,20 +37,13 @@ def warn_of_small_panels(figure: Any) -> None:
     """Warn, once for a figure, if what stands around a panel has left it too small to be read."""
     if figure in _WARNED:
         return
-    collapses = _collapses(figure)
-    shortages = ["0 mm high or wide"] if collapses else [_shortage(ax) for ax in figure.axes]
+    shortages = ["0 mm high or wide"]
+    if not collapses(figure):
+        shortages = [_shortage(ax) for ax in figure.axes]
     shortage = next(filter(None, shortages), "")
     if shortage:
         _WARNED.add(figure)
         warn_reader(f"the panel is {shortage}: {REASON}; {ADVICE}", UserWarning)
-
-
-def _collapses(figure: Any) -> bool:
-    """Whether the layout of a figure gives up, since nothing would be left of a panel."""
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        set_places(figure)
-    return any("collapsed to zero" in str(each.message) for each in caught)
 
 
 def _shortage(ax: Axes) -> str:

@@ -426,11 +426,11 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
 
 def _none_swept_over(study: xr.Dataset) -> str:
     """What is said where no speed of a sweep is one at which separation begins or ends."""
-    steps = _steps_of(study, "sweep_Omega")
     if "sweep_Omega" not in study.coords:
         return NOT_SWEPT_OVER
     speeds = study["sweep_Omega"].values
-    return f"none found from {speeds.min():g} to {speeds.max():g} rad/s{steps}"
+    found = f"none found from {speeds.min():g} to {speeds.max():g} rad/s"
+    return found + _steps_of(study, "sweep_Omega")
 
 
 def _without_in_ramps(study: xr.Dataset, reason: str) -> str:

@@ -18,8 +18,8 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
 from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import find_cycle
-from disc_model.stability.floquet import cycle_near_start
+from disc_model.stability.cycle import FloquetResult, find_cycle
+from disc_model.stability.floquet import beside_motion
 from disc_model.stability.sliding import steady_sliding
 
 MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
@@ -62,17 +62,22 @@ class Prediction:
         """The stick-slip cycle near the static start. Raises `Unpredicted` without one."""
         if is_rigid(self.case):
             return block_cycle(self.case)
-        with compiling():
-            found = find_cycle(self.case, TOLERANCE)
+        found = self._found
         if math.isnan(found.period):
             raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
 
     @cached_property
+    def _found(self) -> FloquetResult:
+        """What the search for the cycle near the static start has found."""
+        with compiling():
+            return find_cycle(self.case, TOLERANCE)
+
+    @cached_property
     def near_motion(self) -> bool | None:
         """Whether the motion from the static start may be near that cycle, as of `floquet`."""
         with compiling():
-            return cycle_near_start(self.case, TOLERANCE).near_motion
+            return beside_motion(self._found).near_motion
 
     @cached_property
     def sliding(self) -> complex:

@@ -108,9 +108,9 @@ class Search:
         it has ended at one then."""
         low, high = self._scaled(limits)
         for _ in range(ROUNDS):
-            free = free_of_limits(end, low, high)
             if self.fall(end, limits) <= SMALL:
                 return end, True
+            free = free_of_limits(end, low, high)
             x = lower_point(end, free, low, high, self.deviations)
             if x is None:
                 return end, True

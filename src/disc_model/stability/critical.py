@@ -16,7 +16,6 @@ from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
 from disc_model.stability.floquet import beside_motion
 from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
-from disc_model.stability.return_map import ReturnMap
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -177,6 +176,4 @@ def _compared_with_motion(scan: Scan, value: float) -> FloquetResult | None:
     """The cycle of a scan at a value, and whether the motion from the static start is near it; None without
     a cycle."""
     cycle = scan.motions.get(value)
-    if not isinstance(cycle, FloquetResult) or cycle.state is None:
-        return None
-    return beside_motion(cycle, ReturnMap(cycle.parameters, cycle.tol))
+    return beside_motion(cycle) if isinstance(cycle, FloquetResult) else None

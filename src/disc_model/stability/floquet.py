@@ -122,12 +122,16 @@ def search_near_start(case: Parameters, tol: float) -> Search:
     return Search(beside_motion(cycle_from_rest(map_), map_), map_)
 
 
-def beside_motion(cycle: FloquetResult, map_: ReturnMap) -> FloquetResult:
-    """The result of the search near the static start, by the return map of its case. The message of an
-    unstable cycle says so if the motion from there is near another one, or cannot be near this one any
-    more."""
+def beside_motion(cycle: FloquetResult, map_: ReturnMap | None = None) -> FloquetResult:
+    """The result of the search near the static start. The message of an unstable cycle says so if the
+    motion from there is near another one, or cannot be near this one any more.
+
+    map_ : the return map of its case, if there is one already
+    """
     if cycle.state is None or cycle.stable or cycle.releases > 1:
         return cycle
+    if map_ is None:
+        map_ = ReturnMap(cycle.parameters, cycle.tol)
     start = map_.first_release
     near = replace(cycle, near_motion=True)
     if not start.reached:

@@ -153,7 +153,7 @@ def coordinates_of(
 
 def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Variable]) -> str:
     """A message that also says of which values a row has more than its dimensions have room for."""
-    cuts = [message.removesuffix(".")] if message else []
+    cuts = []
     for dim, coordinate in computed.COORDINATES.items():
         room = coords[dim].size
         found = _number_found(row, computed.COLUMNS, dim)
@@ -161,7 +161,9 @@ def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Var
             continue
         advice = f": raise {coordinate.room}" if coordinate.room else ""
         cuts.append(f"{found} were found along {dim}, which has room for {room}{advice}")
-    return "; ".join(cuts) if len(cuts) > 1 or not message else message
+    if not cuts:
+        return message
+    return "; ".join(filter(None, [message.removesuffix("."), *cuts]))
 
 
 def _number_found(row: Row, columns: Mapping[str, Variable], dim: str) -> int:

@@ -11,7 +11,7 @@ import re
 from typing import NamedTuple
 
 from disc_model.errors import Fault, ParameterError, suggestion
-from disc_model.units import in_si
+from disc_model.units import NUMBER, in_si
 
 COLUMNS = {
     "diameters": ("diameters", 1.0),
@@ -82,7 +82,7 @@ _SHAPE_AT = re.compile(r"shape[ _]+at[ _]+(\d*\.?\d+(?:e-?\d+)?)[ _]*([a-zµμ]*
 _BRACKETS = re.compile(r"(.*?)\s*(?:\((.*)\)|\[(.*)\])")
 _WORD_IN = re.compile(r"(.*?)\s+in\s+(\S.*)")
 _ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?\.5)\)?")
-_CELL = re.compile(r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([%A-Za-zµ].*)")
+_CELL = re.compile(rf"({NUMBER})\s*([%A-Za-zµ].*)")
 _PER_METRE = {"m": 1.0, "mm": 1e3, "cm": 1e2}
 
 
