@@ -280,8 +280,9 @@ class Sparing(Formatter):
         self.hidden: list[float] = []
 
     def __call__(self, x: float, pos: int | None = None) -> str:
-        hidden = np.isclose(x, self.hidden, rtol=1e-9, atol=0).any()
-        return "" if hidden else self.all_of_them(x, pos)
+        if self.hidden and np.isclose(x, self.hidden, rtol=1e-9, atol=0).any():
+            return ""
+        return self.all_of_them(x, pos)
 
     def set_axis(self, axis: Any) -> None:
         super().set_axis(axis)

@@ -1,6 +1,8 @@
 """Places of axes on their page, without a picture of all that is on it, which takes longer."""
 
 import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 
@@ -9,7 +11,8 @@ def set_places(figure: Any) -> None:
     page = figure.get_figure(root=True)
     engine = page.get_layout_engine()
     if engine is not None:
-        engine.execute(page)
+        with _ticks_once(page):
+            engine.execute(page)
     for ax in page.axes:
         locate = ax.get_axes_locator()
         ax.apply_aspect(locate(ax, None) if locate else None)
@@ -22,3 +25,36 @@ def collapses(figure: Any) -> bool:
         warnings.simplefilter("always")
         set_places(figure)
     return any("collapsed to zero" in str(each.message) for each in caught)
+
+
+@contextmanager
+def _ticks_once(page: Any) -> Iterator[None]:
+    """Set ticks once for each size and range of an axis.
+
+    A layout asks each axis for its ticks some ten times: for its numbers, for its title, and for each
+    of the four lines around it.
+    """
+    all_of_them = [axis for ax in page.axes for axis in (ax.xaxis, ax.yaxis)]
+    for axis in all_of_them:
+        axis._update_ticks = _kept_ticks(axis)
+    try:
+        yield
+    finally:
+        for axis in all_of_them:
+            del axis._update_ticks
+
+
+def _kept_ticks(axis: Any) -> Callable[[], list[Any]]:
+    """What sets the ticks of an axis and returns those that are drawn, unless its size and range are
+    those of the last time."""
+    update = axis._update_ticks
+    shown: dict[tuple[float, ...], list[Any]] = {}
+
+    def kept() -> list[Any]:
+        size = (*axis.axes.bbox.size, *axis.get_view_interval())
+        if size not in shown:
+            shown.clear()
+            shown[size] = update()
+        return shown[size]
+
+    return kept
