@@ -119,11 +119,11 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
         return None
     page: Any = ax.get_figure(root=True)
     legend: Legend = None
+    set_places(page)  # in which the legend has no part
     for size in ({}, small()):
         legend = draw_legend(ax, entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
-        set_places(page)  # sets the places
         for place in _places_inside(ax):
             legend.set_loc(place)
             if not covers(legend, ax):
