@@ -4,7 +4,6 @@ import warnings
 from typing import Any
 from weakref import WeakSet
 
-
 _COLLAPSED: WeakSet[Any] = WeakSet()
 """Pages whose layout gave up when places were set last."""
 
