@@ -13,6 +13,11 @@ from tests.figures.reading import labels
 LOADS = [200.0, 385.0, 600.0]  # N
 
 
+def load_of(case: dm.Parameters) -> dict[str, float]:
+    """A result of its own."""
+    return {"size": case.N}
+
+
 @pytest.fixture(autouse=True)
 def _closed() -> object:
     yield
@@ -23,9 +28,8 @@ def _closed() -> object:
 def test_a_missing_word_along_an_axis_is_named(nothing: Any) -> None:
     """Its place had no word, or "nan"."""
     words = np.array(["a", nothing, "c"], dtype=object)
-    coordinates = {"N": LOADS, "word": ("N", words)}
-    sizes = xr.DataArray([1.0, 2.0, 3.0], coordinates, "N", name="size")
-    ax = dm.plot_sweep(sizes.to_dataset(), "size", x="word")
+    sizes = dm.sweep(load_of, dm.Parameters(N=385, Omega=15), N=LOADS)
+    ax = dm.plot_sweep(sizes.assign_coords(word=("N", words)), "size", x="word")
     ax.figure.canvas.draw()
     assert [text.get_text() for text in ax.get_xticklabels()] == ["a", "missing", "c"]
 

@@ -37,12 +37,14 @@ class Rows:
     """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
 
     reason : the words without the name of the sweep whose points they are
+    said : the words with this name, in one line
     sweep : the number of this sweep, if others have rows of the same looks
     """
 
     words: Text
     strip: Rectangle
     reason: str
+    said: str
     sweep: int | None = None
     rows: list[Any] = field(default_factory=list)
 
@@ -81,7 +83,7 @@ def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **lo
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[key] = Rows(words, strip, reason, sweep)
+        reasons[key] = Rows(words, strip, reason, reason, sweep)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
@@ -109,12 +111,15 @@ def add_column(ax: Axes, heights: Array, **look: Any) -> None:
 
 
 def silence_rows(ax: Axes) -> None:
-    """Take the words of rows away, which keep their marks."""
-    found = rows_above(ax)
-    for each in found:
+    """Take the words of rows away, which keep their marks; strips have them as labels for a legend of the
+    reader."""
+    host = _host_of(ax)
+    found = rows_above(host)
+    for number, each in enumerate(found, start=1):
+        strip = f"strip {number}" if len(found) > 1 else "strip"
+        each.strip.set_label(f"{strip} above: {each.said}")
         each.words.set_text("")
-    if found:
-        stack_rows(ax)
+    stack_rows(host)
 
 
 def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
@@ -122,7 +127,8 @@ def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
     host = _host_of(ax)
     for each in rows_above(host):
         if each.sweep is not None and each.sweep in names:
-            each.words.set_text(f"{each.reason}, {names[each.sweep]}")
+            each.said = f"{each.reason}, {names[each.sweep]}"
+            each.words.set_text(each.said)
     stack_rows(host)
 
 
