@@ -113,12 +113,12 @@ def plot_sweep(  # noqa: PLR0913
     >>> [text.get_text() for text in ax.figure.legends[0].get_texts()]
     ['Preload N = 300 N', '400 N']
 
-    A legend of your own for several panels, which names what each picture shows:
+    A legend of your own, which may be that of several panels:
 
     >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N", legend=False)
     >>> legend = ax.figure.legend(loc="outside lower center", ncols=2)
     >>> [text.get_text() for text in legend.get_texts()]
-    ['Preload N = 300 N', '400 N']
+    ['Preload N = 300 N', '400 N', 'strip above: no cycle found']
     """
     looks = {"lines": lines, "points": points, "log": log, "cmap": cmap, "limits": limits}
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
