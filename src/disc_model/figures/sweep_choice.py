@@ -326,8 +326,8 @@ def _with_words(study: xr.Dataset) -> xr.Dataset:
             words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
             named[name] = (values.dims, words, values.attrs)
         elif values.ndim == 1 and _lacks_words(values):
-            words = np.where(flag_names(values) == "", MISSING, flag_names(values))
-            named[name] = (values.dims, words, values.attrs)
+            known = np.where(flag_names(values) == "", MISSING, flag_names(values))
+            named[name] = (values.dims, known, values.attrs)
     return study.assign_coords(named)
 
 
