@@ -204,7 +204,7 @@ def test_speeds_that_rest_on_motions_which_had_not_settled_are_filled() -> None:
     sweep = sweep.assign(separation_rate=(dims, rates), sweep_settled=(dims, settled.astype(str)))
     ax = pyplot.figure().subplots()
     swept_speeds.draw_sweeps(ax, sweep, None, None)
-    assert "not settled" in lines(ax)
+    assert "filled: not settled" in lines(ax)
     filled = [line for line in ax.lines if line.get_markerfacecolor() == line.get_color()]
     found = [
         (line.get_marker(), *line.get_xydata().ravel()) for line in filled if line.get_xdata().size
@@ -214,7 +214,7 @@ def test_speeds_that_rest_on_motions_which_had_not_settled_are_filled() -> None:
     longer = sweep.assign(sweep_settled=(dims, np.full(rates.shape, "settled")))
     ax = pyplot.figure().subplots()
     swept_speeds.draw_sweeps(ax, longer, None, None)
-    assert "not settled" not in lines(ax)
+    assert "filled: not settled" not in lines(ax)
 
 
 def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:

@@ -12,11 +12,14 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.data.variables import attributes
-from disc_model.figures.sizes import PAGE
+from disc_model.figures.drawing import large
+from disc_model.figures.gap_rows import rows_above
+from disc_model.figures.sizes import COLUMN, INCH, PAGE
 
 SPEEDS = np.linspace(10.0, 30.0, 21)  # rad/s
 LOADS = [200.0, 385.0, 600.0]  # N
-STATUS = {"flag_values": np.arange(2, dtype=np.int8), "flag_meanings": "ok no_cycle"}
+WORDS = "ok no_cycle separates failed"
+STATUS = {"flag_values": np.arange(4, dtype=np.int8), "flag_meanings": WORDS}
 PLANE = ("Omega", "N")
 
 
@@ -38,6 +41,17 @@ def shares(k_p: float) -> xr.Dataset:
         {"Omega": (PLANE[0], SPEEDS, attributes("Omega")), "N": ("N", LOADS, attributes("N"))},
         {"quantity": "floquet", "base": json.dumps({"k_p": k_p})},
     )
+
+
+def crowded(k_p: float) -> xr.Dataset:
+    """Shares with three reasons why points of each of three lines have none."""
+    study = shares(k_p).copy(deep=True)
+    study["status"][4] = 1
+    study["status"][8] = 2
+    study["status"][12] = 3
+    study["stick_fraction"][4] = np.nan
+    study["stick_fraction"][[8, 12]] = np.nan
+    return study
 
 
 def draw(height: float, layout: Any, **wishes: Any) -> list[str]:
@@ -71,3 +85,37 @@ def test_a_panel_that_is_small_from_the_beginning_is_its_readers_wish() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         dm.plot_sweep(shares(2e4), ax=small, lines="N", legend=False)
+
+
+@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize(("width", "columns"), [(COLUMN, 1), (PAGE, 2)])
+def test_panels_below_strips_of_three_lines_keep_25_mm(
+    width: float, columns: int, layout: Any
+) -> None:
+    """They were 14 mm high."""
+    figure, panels = pyplot.subplots(
+        1, columns, figsize=(width, 60 / INCH), layout=layout, squeeze=False
+    )
+    for ax, k_p in zip(panels.flat, (2e4, 1.5e4), strict=False):
+        dm.plot_sweep(crowded(k_p), ax=ax, lines="N")
+    figure.canvas.draw()
+    for ax in panels.flat:
+        assert ax.bbox.height > 25 / INCH * figure.dpi
+        assert len(rows_above(ax)) == 3
+        assert ax.get_tightbbox().y1 <= figure.bbox.y1
+
+
+def test_strips_keep_their_size_where_they_have_room() -> None:
+    _, ax = pyplot.subplots(figsize=(PAGE, 5.0), layout="constrained")
+    dm.plot_sweep(crowded(2e4), ax=ax, lines="N")
+    assert {row.words.get_fontsize() for row in rows_above(ax)} == {large(7)}
+
+
+def test_strips_have_their_usual_size_again_after_a_panel_was_cleared() -> None:
+    figure, ax = pyplot.subplots(figsize=(PAGE, 2.0), layout="constrained")
+    dm.plot_sweep(crowded(2e4), ax=ax, lines="N")
+    assert {row.words.get_fontsize() for row in rows_above(ax)} == {6.0}
+    ax.clear()
+    figure.set_figheight(5.0)
+    dm.plot_sweep(crowded(2e4), ax=ax, lines="N")
+    assert {row.words.get_fontsize() for row in rows_above(ax)} == {large(7)}

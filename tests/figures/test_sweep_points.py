@@ -213,4 +213,4 @@ def test_a_selected_sample_of_a_motion_that_had_not_settled_is_named_so() -> Non
     study = sections().assign_attrs(quantity="bifurcation")
     first_samples = study.isel(sample=0)
     ax = dm.plot_sweep(first_samples, "psi")
-    assert "not settled" in labels(ax.figure)
+    assert "filled: not settled" in labels(ax.figure)

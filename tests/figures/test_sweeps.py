@@ -724,11 +724,11 @@ def test_points_that_rest_on_motions_which_had_not_settled_are_filled(longer: bo
     sweep = settling(longer=longer)
     ax = as_map(sweep.sel(N=300), "range")
     assert filled_points(ax) == ([] if longer else [(12.0, 0.1)])
-    assert (words in labels(ax.figure)) == (not longer)
+    assert (f"filled: {words}" in labels(ax.figure)) == (not longer)
 
     axes = as_map(sweep, ["onset_speed", "offset_speed"])
     assert filled_points(axes) == ([] if longer else [(300.0, 14.0)])
-    assert (words in labels(axes.figure)) == (not longer)
+    assert (f"filled: {words}" in labels(axes.figure)) == (not longer)
     said = said_above(axes)
     assert any(words in each for each in said) == (not longer), "nor may that there is none"
 
@@ -807,12 +807,12 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
         filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
         places = [[*line.get_xdata()] for line in filled if line.get_marker() in MARKS]
         assert places == [[], [7.35]], "the first is the legend's"
-        assert labels(ax.figure) == [words]
+        assert labels(ax.figure) == [f"filled: {words}"]
         steps = [place for rows in rows_above(ax) for row in rows.rows for place in row.get_xdata()]
         assert steps == pytest.approx([7.325, 7.375])  # to rounding
-        assert words not in labels(dm.plot_sweep(found.sel(N=370), variable).figure)
-        plane = dm.plot_sweep(found, variable)
-        assert words in labels(plane.figure)
+        assert not labels(dm.plot_sweep(found.sel(N=370), variable).figure)
+        lines = dm.plot_sweep(found, variable)
+        assert f"filled: {words}" in labels(lines.figure)
         pyplot.close("all")
 
 

@@ -102,7 +102,7 @@ def test_largest_exponents_have_their_errors_and_marks_of_those_not_converged(
     np.testing.assert_allclose(high, np.add(LARGEST, ERRORS_OF_LARGEST))
     assert ax.get_ylabel() == "Largest Lyapunov exponent (1/s)"
     assert filled_on(ax) == [12.0]
-    assert labels(ax.figure) == ["± standard error", "not converged"]
+    assert labels(ax.figure) == ["± standard error", "filled: not converged"]
 
 
 def test_an_exponent_that_is_selected_is_drawn() -> None:
@@ -154,3 +154,12 @@ def test_what_is_true_is_drawn_unasked() -> None:
     ax = plot_sweep(study)
     ticks = ax.get_yticklabels()
     assert [tick.get_text() for tick in ticks] == ["no", "yes"]
+
+
+def test_a_legend_says_that_marks_are_filled_where_all_are() -> None:
+    """A filled mark told nothing among filled ones."""
+    study = swept()
+    study["converged"] = study["converged"] < 0
+    ax = dm.plot_sweep(study)
+    assert len(filled_on(ax)) == study.sizes["Omega"]
+    assert labels(ax.figure)[-1] == "filled: not converged"

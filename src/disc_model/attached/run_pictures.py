@@ -51,7 +51,8 @@ def plot(
     ax : axes to draw on, one for each variable and column; settings of matplotlib (rcParams)
         hold there, and in a new figure those that are not the usual ones. Axes with another quantity
         or unit of a picture of this package are refused; labels that you have set yourself stay
-    legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``
+    legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``. Without one, all entries
+        are those of ``ax.get_legend_handles_labels()``, so that ``ax.legend()`` and ``figure.legend()`` write them
     labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
         the usual ones; by "case" the name of the run among several, otherwise what differs between them
     title : another title; "" or False for none; True for the values of the case also above axes of your own

@@ -12,6 +12,9 @@ from disc_model.figures.words import head_text
 
 MOST_LINES = 3  # of values of a case above a picture
 SIZE = 8.0  # points
+FEW_LINES = 2  # above a reader's axes, more than which are in smaller letters
+SMALLER = 0.75  # of the usual size,
+LEAST_SIZE = 6.0  # and their least size, points
 
 _WRITTEN: WeakKeyDictionary[Axes, str] = WeakKeyDictionary()
 """What was written above axes, in one line."""
@@ -24,14 +27,25 @@ def title_text(width: float, said: str, asked: str | bool | None = None) -> str:
 
 
 def write_case(ax: Axes, said: str, note: str = "") -> None:
-    """Write the values of a case above axes, in lines that fit their width, and a note below them."""
+    """Write the values of a case above axes, in lines that fit their width, and a note below them; in smaller
+    letters where they would be many lines."""
+    size = large(SIZE)
+    text = _case_text(ax, said, note, size)
+    if text.count("\n") >= FEW_LINES:
+        size = min(size, max(SMALLER * size, LEAST_SIZE))
+        text = _case_text(ax, said, note, size)
+    ax.set_title(text, loc="left", fontsize=size)
+    _WRITTEN[ax] = in_a_row(ax.get_title(loc="left"))
+
+
+def _case_text(ax: Axes, said: str, note: str, size: float) -> str:
+    """The values of a case, and a note, in lines of letters of a size in points that fit the width of axes."""
     figure: Any = ax.get_figure(root=True)
-    width = ax.get_window_extent().width / figure.dpi * SIZE / large(SIZE)
+    width = ax.get_window_extent().width / figure.dpi * SIZE / size
     lines = [title_text(width, said)]
     if note != said:
         lines.append(head_text(width, note, ""))
-    ax.set_title("\n".join(filter(None, lines)), loc="left", fontsize=large(SIZE))
-    _WRITTEN[ax] = in_a_row(ax.get_title(loc="left"))
+    return "\n".join(filter(None, lines))
 
 
 def rewrite_case(ax: Axes, said: str) -> None:

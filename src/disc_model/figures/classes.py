@@ -54,6 +54,8 @@ NOT_CONVERGED = Look("not converged", "none", 4 * "\\")
 """Of an average over a time that was too short for it."""
 DOUBTS = (UNSETTLED, NOT_NEAR, UNKNOWN_STARTS, NOT_CONVERGED)
 """Marks of values that may be others than those of all motions, once they have settled."""
+FILLED_MARK = "filled: {}"
+"""What legends of marks say of one in doubt, where all others are open."""
 NO_VALUE = Look("no value", "#ffffff", 3 * "/")
 """Of points of a numeric variable that were computed, and have no number."""
 

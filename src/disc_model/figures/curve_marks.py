@@ -10,7 +10,7 @@ from cmcrameri import cm
 
 from disc_model.figures.arrows import draw_arrows, has_arrows
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.classes import UNSETTLED, name_of
+from disc_model.figures.classes import FILLED_MARK, UNSETTLED, name_of
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
@@ -153,8 +153,9 @@ def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, look
         if not (doubtful & array.notnull()).any():
             continue
         look: dict[str, Any] = {"linestyle": "", "markersize": mark(4)}
-        if reason.label not in ax.get_legend_handles_labels()[1]:
-            ax.plot([], [], color=GREY, marker="o", label=reason.label, **look)
+        words = FILLED_MARK.format(reason.label)
+        if words not in ax.get_legend_handles_labels()[1]:
+            ax.plot([], [], color=GREY, marker="o", label=words, **look)
         for part, chosen in zip(parts_along(array, by), parts_along(doubtful, by), strict=True):
             here = chosen.data.values & np.isfinite(part.data.values)
             if here.any():

@@ -3,8 +3,8 @@ value, and why these have none."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
-from weakref import WeakKeyDictionary
+from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary, WeakSet
 
 import numpy as np
 from matplotlib.patches import Rectangle
@@ -23,6 +23,12 @@ STRIP = "#e6e6e6"  # behind rows, so that nobody takes their marks for values
 MOST = 0.15  # height of all rows above a panel, over that of the page: more of them are nearer
 TEXT = 7.0  # points, size of the words
 LINE = 1.25  # height of one of their lines, over this size
+SHARE = (
+    0.3  # height of all strips and words, over that of a row of panels: more of them are smaller,
+)
+SMALL_TEXT = 6.0  # points, with words of this size at most,
+SMALL_APART = 3.2  # points, a height of a row,
+SMALL_BETWEEN = 1.0  # and a gap between words and the next row
 TITLE = 6.0  # points, distance of a title from what stands above a panel
 
 
@@ -31,20 +37,31 @@ class Rows:
     """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
 
     reason : the words without the name of the sweep whose points they are
+    said : the words with this name, in one line
     sweep : the number of this sweep, if others have rows of the same looks
     """
 
     words: Text
     strip: Rectangle
     reason: str
+    said: str
     sweep: int | None = None
     rows: list[Any] = field(default_factory=list)
 
 
 _ROWS: WeakKeyDictionary[Axes, dict[tuple[str, int | None], Rows]] = WeakKeyDictionary()
 """The rows above panels, by their reasons and sweeps, in their order."""
+_MAY_BE_SMALL: WeakSet[Axes] = WeakSet()
+"""The panels of readers, above which rows and words are smaller if there are many,"""
+_SMALL: WeakSet[Axes] = WeakSet()
+"""and those above which they are."""
 _HEIGHTS: WeakKeyDictionary[Axes, float] = WeakKeyDictionary()
 """The heights of titles above panels with such rows, points."""
+
+
+def allow_small_rows(axes: Sequence[Axes]) -> None:
+    """Let rows above axes be smaller where they would take much of the page."""
+    _MAY_BE_SMALL.update(axes)
 
 
 def rows_above(ax: Axes) -> list[Rows]:
@@ -59,13 +76,14 @@ def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **lo
     ax = _host_of(ax)
     if not rows_above(ax):
         _ROWS[ax] = {}
+        _SMALL.discard(ax)
     reasons = _ROWS[ax]
     key = (reason, sweep)
     if key not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[key] = Rows(words, strip, reason, sweep)
+        reasons[key] = Rows(words, strip, reason, reason, sweep)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
@@ -93,12 +111,15 @@ def add_column(ax: Axes, heights: Array, **look: Any) -> None:
 
 
 def silence_rows(ax: Axes) -> None:
-    """Take the words of rows away, which keep their marks."""
-    found = rows_above(ax)
-    for each in found:
+    """Take the words of rows away, which keep their marks; strips have them as labels for a legend of the
+    reader."""
+    host = _host_of(ax)
+    found = rows_above(host)
+    for number, each in enumerate(found, start=1):
+        strip = f"strip {number}" if len(found) > 1 else "strip"
+        each.strip.set_label(f"{strip} above: {each.said}")
         each.words.set_text("")
-    if found:
-        stack_rows(ax)
+    stack_rows(host)
 
 
 def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
@@ -106,7 +127,8 @@ def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
     host = _host_of(ax)
     for each in rows_above(host):
         if each.sweep is not None and each.sweep in names:
-            each.words.set_text(f"{each.reason}, {names[each.sweep]}")
+            each.said = f"{each.reason}, {names[each.sweep]}"
+            each.words.set_text(each.said)
     stack_rows(host)
 
 
@@ -120,45 +142,87 @@ def _host_of(ax: Axes) -> Axes:
 
 def stack_rows(ax: Axes) -> None:
     """Set the rows above a panel, and the words of their reasons in as many lines as they have now,
-    on each other; titles stand above them, also those of panels beside it on the same axis."""
-    page: Any = ax.get_figure(root=True)
-    height = mark(FIRST)
+    on each other; titles stand above them, also those of panels beside it on the same axis. Where they
+    would take much of a reader's figure, they are smaller."""
     found = rows_above(ax)
-    apart = _distance(ax, found)
-    for each in found:
-        _set_strip(ax, each, height - 0.5 * mark(APART), (len(each.rows) - 1) * apart)
-        for row in each.rows:
-            up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
-            row.set_transform(blended_transform_factory(ax.transData, up))
-            height += apart
-        height += GAP + 0.5 * mark(APART) - apart
-        up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
-        each.words.set_transform(up)
-        said = each.words.get_text()
-        lines = said.count("\n") + 1 if said else 0
-        height += lines * LINE * large(TEXT) + mark(FIRST) + BETWEEN
     if not found:
         return
-    _HEIGHTS[ax] = height - mark(FIRST) - BETWEEN + TITLE
+    height = _stack(ax, found, _sizes_above(ax))
+    if height > SHARE * 72 * _height_of_row(ax) and ax in _MAY_BE_SMALL:
+        _SMALL.add(ax)
+        height = _stack(ax, found, _sizes_above(ax))
+    _HEIGHTS[ax] = height + TITLE
     beside = [each for each in ax.get_shared_y_axes().get_siblings(ax) if _in_row(each, ax)]
     highest = max(_HEIGHTS.get(each, 0.0) for each in beside)
     for each in beside:
         _lift_titles(each, highest)
 
 
-def _distance(ax: Axes, found: Sequence[Rows]) -> float:
-    """The distance of rows above a panel in points, with which many of them leave it room."""
+class Sizes(NamedTuple):
+    """Sizes of rows above a panel in points: that of words, the height of a row, and the gap between words and
+    the next row."""
+
+    text: float
+    apart: float
+    between: float
+
+
+def _sizes_above(ax: Axes) -> Sizes:
+    """The sizes of rows above a panel."""
+    if ax in _SMALL:
+        return Sizes(min(large(TEXT), SMALL_TEXT), min(mark(APART), SMALL_APART), SMALL_BETWEEN)
+    return Sizes(large(TEXT), mark(APART), BETWEEN)
+
+
+def _stack(ax: Axes, found: Sequence[Rows], sizes: Sizes) -> float:
+    """Set rows above a panel on each other; returns their height in points."""
+    page: Any = ax.get_figure(root=True)
+    first = mark(FIRST) - 0.5 * (mark(APART) - sizes.apart)
+    height = first
+    apart = _distance(ax, found, sizes.apart)
+    top = height
+    for each in found:
+        _set_strip(ax, each, height - 0.5 * sizes.apart, (len(each.rows) - 1) * apart + sizes.apart)
+        for row in each.rows:
+            up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
+            row.set_transform(blended_transform_factory(ax.transData, up))
+            row.set_markersize(min(row.get_markersize(), sizes.apart))
+            height += apart
+        height += GAP + 0.5 * sizes.apart - apart
+        up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
+        each.words.set_transform(up)
+        each.words.set_fontsize(sizes.text)
+        said = each.words.get_text()
+        lines = said.count("\n") + 1 if said else 0
+        top = height + lines * LINE * sizes.text
+        height = top + first + sizes.between
+    return top
+
+
+def _height_of_row(ax: Axes) -> float:
+    """The height in inches that the row of a panel has on its page."""
+    page: Any = ax.get_figure(root=True)
+    place = ax.get_subplotspec()
+    if place is None:
+        return float(page.get_figheight() * ax.get_position(original=True).height)
+    whole = place.get_topmost_subplotspec()
+    return float(page.get_figheight() * len(whole.rowspan) / whole.get_gridspec().nrows)
+
+
+def _distance(ax: Axes, found: Sequence[Rows], apart: float) -> float:
+    """The distance of rows above a panel in points, with which many of them leave it room; no more than
+    they are apart otherwise."""
     page: Any = ax.get_figure(root=True)
     count = sum(len(each.rows) for each in found)
-    return min(mark(APART), MOST * 72 * page.get_figheight() / max(count, 1))
+    return min(apart, MOST * 72 * page.get_figheight() / max(count, 1))
 
 
 def _set_strip(ax: Axes, found: Rows, height: float, span: float) -> None:
-    """Lay the strip of rows behind their marks, from a height in points above the panel on; the last row
-    is a span in points above the first."""
+    """Lay the strip of rows behind their marks, from a height in points above the panel on, over a span
+    in points."""
     page: Any = ax.get_figure(root=True)
     found.strip.set_y(height / 72)
-    found.strip.set_height((span + mark(APART)) / 72)
+    found.strip.set_height(span / 72)
     axes: Any = ax.transAxes  # affine, which its type does not say
     up = page.dpi_scale_trans + ScaledTranslation(0, 1, axes)
     found.strip.set_transform(blended_transform_factory(ax.transAxes, up))

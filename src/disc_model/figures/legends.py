@@ -39,7 +39,7 @@ SMALLER = 0.8  # size of the text of a legend that finds too little room, over t
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
-LEAST_HEIGHT = 0.6  # inch, that a panel keeps above its legend if a smaller one leaves it so much
+LEAST_HEIGHT = 1.05  # inch, that a panel keeps above its legend if a smaller one leaves it so much
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
 LEAST_CURVE = 1.2  # inch, and height that curves keep
 LEGEND_SHARE = 0.25  # of the height of a new figure, beyond which a legend makes it higher
@@ -119,11 +119,11 @@ def legend_inside(ax: Axes, handles: Sequence[Artist] = (), **look: Any) -> Lege
         return None
     page: Any = ax.get_figure(root=True)
     legend: Legend = None
+    set_places(page)  # in which the legend has no part
     for size in ({}, small()):
         legend = draw_legend(ax, entries, loc="best", **{**size, **look})
         # axes that others make narrower later would be squeezed by it
         legend.set_in_layout(False)
-        set_places(page)  # sets the places
         for place in _places_inside(ax):
             legend.set_loc(place)
             if not covers(legend, ax):

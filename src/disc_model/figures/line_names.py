@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.figures.classes import AT_BOUND, DOUBTS
+from disc_model.figures.classes import AT_BOUND, DOUBTS, FILLED_MARK
 from disc_model.figures.drawing import BLACK, large, say_beside
 from disc_model.figures.legends import figure_legend, keep_share, small
 from disc_model.figures.separating_share import names_interval
@@ -16,6 +16,8 @@ MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 MANY = 8  # names of lines in a legend beyond which their text is smaller
 LONGEST_BESIDE = 25  # characters of a name that fits there
 APART = 0.14  # least distance of the ends of lines that are named there, inch of the row of panels
+IN_LEGEND = (AT_BOUND.label, *(FILLED_MARK.format(look.label) for look in DOUBTS))
+"""Marks that only a legend names."""
 WIDEST_NAME = 0.35  # width of such a name, as a share of the page
 
 
@@ -28,7 +30,7 @@ def name_lines(figure: Figure, axes: Sequence[Axes], several: bool, in_legend: b
     unnamed: dict[str, Artist] = {}
     for ax in axes:
         handles, names = ax.get_legend_handles_labels()
-        marked = any(look.label in names for look in (AT_BOUND, *DOUBTS))
+        marked = any(words in names for words in IN_LEGEND)
         marked = marked or any(map(names_interval, names))
         if names and (in_legend or marked or not name_ends(ax)):
             unnamed.update(zip(names, handles, strict=True))

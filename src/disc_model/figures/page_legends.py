@@ -6,7 +6,7 @@ from typing import Any
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.covered import twins_of
-from disc_model.figures.gap_rows import silence_rows
+from disc_model.figures.entries import keep_entries
 from disc_model.figures.labels import is_square, without_font
 from disc_model.figures.legends import (
     figure_legend,
@@ -87,8 +87,7 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     """Write the legend, if there is one, in the look that the reader's options give: in their place,
     or else below a new figure, or inside a reader's axes or below them."""
     if wishes.legend is False:
-        for ax in page.axes:
-            silence_rows(ax)
+        keep_entries(page)
         return
     if not page.handles:
         return

@@ -1,6 +1,7 @@
 """Places of axes in figures without a layout engine, which would let legends and labels fall off
 the page."""
 
+import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary
@@ -10,7 +11,7 @@ from matplotlib.transforms import Bbox
 
 from disc_model.errors import require
 from disc_model.figures.labels import break_labels
-from disc_model.figures.places import collapses, set_places
+from disc_model.figures.places import has_collapsed, set_places
 from disc_model.figures.types import Array, Axes, Figure
 
 MARGIN = 0.03  # inch, kept free along the edges of the page
@@ -277,7 +278,10 @@ def _extent(axes: Sequence[Axes]) -> Bbox:
 def check_room(axes: Sequence[Axes]) -> None:
     """Raise `ParameterError` if a bar and a legend leave no room for the panels of a reader's axes."""
     figure: Any = axes[0].get_figure(root=True)
-    collapsed = collapses(figure)
+    with warnings.catch_warnings():  # of a layout that gives up, which is said here
+        warnings.simplefilter("ignore")
+        set_places(figure)
+    collapsed = has_collapsed(figure)
     sides = [side for ax in axes for side in (ax.bbox.width, ax.bbox.height)]
     left = 25.4 * min(sides) / figure.dpi
     rest = "no room for the panel" if collapsed else f"{left:.0f} mm for the panel"

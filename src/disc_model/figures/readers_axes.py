@@ -7,6 +7,7 @@ from typing import Any
 
 from matplotlib.text import Text
 
+from disc_model.figures.gap_rows import allow_small_rows
 from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
@@ -31,6 +32,7 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
     if stacked:
         stack_narrow(page.axes, stacked)
     remember_sides(page.axes)
+    allow_small_rows(page.axes)
     figure: Any = page.ax.get_figure(root=True)
     before = set(figure.axes)
     # what is added to a figure of this package has its style

@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
 from disc_model.disc.plausibility import warn_reader
-from disc_model.figures.places import collapses
+from disc_model.figures.places import has_collapsed
 from disc_model.figures.sizes import INCH
 from disc_model.figures.types import Axes
 
@@ -38,7 +38,7 @@ def warn_of_small_panels(figure: Any) -> None:
     if figure in _WARNED:
         return
     shortages = ["0 mm high or wide"]
-    if not collapses(figure):
+    if not has_collapsed(figure):
         shortages = [_shortage(ax) for ax in figure.axes]
     shortage = next(filter(None, shortages), "")
     if shortage:

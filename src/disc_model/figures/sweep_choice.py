@@ -10,13 +10,14 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
-from disc_model.data.variables import TRUTH, WITHOUT_EFFECT, stated_in
+from disc_model.data.variables import TRUTH, WITHOUT_EFFECT, flag_names, stated_in
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
 from disc_model.figures.words import (
     IN_THOUSANDTH,
+    MISSING,
     known_name,
     named,
     symbol_of,
@@ -312,8 +313,8 @@ def _with_coordinate(study: xr.Dataset, name: str, along: str) -> xr.Dataset:
 
 
 def _with_words(study: xr.Dataset) -> xr.Dataset:
-    """The study with words for True and False along its dimensions, and with names for discs, by their order
-    and frequencies."""
+    """The study with words for True and False along its dimensions, and for words that are missing there, and
+    with names for discs, by their order and frequencies."""
     named: dict[Any, Any] = {}
     for name, values in study.coords.items():
         if values.dtype.kind == "b" and values.ndim == 1:
@@ -324,7 +325,19 @@ def _with_words(study: xr.Dataset) -> xr.Dataset:
             shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
             words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
             named[name] = (values.dims, words, values.attrs)
+        elif values.ndim == 1 and _lacks_words(values):
+            known = np.where(flag_names(values) == "", MISSING, flag_names(values))
+            named[name] = (values.dims, known, values.attrs)
     return study.assign_coords(named)
+
+
+def _lacks_words(values: xr.DataArray) -> bool:
+    """Whether these are words, some of which are missing."""
+    if values.dtype.kind not in "UO":
+        return False
+    known = values.values[values.notnull().values]
+    are_words = known.size > 0 and all(isinstance(word, str) for word in known)
+    return are_words and bool((flag_names(values) == "").any())
 
 
 def _paired(study: xr.Dataset, x: str) -> Paired:

@@ -9,7 +9,7 @@ from matplotlib.colors import ListedColormap, to_rgba
 from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import stated_in
 from disc_model.figures.arrows import draw_arrows
-from disc_model.figures.classes import UNSETTLED
+from disc_model.figures.classes import FILLED_MARK, UNSETTLED
 from disc_model.figures.drawing import BLACK, BLUE, GREY, ORANGE, SEPARATED, mark, mark_failed, wide
 from disc_model.figures.selection import failed, stretches
 from disc_model.figures.types import Axes
@@ -43,7 +43,7 @@ def draw_sweeps(
             ax.plot(speeds[filled], loads[filled], shape, label="_nolegend_", **look)
             doubtful = True
     if doubtful:
-        label = UNSETTLED.label
+        label = FILLED_MARK.format(UNSETTLED.label)
         ax.plot([], [], "o", color=GREY, markersize=mark(4), label=label)
     _point_to_less(ax, loads, onset, swept.onset_at_bound.values & ~lost, ONSET)
     _point_to_less(ax, loads, end, swept.end_at_bound.values & ~lost, END)

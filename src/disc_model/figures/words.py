@@ -125,6 +125,7 @@ PLAIN_WORDS = re.compile(
     "[a-z]{3,}(_[a-z]{3,})*"
 )  # names that are words, and no symbols such as f_ss
 ROUNDING = 1e-9  # relative, of a number in another unit
+MISSING = "missing"  # what stands for a value that there is not
 STAYS = "stays"  # key of words for the time at each value of a sweep
 LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
@@ -596,7 +597,7 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
         words = KINDS if by == "kind" else WORDS
         return words.get(value, value)
     if isinstance(value, float) and np.isnan(value):
-        return "missing"
+        return MISSING
     if by in AT_ZERO and not value:
         return AT_ZERO[by]
     if by in BY_SIZE:

@@ -1,0 +1,43 @@
+"""Words that are missing along an axis, or among the names of lines."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from tests.figures.reading import labels
+
+LOADS = [200.0, 385.0, 600.0]  # N
+
+
+def load_of(case: dm.Parameters) -> dict[str, float]:
+    """A result of its own."""
+    return {"size": case.N}
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+@pytest.mark.parametrize("nothing", ["", None, np.nan])
+def test_a_missing_word_along_an_axis_is_named(nothing: Any) -> None:
+    """Its place had no word, or "nan"."""
+    words = np.array(["a", nothing, "c"], dtype=object)
+    sizes = dm.sweep(load_of, dm.Parameters(N=385, Omega=15), N=LOADS)
+    ax = dm.plot_sweep(sizes.assign_coords(word=("N", words)), "size", x="word")
+    ax.figure.canvas.draw()
+    assert [text.get_text() for text in ax.get_xticklabels()] == ["a", "missing", "c"]
+
+
+@pytest.mark.parametrize("nothing", ["", None, np.nan])
+def test_a_line_of_a_missing_word_is_named(nothing: Any) -> None:
+    """It had no name in the legend, or was an error."""
+    words = np.array(["a", nothing, "c"], dtype=object)
+    sizes = xr.DataArray(np.eye(3), {"word": words, "N": LOADS}, name="size")
+    ax = dm.plot_sweep(sizes.to_dataset(), "size")
+    assert {*labels(ax.figure)[0:3]} == {"a", "missing", "c"}

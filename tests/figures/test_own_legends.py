@@ -1,0 +1,90 @@
+"""Legends that readers make themselves of pictures without one."""
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+from matplotlib.axes import Axes
+
+import disc_model as dm
+from tests.figures.reading import as_map
+
+SPEEDS = np.array([10.0, 12.0, 14.0, 16.0])  # rad/s
+LOADS = [200.0, 385.0]  # N
+WORDS = "ok no_cycle separates"
+STATUS = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": WORDS}
+PLANE = ("Omega", "N")
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+def rates() -> xr.Dataset:
+    """Shares of sticking with two reasons why there is none."""
+    shares = 1 / SPEEDS[:, None] + 1e-4 * np.array(LOADS)
+    status = np.zeros(shares.shape, dtype=np.int8)
+    status[1] = 1
+    status[2, 0] = 2
+    shares[status > 0] = np.nan
+    study = xr.Dataset({"stick_fraction": (PLANE, shares), "status": (PLANE, status, STATUS)})
+    return study.assign_coords(Omega=SPEEDS, N=LOADS)
+
+
+def entries(ax: Axes) -> list[str]:
+    """The words that a legend of matplotlib finds at axes."""
+    return ax.get_legend_handles_labels()[1]
+
+
+def words_in_legend(ax: Axes) -> list[str]:
+    """The words of the legend of a figure."""
+    [legend] = ax.figure.legends
+    return [text.get_text() for text in legend.get_texts()]
+
+
+def test_strips_without_words_are_entries_of_a_legend() -> None:
+    """Nothing told what the marks above the panel stand for."""
+    ax = dm.plot_sweep(rates(), "stick_fraction", lines="N", legend=False)
+    assert entries(ax)[:2] == ["Preload N = 200 N", "385 N"]
+    strips = ["strip 1 above: no cycle found", "strip 2 above: immediate separation"]
+    assert entries(ax)[2:] == strips
+
+
+def test_a_single_strip_needs_no_number() -> None:
+    study = rates().isel(Omega=[0, 1, 3])
+    ax = dm.plot_sweep(study, "stick_fraction", lines="N", legend=False)
+    assert entries(ax)[-1] == "strip above: no cycle found"
+
+
+def test_classes_of_a_map_are_entries_of_a_legend() -> None:
+    """There were none."""
+    usual = words_in_legend(as_map(rates(), "stick_fraction"))
+    ax = as_map(rates(), "stick_fraction", legend=False)
+    assert entries(ax) == usual
+    legend = ax.legend()
+    patches = [patch for patch in legend.get_patches() if patch.get_hatch()]
+    assert len(patches) == len(usual)
+
+
+def test_entries_take_no_room() -> None:
+    _, (with_entries, without) = pyplot.subplots(1, 2)
+    for ax in (with_entries, without):
+        as_map(rates(), "stick_fraction", ax=ax, legend=False)
+    for patch in without.patches[:]:
+        patch.remove()
+    limits = with_entries.get_xlim(), with_entries.get_ylim()
+    assert limits == (without.get_xlim(), without.get_ylim())
+    assert with_entries.get_tightbbox().height == without.get_tightbbox().height
+
+
+def test_branches_without_a_legend_have_the_entries_of_all_of_them() -> None:
+    _, (usual, ax) = pyplot.subplots(1, 2, figsize=(12, 4))
+    for load in (385, 390):
+        case = dm.Parameters(N=load, Omega=15)
+        branch = dm.continue_cycle(case, "Omega", (14.8, 15.2))
+        branch.plot("period", ax=usual)
+        branch.plot("period", ax=ax, legend=False)
+    said = [text.get_text() for text in usual.get_legend().get_texts()]
+    assert sorted(entries(ax)) == sorted(said)
