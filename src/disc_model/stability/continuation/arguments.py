@@ -5,8 +5,8 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
+from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.units import in_si, is_number, is_quantity, number
