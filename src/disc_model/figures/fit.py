@@ -113,6 +113,8 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
     ax.plot(shift, rows, label="computed", **_computed())
     for row in _rows(fit)[~has_size]:
         _say_without_size(ax, int(row))
+    if not has_size.any():
+        ax.set_xticks([])
     ax.set_xlabel(DIFFERENCE)
     ax.margins(x=0.08)
 
@@ -120,7 +122,7 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
 def _say_without_size(ax: Axes, row: int) -> None:
     """Say in the row of a measured 0 why it has no marks: it has no per cent."""
     place = ax.get_yaxis_transform()
-    said = {"ha": "center", "va": "center", "color": GREY, "fontsize": large(7)}
+    said: dict[str, Any] = {"ha": "center", "va": "center", "color": GREY, "fontsize": large(7)}
     ax.text(0.5, row, OF_ZERO, transform=place, **said)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import presentation_of, typeset
@@ -98,7 +98,15 @@ def _doubts(fit: Fit) -> Iterator[str]:
         symbols = [_symbol(name) for name in fit.indistinct]
         apart = " apart" if len(symbols) > 1 else ""
         yield f"{' and '.join(symbols)} not determined{apart}"
-    for name in fit.unpredicted:
-        yield f"no such motion at an end of the interval of {_symbol(name)}"
-    for name in fit.outside:
-        yield f"no case at an end of the interval of {_symbol(name)}"
+    if fit.unpredicted:
+        yield f"no such motion at an end of {_intervals(fit.unpredicted)}"
+    if fit.outside:
+        yield f"no case at an end of {_intervals(fit.outside)}"
+
+
+def _intervals(names: Iterable[str]) -> str:
+    """The intervals of some parameters, by their symbols."""
+    symbols = [_symbol(name) for name in names]
+    if len(symbols) == 1:
+        return f"the interval of {symbols[0]}"
+    return f"the intervals of {', '.join(symbols[:-1])} and {symbols[-1]}"

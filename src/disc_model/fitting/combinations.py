@@ -59,7 +59,7 @@ def combinations_of(
             known = _multiplied(powers, values, relative)
             if np.count_nonzero(powers) == 1:
                 [i] = np.flatnonzero(powers)
-                known = known._replace(unit=unit_of_parameter(chosen[i]))
+                known = known._replace(unit=unit_of_parameter(chosen[int(i)]))
             found[_product_text(chosen, powers)] = known
     return found
 

@@ -327,10 +327,10 @@ class Fit(Summarised, Drawn, EqualByValue):
     def _misfit(self) -> str:
         """How large chi squared is, in words."""
         wrong = f"a bound, {WRONG}" if self.at_bounds else WRONG
+        cost = "the least chi squared" if self.excess else "chi squared"
         if self.freedom == 0:
-            return f"{wrong} are wrong, chi squared is {self._least:.3g} and should be 0"
-        reduced = self._least / self.freedom
-        size = f"chi squared is {reduced:.3g} times its degrees of freedom"
+            return f"{wrong} are wrong, {cost} is {self._least:.3g} and should be 0"
+        size = f"{cost} is {self._least / self.freedom:.3g} times its degrees of freedom"
         worst = int(np.argmax(np.abs(self.deviations)))
         most = f"{self.measurements[worst].name} deviates most"
         if self.is_wrong:

@@ -122,7 +122,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     halves: Halves = [[i] for i in range(len(columns[0].cells))]
     fields = values
     try:
-        raise_faults(_with_units(values))
+        raise_faults([*_with_units(values)])
         if pairs == "mean" and _all_numbers(values):
             halves = halves_in(values)
             check_halves(halves, values)
