@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 import disc_model as dm
+from disc_model.stability.continuation.arguments import interval_in_si
 from tests.refusals import refusal
 
 MODES: dict[str, Any] = {"diameters": [0, 2], "omega": [5837.0, 7615.0], "amplitude": [0.43, 0.54]}
@@ -74,6 +75,13 @@ def test_a_single_cell_of_a_loss_factor_is_not_read_as_a_damping_ratio(tmp_path:
     )
     with refusal("'0.1 %': must be a number"):
         dm.Disc.from_csv(file)
+
+
+def test_bounds_of_a_ratio_may_be_in_percent() -> None:
+    assert interval_in_si("mu_k_over_mu_s", ("50 %", "70 %")) == [0.5, 0.7]
+    faults: list[Any] = []
+    assert interval_in_si("mu_k_over_mu_s", ("50 mm", "70 mm"), faults) is None
+    assert len(faults) == 2
 
 
 def test_a_split_may_be_in_percent() -> None:
