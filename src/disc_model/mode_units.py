@@ -51,9 +51,12 @@ def unit_rule(quantity: str, unit: str) -> str:
 
 
 def _rate(unit: str, quantity: str) -> float:
-    """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s."""
+    """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s, and a decay
+    rate in Hz may mean turns."""
+    if quantity == "decay_rate":
+        return 1.0 if unit.lower() == "rad/s" else _converted(unit, "1/s")
     known = {"hz": math.tau, "khz": 1e3 * math.tau, "rad/s": 1.0}
-    if quantity in ("pole_real", "decay_rate"):
+    if quantity == "pole_real":
         known["1/s"] = 1.0
     if unit.lower() in known:
         return known[unit.lower()]
