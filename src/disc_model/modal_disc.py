@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from functools import partial
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import pydantic
-from pydantic import Field, field_validator, model_validator
+from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from disc_model.attachable import DiscFiles
 from disc_model.display import counted, html_table
 from disc_model.errors import Fault, raise_faults
-from disc_model.units import Count, Finite, Positive, Strict, limits_faults, within
+from disc_model.mode_units import UNCERTAIN, mode_number, mode_numbers
+from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
 
 if TYPE_CHECKING:
     from disc_model.disc.given import DiscReport
@@ -24,7 +26,6 @@ MOST_MODES = 1000  # largest number of modes in the table of a disc
 FREQUENCIES = (1e-3, 1e7)
 # of the largest modal amplitude, kg^-1/2: the modal mass is 1e-12 to 1e12 kg
 AMPLITUDES = (1e-6, 1e6)
-UNCERTAIN = ("omega", "amplitude", "damping_ratio", "tangential")  # columns of numbers of modes
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
     "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
@@ -36,11 +37,18 @@ Quantity = float | str  # a number, or a text that stands for one, with or witho
 Column = Iterable[float | str]  # numbers of the modes of a table
 
 
+def _read(quantity: str) -> BeforeValidator:
+    """A validator for pydantic, which reads a text with a unit as a number of a mode."""
+    return BeforeValidator(partial(mode_number, quantity))
+
+
 class Disc(DiscFiles, Strict):
     """An axisymmetric disc given by its modes, from finite elements or a modal test.
 
     Modes with nodal diameters are pairs (cosine and sine), each given once. `from_csv`, `from_uff`
     and `from_section` make one.
+
+    Numbers may be texts with their units, such as "929 Hz" or "0.1 %".
 
     Parameters
     ----------
@@ -71,15 +79,15 @@ class Disc(DiscFiles, Strict):
     """
 
     diameters: tuple[Annotated[Count, Field(ge=0, le=60)], ...]
-    omega: tuple[Annotated[Finite, within(FREQUENCIES)], ...]
-    amplitude: tuple[Finite, ...]
-    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1)], ...] = Field(
+    omega: tuple[Annotated[Finite, within(FREQUENCIES), _read("omega")], ...]
+    amplitude: tuple[Annotated[Finite, _read("amplitude")], ...]
+    damping_ratio: tuple[Annotated[Finite, Field(ge=0, lt=1), _read("damping_ratio")], ...] = Field(
         (), validate_default=True
     )
     circles: tuple[Annotated[Count, Field(ge=0)], ...] = Field((), validate_default=True)
-    tangential: tuple[Finite, ...] = ()
-    static_compliance: Positive | None = None
-    radii: tuple[Positive, ...] = ()
+    tangential: tuple[Annotated[Finite, _read("tangential")], ...] = ()
+    static_compliance: Annotated[Positive, Unit("m/N")] | None = None
+    radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _report: DiscReport | None = pydantic.PrivateAttr(None)
@@ -214,12 +222,13 @@ class Disc(DiscFiles, Strict):
         """Return the name of the number of a mode, such as omega_2_0."""
         return f"{column}_{self.diameters[i]}_{self.circles[i]}"
 
-    def with_numbers(self, **changes: float) -> Disc:
-        """The disc with some of its `numbers` changed."""
+    def with_numbers(self, **changes: Quantity) -> Disc:
+        """The disc with some of its `numbers` changed, also to texts with units."""
+        numbers = mode_numbers(changes)
         columns: dict[str, list[float]] = {}
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
-            columns[column] = [changes.get(self._name_of(column, i), value) for i, value in given]
+            columns[column] = [numbers.get(self._name_of(column, i), value) for i, value in given]
         return self.replace(**columns)
 
     def first(self, count: int) -> Disc:

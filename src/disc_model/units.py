@@ -115,17 +115,43 @@ def _converted(magnitude: float, text: str, unit: str) -> float:
     or of Python's tokenizer, which have no common base."""
     if text.strip() == unit:  # needs no parser, whose import takes a second
         return magnitude
+    text = _checked_unit(text, unit)
+    return _in_unit(_units().Quantity(magnitude, text), unit)
+
+
+def _checked_unit(text: str, unit: str) -> str:
+    """The text of a unit for its parser, if it can only mean one of the kind of another one; raises
+    ValueError."""
     text = _plain_unit(text)
-    target = "" if unit == "1" else unit
     if not _UNIT.fullmatch(text):
         raise ValueError("no unit")
-    if unit.startswith("rad") and not any(word in text for word in _ANGLES):
-        if text not in _PER_MINUTE:
-            raise ValueError("Hz may mean turns or radians")
-        text = "rpm"
     if any(word in _MISLEADING for word in re.findall(r"\w+", text)):
         raise ValueError("another unit than it seems to be")
-    return _rounded(_units().Quantity(magnitude, text), _units().Unit(target))
+    if unit.startswith("rad") and not _has_angle(text):
+        if text not in _PER_MINUTE:
+            raise ValueError("Hz may mean turns or radians")
+        return "rpm"
+    return text
+
+
+def _has_angle(text: str) -> bool:
+    """Whether the text of a unit names an angle."""
+    return any(word in text for word in _ANGLES)
+
+
+def _in_unit(quantity: Any, unit: str) -> float:
+    """A quantity of pint as the number in a unit of the same kind; raises ValueError, or an error
+    of pint. Angles, which have no dimension, count: a frequency in Hz is one of turns, and what has
+    a unit without an angle is given in none with one."""
+    registry = quantity._REGISTRY
+    text = str(quantity.units)
+    if unit == "Hz" and _has_angle(text):
+        return float(f"{quantity.to(registry.Unit('rad/s')).magnitude / math.tau:.15g}")
+    if not unit.startswith("rad") and _has_angle(text):
+        raise ValueError("an angle where the unit has none")
+    if unit == "1/s" and "hertz" in text:
+        raise ValueError("Hz may mean turns")
+    return _rounded(quantity, registry.Unit("" if unit == "1" else unit))
 
 
 def _rounded(quantity: Any, target: Any) -> float:
@@ -134,6 +160,26 @@ def _rounded(quantity: Any, target: Any) -> float:
     if quantity.units == target:
         return float(quantity.magnitude)
     return float(f"{quantity.to(target).magnitude:.15g}")
+
+
+def si_unit_of(value: Any) -> str:
+    """The SI unit of the kind of a text with a unit or of a quantity of pint, Hz where it is
+    written in these; "" where there is none that is known."""
+    try:
+        if is_quantity(value):
+            units = value.units
+        elif isinstance(value, str) and (
+            match := _WITH_UNIT.fullmatch(value.translate(_SPELLINGS))
+        ):
+            units = _units().Unit(_checked_unit(match[2], ""))
+        else:
+            return ""
+        if "hertz" in str(units):
+            return "Hz"
+        base = (1 * units).to_base_units()
+    except Exception:  # of pint and of Python's tokenizer, which have no common base
+        return ""
+    return format(base.units, "~C") or "1"
 
 
 def is_quantity(value: object) -> bool:
@@ -146,9 +192,9 @@ def _quantity_in_si(value: Any, unit: str) -> Any:
     if getattr(value.magnitude, "ndim", 0):
         return [_quantity_in_si(part, unit) for part in value]
     text = format(value.units, "C")
-    if unit.startswith("rad") and not any(word in text for word in _ANGLES):
+    if unit.startswith("rad") and not _has_angle(text):
         return _converted(float(value.magnitude), text, unit)
-    return _rounded(value, value._REGISTRY.Unit("" if unit == "1" else unit))
+    return _in_unit(value, unit)
 
 
 def _data_in_si(value: Any, text: str, unit: str) -> Any:
@@ -168,6 +214,8 @@ def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Faul
         rule = "must be a number without a unit"
     if unit == "rad/s":
         rule += ", such as rpm; Hz may mean turns or radians"
+    if unit == "1/s":
+        rule += ", such as 1/min; Hz and rpm may mean turns"
     meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
     if meant:
         rule += f", did you mean {meant[0]}?"

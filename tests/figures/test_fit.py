@@ -19,7 +19,7 @@ STIFFNESS = Fitted(19000.7, 21.0, 18959.5, 19041.9)
 
 def made_up(**changes: Any) -> Any:
     """Three measurements: one exceeded by 10 %, one of which 4 standard deviations are missing, and
-    one of zero, which has its uncertainty for a size."""
+    one of zero, of which there is no percentage."""
     measurements = [
         SimpleNamespace(quantity="first", at={}, value=200.0, uncertainty=4.0),
         SimpleNamespace(quantity="second", at={}, value=-50.0, uncertainty=2.0),
@@ -36,7 +36,7 @@ def made_up(**changes: Any) -> Any:
         "is_wrong": False,
         "confidence": 0.95,
     }
-    fit |= {"indistinct": (), "determined": {}, "unpredicted": {}}
+    fit |= {"indistinct": (), "determined": {}, "unpredicted": {}, "outside": {}, "reached": ()}
     fit |= {"freedom": 1, "deviations": np.array([5.0, -4.0, 0.5])}
     return SimpleNamespace(**{**fit, **changes})
 
@@ -55,12 +55,14 @@ def computed_of(ax: Any) -> tuple[list[float], list[float]]:
 def test_differences_are_in_percent_of_what_was_measured(panels: Any) -> None:
     left, _ = panels
     shift, rows = computed_of(left)
-    assert shift == pytest.approx([10.0, -16.0, 50.0])
-    assert rows == [2, 1, 0], "the first on top"
+    assert shift == pytest.approx([10.0, -16.0])
+    assert rows == [2, 1], "the first on top"
     [bars] = left.containers
     segments = bars[2][0].get_segments()
     half = [segment[1, 0] for segment in segments]
-    assert half == pytest.approx([2.0, 4.0, 100.0])
+    assert half == pytest.approx([2.0, 4.0])
+    [said] = left.texts
+    assert (said.get_text(), said.get_position()[1]) == ("measured 0, which has no %", 0)
     assert [text.get_text() for text in left.get_yticklabels()] == ["first", "second", "third"]
     assert left.get_xlabel() == "Difference from the measured value (%)"
 
@@ -156,8 +158,21 @@ def test_rows_name_measurements_by_words_symbols_and_units(
             "$μ_s$ < 0.45 at 95 % confidence, $k_p$ = 19 kN/m",
         ),
         (
-            {"doubt": "not converged", "converged": False, "at_bounds": {"k_p": 19000.7}},
-            "$μ_s$ = 0.42, $k_p$ = 19 kN/m at its bound, the search has not converged",
+            {
+                "doubt": "not converged",
+                "converged": False,
+                "at_bounds": {"k_p": 20000.0},
+                "reached": ("k_p",),
+            },
+            "$μ_s$ = 0.42, $k_p$ = 20 kN/m at its bound, the search has not converged",
+        ),
+        (
+            {"doubt": "near 0", "at_bounds": {"mu_s": 0.0, "k_p": 0.0}},
+            "$μ_s$ = 0.42 (interval passes 0), $k_p$ = 19 kN/m (interval passes 0 kN/m)",
+        ),
+        (
+            {"doubt": "no case", "outside": {"mu_s": (0.3,)}},
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, no case at an end of the interval of $μ_s$",
         ),
         (
             {"doubt": "wrong", "misses": True},

@@ -635,7 +635,8 @@ def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
     fit = dm.fit(case, ["mu_s", "mu_k", "k_p"], measured)
     # errors are fifty times as large as stated
     assert fit.chi_squared > 1000 * fit.freedom
-    reduced = f"{fit.chi_squared / fit.freedom:.3g} times its degrees of freedom"
+    least = fit.chi_squared - fit.excess
+    reduced = f"the least chi squared is {least / fit.freedom:.3g} times its degrees of freedom"
     for words in ("determine mu_s and mu_k apart", "model or uncertainties are wrong", reduced):
         assert words in fit.doubt
         assert words in repr(fit)
@@ -979,7 +980,9 @@ def test_a_fit_says_that_the_motion_is_not_near_a_fitted_cycle() -> None:
     found = dm.fit(case, ["mu_s"], {"period": (Prediction(case).of("period"), 1e-6)})
     assert dm.floquet(found.case).near_motion is False
     assert found.elsewhere == ("period",)
-    assert found.note.endswith("the motion from the static start is not near the cycle of period")
+    assert found.note.endswith(
+        "a motion does not stay on it, and none from the static start comes near"
+    )
 
 
 def test_a_note_names_all_unstable_cycles() -> None:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
 
 DIFFERENCE = "Difference from the measured value (%)"
 DEVIATION = "Deviation (standard deviations)"
+OF_ZERO = "measured 0, which has no %"
 ROWS = "Measurements"
 EXPECTED = 2.0  # standard deviations, within which most deviations are if the model is right
 BAND = "95 % if the fit is right"
@@ -91,15 +92,16 @@ def plot_fit(
 
 def _draw_differences(ax: Axes, fit: Fit) -> None:
     """Draw measured values with their uncertainties, and computed ones, in % of what was
-    measured."""
+    measured; none where that is 0."""
     value = np.array([each.value for each in fit.measurements])
     error = np.array([each.uncertainty for each in fit.measurements])
-    size = np.where(value == 0, error, np.abs(value))
-    rows = _rows(fit)
+    has_size = value != 0
+    size = np.abs(value[has_size])
+    rows = _rows(fit)[has_size]
     ax.errorbar(
         np.zeros(rows.size),
         rows,
-        xerr=100 * error / size,
+        xerr=100 * error[has_size] / size,
         fmt="o",
         color=BLACK,
         markersize=mark(3.5),
@@ -107,10 +109,21 @@ def _draw_differences(ax: Axes, fit: Fit) -> None:
         linewidth=wide(0.8),
         label="measured, standard deviation",
     )
-    shift = 100 * (fit.computed - value) / size
+    shift = 100 * (fit.computed - value)[has_size] / size
     ax.plot(shift, rows, label="computed", **_computed())
+    for row in _rows(fit)[~has_size]:
+        _say_without_size(ax, int(row))
+    if not has_size.any():
+        ax.set_xticks([])
     ax.set_xlabel(DIFFERENCE)
     ax.margins(x=0.08)
+
+
+def _say_without_size(ax: Axes, row: int) -> None:
+    """Say in the row of a measured 0 why it has no marks: it has no per cent."""
+    place = ax.get_yaxis_transform()
+    said: dict[str, Any] = {"ha": "center", "va": "center", "color": GREY, "fontsize": large(7)}
+    ax.text(0.5, row, OF_ZERO, transform=place, **said)
 
 
 def _draw_deviations(ax: Axes, fit: Fit) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import presentation_of, typeset
@@ -40,9 +40,20 @@ def _fitted(fit: Fit, name: str) -> str:
         share = f"{100 * fit.confidence:.3g} %"
         return f"{_symbol(name)} {side} {value} at {share} confidence"
     deviation = math.nan if fit.doubt else fitted.deviation
-    value = _with_deviation(fitted.value * shown.factor, deviation * shown.factor, shown.unit)
-    held = " at its bound" if name in fit.at_bounds else ""
-    return f"{_symbol(name)} = {value}{held}"
+    number = fit.at_bounds[name] if name in fit.reached else fitted.value
+    value = _with_deviation(number * shown.factor, deviation * shown.factor, shown.unit)
+    return f"{_symbol(name)} = {value}{_held(fit, name)}"
+
+
+def _held(fit: Fit, name: str) -> str:
+    """That a value is at its bound, or that only its interval passes this."""
+    if name in fit.reached:
+        return " at its bound"
+    if name in fit.at_bounds:
+        shown = presentation_of(name)
+        bound = number_text(fit.at_bounds[name] * shown.factor, shown.unit, WITHOUT_DEVIATION)
+        return f" (interval passes {bound})"
+    return ""
 
 
 def _symbol(name: str) -> str:
@@ -87,5 +98,15 @@ def _doubts(fit: Fit) -> Iterator[str]:
         symbols = [_symbol(name) for name in fit.indistinct]
         apart = " apart" if len(symbols) > 1 else ""
         yield f"{' and '.join(symbols)} not determined{apart}"
-    for name in fit.unpredicted:
-        yield f"no such motion at an end of the interval of {_symbol(name)}"
+    if fit.unpredicted:
+        yield f"no such motion at an end of {_intervals(fit.unpredicted)}"
+    if fit.outside:
+        yield f"no case at an end of {_intervals(fit.outside)}"
+
+
+def _intervals(names: Iterable[str]) -> str:
+    """The intervals of some parameters, by their symbols."""
+    symbols = [_symbol(name) for name in names]
+    if len(symbols) == 1:
+        return f"the interval of {symbols[0]}"
+    return f"the intervals of {', '.join(symbols[:-1])} and {symbols[-1]}"

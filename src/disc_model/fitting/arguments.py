@@ -6,10 +6,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from disc_model.data.variables import unit_of_parameter
-from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
 from disc_model.fitting.table import in_row, is_table, measurements_in
+from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number, number
 

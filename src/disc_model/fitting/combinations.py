@@ -56,7 +56,11 @@ def combinations_of(
     for row in _known_rows(relative):
         powers = _simplest(row, relative)
         if powers is not None:
-            found[_product_text(chosen, powers)] = _multiplied(powers, values, relative)
+            known = _multiplied(powers, values, relative)
+            if np.count_nonzero(powers) == 1:
+                [i] = np.flatnonzero(powers)
+                known = known._replace(unit=unit_of_parameter(chosen[int(i)]))
+            found[_product_text(chosen, powers)] = known
     return found
 
 
@@ -92,12 +96,22 @@ def _simplest(row: Array, spread: Array) -> Array | None:
     whole = _in_whole_numbers(row, spread)
     if whole is not None:
         return whole
+    if _is_alone(row, spread):
+        return np.round(row)
     rounded = row
     for digits in DIGITS:
         rounded = np.round(row, digits)
         if _is_as_well_known(rounded, row, spread):
             return _ascending(rounded)
     return _ascending(rounded) if _is_known(rounded, spread) else None
+
+
+def _is_alone(row: Array, spread: Array) -> bool:
+    """Whether a combination is one parameter, which is known as well without the others."""
+    alone = np.round(row)
+    deviation = float(np.linalg.norm(alone @ spread))
+    as_well = deviation <= AS_WELL * float(np.linalg.norm(row @ spread))
+    return np.count_nonzero(alone) == 1 and as_well
 
 
 def _in_whole_numbers(row: Array, spread: Array) -> Array | None:

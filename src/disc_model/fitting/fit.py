@@ -52,7 +52,7 @@ def fit(
     measured : values with their standard deviations by the names of their quantities, all for it; or
         `Measurement` objects, which may differ in what was set, such as the speed; or a table with the columns
         ``quantity``, ``value``, ``uncertainty`` and numbers of the case that were set, such as ``Omega``, in which an
-        empty cell stands for the value of the case
+        empty cell stands for the value of the case, beside columns for readers such as ``comment``
     bounds : least and greatest value of varied parameters, by name; needed where the start is 0
     confidence : probability of the confidence intervals
 
@@ -146,7 +146,8 @@ def _search(
     if len(indistinct) > 1:
         nearer = search.near_start(start, end, indistinct, limits)
         determined = search.combinations((nearer, end), indistinct)
-        return Outcome(nearer, limits, None, True, indistinct, determined)
+        least = 2 * float(end.cost)
+        return Outcome(nearer, limits, None, True, indistinct, determined, least)
     if not is_minimum:
         return Outcome(end, limits, None, False)
     if indistinct:

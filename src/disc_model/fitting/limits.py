@@ -25,6 +25,8 @@ AT_BOUND = 1e-3
 scale if that is less."""
 FARTHEST = 1e3
 """Longest way on which a value beyond which there is no case is looked for, over a parameter's scale."""
+NOT_LINEAR = "up to it chi squared does not rise as linear predictions would have it"
+"""Why a parameter has no limit."""
 RISE = (0.8, 3.0)
 """Rise of chi squared up to a limit over that of linear predictions; beyond these no limit is given."""
 
@@ -74,9 +76,9 @@ def _interval_of_cases(
 
 def bounds_within(
     problem: Problem, fitted: Array, deviation: Array, reach: Array, limits: Mapping[str, Interval]
-) -> tuple[dict[str, float], dict[str, tuple[float, ...]]]:
+) -> tuple[dict[str, float], dict[str, tuple[float, ...]], tuple[str, ...]]:
     """Return by name the bounds at which parameters lie, or which no case can pass but an interval
-    would; and all other bounds that intervals pass.
+    would; all other bounds that intervals pass; and the names of parameters that lie at their bound.
 
     Parameters
     ----------
@@ -85,6 +87,7 @@ def bounds_within(
     """
     held: dict[str, float] = {}
     passed: dict[str, tuple[float, ...]] = {}
+    reached: list[str] = []
     for i, name in enumerate(problem.names):
         near = AT_BOUND * min(float(deviation[i]), float(problem.scale[i]))
         for bound in _farthest_first(limits.get(name, ()), float(fitted[i])):
@@ -94,10 +97,11 @@ def bounds_within(
                 continue
             if distance <= near or problem.is_last(fitted, i, bound, side):
                 held[name] = bound
+                reached += [name] if distance <= near else []
             else:
                 passed[name] = (*passed.get(name, ()), bound)
     others = {name: bounds for name, bounds in passed.items() if name not in held}
-    return held, others
+    return held, others, tuple(dict.fromkeys(reached))
 
 
 def _farthest_first(bounds: Sequence[float], value: float) -> list[float]:
@@ -110,6 +114,7 @@ def with_limits(
 ) -> Fit:
     """Return the fit with the limits of parameters at bounds that no case can pass."""
     limits = {}
+    unlimited = {}
     for name, bound in found.at_bounds.items():
         i = problem.names.index(name)
         side = 1 if found.parameters[name].value >= bound else -1
@@ -117,11 +122,26 @@ def with_limits(
         if not problem.is_last(values, i, bound, side):
             continue
         limits[name] = math.nan
-        if found.converged and not found.misses and len(found.at_bounds) == 1:
+        reason = _why_unlimited(found)
+        if not reason:
             covariance = found.covariance / np.outer(problem.scale, problem.scale)
             beyond = _limit_beyond(search, covariance, i, side, found.confidence, deviations)
             limits[name] = beyond * float(problem.scale[i])
-    return replace(found, limits=limits)
+            reason = NOT_LINEAR if math.isnan(beyond) else ""
+        if reason:
+            unlimited[name] = reason
+    return replace(found, limits=limits, unlimited=unlimited)
+
+
+def _why_unlimited(found: Fit) -> str:
+    """Return why no parameter has a limit, in words; "" where one may have."""
+    if not found.converged:
+        return "the search has not converged"
+    if found.misses:
+        return "chi squared is too large"
+    if len(found.at_bounds) > 1:
+        return "other parameters are at bounds too"
+    return ""
 
 
 def _limit_beyond(

@@ -10,7 +10,7 @@ from typing import Any
 from disc_model.errors import Fault, ParameterError, raise_faults, violations
 from disc_model.fitting.prediction import unit_of, unknown_quantity
 from disc_model.parameters import Parameters
-from disc_model.units import in_si, is_number
+from disc_model.units import in_si, is_number, si_unit_of
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,8 @@ class Measurement:
         ``slip_time``, ``slip_length``, ``sliding_growth_rate``, ``sliding_frequency``; of the disc's mode with two
         nodal diameters and no circle ``frequency_2_0`` (Hz) and ``damping_ratio_2_0``; of disc and attached slider
         ``coupled_frequency_1`` (Hz), the lowest; or a function of a case that returns a number
-    value : what was measured, in SI units (frequencies in Hz), or a text with a unit
+    value : what was measured, in SI units (frequencies in Hz), or a text with a unit; of a function, the unit's SI
+        unit is that of its numbers
     uncertainty : its standard deviation, > 0
     at : values of parameters that differ from those of the fitted case, such as ``{"Omega": 12}``
 
@@ -43,8 +44,10 @@ class Measurement:
         faults: list[str] = []
         if not callable(self.quantity) and not self.unit:
             faults.append(Fault.of(("quantity",), self.quantity, unknown_quantity(self.quantity)))
-        value = _number(self.value, self.unit, "value", faults)
-        uncertainty = _number(self.uncertainty, self.unit, "uncertainty", faults)
+        if faults:  # values of what is unknown mean nothing
+            raise_faults(faults)
+        value = _number(self.value, self._unit_of_value, "value", faults)
+        uncertainty = _number(self.uncertainty, self._unit_of_value, "uncertainty", faults)
         named = isinstance(self.at, Mapping) and all(isinstance(name, str) for name in self.at)
         faults += violations(
             (not uncertainty <= 0, "uncertainty", uncertainty, "must be a standard deviation > 0"),
@@ -67,6 +70,11 @@ class Measurement:
         if isinstance(self.quantity, str):
             return self.quantity
         return getattr(self.quantity, "__name__", "quantity")
+
+    @property
+    def _unit_of_value(self) -> str:
+        """Unit in which the value is read: of a quantity of one's own, the SI unit of its text."""
+        return self.unit or si_unit_of(self.value) or si_unit_of(self.uncertainty)
 
     @property
     def unit(self) -> str:

@@ -1,5 +1,6 @@
 """What the search of a fit has come to, and the fit that follows from it."""
 
+import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
@@ -20,7 +21,7 @@ STOPPED = "The steps became too short in front of a gap."
 class Outcome(NamedTuple):
     """The end of a search over scaled parameters, the limits within which they were, the gap in front
     of which it has stopped, whether it is at a minimum, the parameters that are not determined, and
-    combinations of these that are."""
+    combinations of these that are, and the least chi squared, which may be below that at the end."""
 
     end: Any
     limits: Mapping[str, Interval]
@@ -28,13 +29,15 @@ class Outcome(NamedTuple):
     is_minimum: bool
     indistinct: tuple[str, ...] = ()
     determined: Mapping[str, Combined] = MappingProxyType({})
+    least: float = math.inf
 
 
 def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
     """Return the fit at the end of a search."""
     from scipy import stats
 
-    end, limits, gap, is_minimum, indistinct, determined = outcome
+    end, limits, gap, is_minimum, indistinct, determined, least = outcome
+    chi_squared = float(end.fun @ end.fun)
     problem = search.problem
     names = problem.names
     covariance = search.covariance(end)
@@ -44,12 +47,13 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
     low = fitted - reach
     high = fitted + reach
-    at_bounds, passed = bounds_within(problem, fitted, deviation, reach, limits)
+    at_bounds, passed, reached = bounds_within(problem, fitted, deviation, reach, limits)
     if at_bounds:  # what holds one of them moves the others
         indistinct = ()
         determined = {}
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
     unpredicted: dict[str, tuple[float, ...]] = {}
+    outside: dict[str, tuple[float, ...]] = {}
     for i, name in enumerate(names):
         if name in indistinct or name in at_bounds:
             deviation[i] = low[i] = high[i] = np.nan
@@ -59,11 +63,14 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
             beyond[i] = np.nan
         # the others change with it as the covariance says
         move = reach[i] * covariance[:, i] / covariance[i, i]
-        gone = _without_prediction(problem, fitted, move, [low[i], high[i]])
+        gone, beyond_cases = _lost_ends(problem, fitted, move, [float(low[i]), float(high[i])])
         if gone:
             unpredicted[name] = gone
-        low[i] = np.nan if low[i] in gone else low[i]
-        high[i] = np.nan if high[i] in gone else high[i]
+        if beyond_cases:
+            outside[name] = beyond_cases
+        lost = [*gone, *beyond_cases]
+        low[i] = np.nan if low[i] in lost else low[i]
+        high[i] = np.nan if high[i] in lost else high[i]
     rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
@@ -77,13 +84,16 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
         measurements=problem.measurements,
         computed=computed,
         deviations=np.asarray(end.fun),
-        chi_squared=float(end.fun @ end.fun),
+        chi_squared=chi_squared,
+        excess=max(0.0, chi_squared - least),
         converged=bool(end.success) and is_minimum,
         message=_why_ended(outcome),
         indistinct=indistinct,
         determined=determined,
         unpredicted=unpredicted,
+        outside=outside,
         at_bounds=at_bounds,
+        reached=reached,
         passed_bounds=passed,
         gap=gap,
         unstable=unstable,
@@ -91,21 +101,25 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
     )
 
 
-def _without_prediction(
+def _lost_ends(
     problem: Problem, fitted: Array, move: Array, ends: Sequence[float]
-) -> tuple[float, ...]:
+) -> tuple[tuple[float, ...], tuple[float, ...]]:
     """Return those of the known ends of an interval, below and above, at which a measured quantity does
-    not exist.
+    not exist, and those at which there is no case.
 
     fitted, move : values of all parameters, and their way to the upper end, each (n,)
     """
-    below, above = ends
     gone = []
-    if not np.isnan(below) and problem.is_missing(fitted - move):
-        gone.append(float(below))
-    if not np.isnan(above) and problem.is_missing(fitted + move):
-        gone.append(float(above))
-    return tuple(gone)
+    beyond_cases = []
+    for end, way in zip(ends, (-move, move), strict=True):
+        if math.isnan(end):
+            continue
+        lacking = problem.lacking(fitted + way)
+        if lacking == "quantity":
+            gone.append(end)
+        elif lacking == "case":
+            beyond_cases.append(end)
+    return tuple(gone), tuple(beyond_cases)
 
 
 def _why_ended(outcome: Outcome) -> str:

@@ -27,6 +27,12 @@ MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
 COUPLED = re.compile(r"coupled_frequency_([1-9]\d*)")
 """Names of natural frequencies with the slider attached, by their number from the lowest on."""
 
+OF_FLOQUET = "give the last state of a longer simulation as guess"
+OF_FUNCTIONS = (
+    "measure by a function of the case that calls floquet with a guess and returns the quantity"
+)
+"""Advice on a motion whose cycle is not found, of the search for it and of a fit, which takes no guess."""
+
 TOLERANCE = 1e-12
 """Relative residual of cycles."""
 
@@ -64,7 +70,8 @@ class Prediction:
             return block_cycle(self.case)
         found = self._found
         if math.isnan(found.period):
-            raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
+            reason = found.message.removeprefix(f"{found.status.value}: ")
+            raise Unpredicted(reason.replace(OF_FLOQUET, OF_FUNCTIONS))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
 
     @cached_property

@@ -113,13 +113,18 @@ class Problem:
         except ParameterError:
             return np.full(len(self.measurements), math.nan)
 
-    def is_missing(self, values: Array) -> bool:
-        """Whether a valid case has no such quantity, as where its cycle has ended at a fold."""
+    def lacking(self, values: Array) -> str:
+        """What is missing at some values: a "case" with these, or a "quantity" of a valid case, as where
+        its cycle has ended at a fold; "" where all is there."""
         try:
             self.predictions(values)
         except ParameterError as error:
-            return error.faults[0].path[0] == "measured"
-        return False
+            return "quantity" if error.faults[0].path[0] == "measured" else "case"
+        return ""
+
+    def is_missing(self, values: Array) -> bool:
+        """Whether a valid case has no such quantity."""
+        return self.lacking(values) == "quantity"
 
     def missing(self, values: Array) -> tuple[str, ...]:
         """Return the names of measurements whose quantities a valid case does not have."""

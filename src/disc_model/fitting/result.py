@@ -16,6 +16,8 @@ from disc_model.display import (
     DEVIATION_DIGITS,
     Drawn,
     Summarised,
+    aligned,
+    counted,
     html_table,
     number_text,
     rounded_text,
@@ -29,6 +31,7 @@ UNLIKELY = 0.05
 """Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
 ALL_BUT_IMPOSSIBLE = 1e-3
 """and below which something is wrong."""
+VALUE_DIGITS = 6
 NAMED = 3
 """Largest number of unstable cycles that a note names before others that it counts."""
 WRONG = "model or uncertainties"
@@ -82,23 +85,29 @@ class Fit(Summarised, Drawn, EqualByValue):
         alike and are known to 10 % at best, or up to some standard deviations away chi squared rises less than linear
         predictions would have it. If there are several, their values are the nearest to the start with which chi
         squared is at most 3.84 above its minimum, or more where deviations exceed the uncertainties
+    excess : how much `chi_squared` is above its minimum, by which the fit is judged, as with these nearest values
     determined : combinations of these that the measurements determine, such as "mu_s - mu_k" or "m * k_p^2": by its
         formula, the value, standard deviation and unit of each. Products hold near the fitted values
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
-        beyond a fold of the cycle; `Fitted` has nan there
+        beyond a fold of the cycle; `Fitted` has nan there. At an end of the interval of one parameter the others have
+        changed as the covariance says
+    outside : by name of a parameter, the ends of its interval at which there is no case, since another parameter has
+        changed beyond what cases have; `Fitted` has nan there
     at_bounds : by name of a parameter, the bound at which it lies, or that no case can pass, such as 0, but its
         interval would; `Fitted` has no interval then
+    reached : names of those of these parameters that lie at the bound
     passed_bounds : by name of a parameter that lies within its bounds, those that its interval passes; `Fitted` has nan
         at these ends. The standard deviation and the other end hold, and there is no `doubt`
     limits : by name of a parameter at a bound that no case can pass, such as `c_p` at 0, the value that it is below, or
         above, with that confidence, while the other varied parameters are fitted again as for linear predictions; nan
         if predictions are not linear up to there, or the search, chi squared or another parameter is in doubt
+    unlimited : by name of such a parameter without a limit, why it has none
     gap : values of the parameters in front of which the search has stopped, since measured quantities do not exist
         there, as where a case has no cycle, and the names of these measurements; None where it has not
     doubt : all reasons why values and intervals mean nothing: a search that has stopped in front of a gap, which is
         then the only one said, or has not converged, a value at a bound, parameters that are not determined, an
-        interval in which the motion ends, too large a chi squared, with the measurement that deviates most; "" where
-        there is none
+        interval in which the motion or the model ends, too large a chi squared, with the measurement that deviates
+        most; "" where there is none
     consistent : whether there is no `doubt`
     unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
         0.01/s; a period, for example, cannot be measured for long there
@@ -128,11 +137,15 @@ class Fit(Summarised, Drawn, EqualByValue):
     converged: bool
     message: str
     indistinct: tuple[str, ...] = ()
+    excess: float = 0.0
     determined: Mapping[str, Combined] = field(default_factory=dict)
     unpredicted: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    outside: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     at_bounds: Mapping[str, float] = field(default_factory=dict)
+    reached: tuple[str, ...] = ()
     passed_bounds: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     limits: Mapping[str, float] = field(default_factory=dict)
+    unlimited: Mapping[str, str] = field(default_factory=dict)
     gap: Gap | None = None
     unstable: Mapping[str, float] = field(default_factory=dict)
     elsewhere: tuple[str, ...] = ()
@@ -142,11 +155,31 @@ class Fit(Summarised, Drawn, EqualByValue):
         values = []
         for name, fitted in self.parameters.items():
             spread = "" if doubt else f" ± {rounded_text(fitted.deviation, DEVIATION_DIGITS)}"
-            values.append(f"{name}={fitted.value:.6g}{spread}")
+            values.append(f"{name}={self._value_text(name)}{spread}")
         meaning = "" if doubt else "± one standard deviation"
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
         parts = [f"Fit({', '.join(values)}", meaning, cost, doubt, self.note]
         return "; ".join(filter(None, parts)) + ")"
+
+    def __str__(self) -> str:
+        """The fit as a short table."""
+        rows = [("fitted", "value", "deviation", "unit")]
+        for name, fitted in self.parameters.items():
+            deviation = "-"
+            if not (self.doubt or math.isnan(fitted.deviation)):
+                deviation = rounded_text(fitted.deviation, DEVIATION_DIGITS)
+            rows.append((name, self._value_text(name), deviation, unit_of_parameter(name)))
+        cost = f"chi squared {self.chi_squared:.3g}, {counted(self.freedom, 'degree')} of freedom"
+        doubts = [f"doubt: {reason}" for reason in self.doubt.split("; ") if reason]
+        notes = [f"note: {text}" for text in self.note.split("; ") if text]
+        return "\n".join([*aligned(rows), cost, *doubts, *notes])
+
+    def _value_text(self, name: str) -> str:
+        """The value of a parameter, that of its bound if it lies there."""
+        value = self.parameters[name].value
+        if name in self.reached:
+            value = self.at_bounds[name]
+        return rounded_text(value, VALUE_DIGITS)
 
     @property
     def freedom(self) -> int:
@@ -178,15 +211,31 @@ class Fit(Summarised, Drawn, EqualByValue):
         if self.indistinct:
             reasons.append(_undetermined(self.indistinct))
         for name, ends in self.unpredicted.items():
-            reasons += [_ends_within(name, end) for end in ends]
+            reasons += [_ends_within(name, self._place_of(name, end)) for end in ends]
+        for name, ends in self.outside.items():
+            reasons += [_ends_outside(name, self._place_of(name, end)) for end in ends]
         return "; ".join(reasons)
+
+    def _place_of(self, name: str, end: float) -> list[str]:
+        """The values of all parameters at an end of the interval of one, which comes first, in words."""
+        names = list(self.parameters)
+        i = names.index(name)
+        way = end - self.parameters[name].value
+        place = [f"{name}={end:.6g}"]
+        for j, other in enumerate(names):
+            if j != i and self.covariance[i, j]:
+                change = way * float(self.covariance[i, j] / self.covariance[i, i])
+                place.append(f"{other}={self.parameters[other].value + change:.6g}")
+        return place
 
     @property
     def note(self) -> str:
         """Which combinations of indistinct parameters the measurements determine, and which measured cycles
         are unstable, with their growth rates; "" where there are none. The fit may be consistent although
         cycles are unstable: the values are right if the motion was still on these."""
-        said = [*self._combination_texts(), self._instability, self._distance]
+        said = [*self._combination_texts(), self._instability]
+        if not self._none_is_near:
+            said.append(self._distance)
         return "; ".join(filter(None, said))
 
     def _combination_texts(self) -> Iterator[str]:
@@ -203,12 +252,17 @@ class Fit(Summarised, Drawn, EqualByValue):
         if not self.unstable:
             return ""
         cycles = [f"{name} ({rate:.2g}/s)" for name, rate in self.unstable.items()]
+        near = ", and none from the static start comes near" if self._none_is_near else ""
         if len(cycles) == 1:
-            return f"in the fitted case the cycle of {cycles[0]} is unstable: a motion does not stay on it"
-        which = _listed(cycles)
-        return (
-            f"in the fitted case the cycles of {which} are unstable: a motion does not stay on them"
-        )
+            unstable = f"in the fitted case the cycle of {cycles[0]} is unstable"
+            return f"{unstable}: a motion does not stay on it{near}"
+        unstable = f"in the fitted case the cycles of {_listed(cycles)} are unstable"
+        return f"{unstable}: a motion does not stay on them{near}"
+
+    @property
+    def _none_is_near(self) -> bool:
+        """Whether the motion is near none of the unstable cycles."""
+        return bool(self.unstable) and set(self.elsewhere) == set(self.unstable)
 
     @property
     def _distance(self) -> str:
@@ -222,6 +276,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     def _limit_texts(self, name: str) -> Iterator[str]:
         """Yield in words the limit of a parameter, if it has one."""
         limit = self.limits.get(name, math.nan)
+        if name in self.unlimited:
+            yield f"no limit of {name} is known, since {self.unlimited[name]}"
         if math.isnan(limit):
             return
         side = "below" if limit > self.parameters[name].value else "above"
@@ -248,14 +304,19 @@ class Fit(Summarised, Drawn, EqualByValue):
                 yield f"{passed}, beyond which its end is not known"
 
     @property
+    def _least(self) -> float:
+        """The least chi squared."""
+        return self.chi_squared - self.excess
+
+    @property
     def misses(self) -> bool:
         """Whether chi squared is larger than in 95 % of fits of the right model."""
-        return is_unlikely(self.chi_squared, self.freedom)
+        return is_unlikely(self._least, self.freedom)
 
     @property
     def _chance(self) -> float:
         """Share of fits of the right model whose chi squared is at least as large."""
-        return _chance_of(self.chi_squared, self.freedom)
+        return _chance_of(self._least, self.freedom)
 
     @property
     def is_wrong(self) -> bool:
@@ -266,10 +327,10 @@ class Fit(Summarised, Drawn, EqualByValue):
     def _misfit(self) -> str:
         """How large chi squared is, in words."""
         wrong = f"a bound, {WRONG}" if self.at_bounds else WRONG
+        cost = "the least chi squared" if self.excess else "chi squared"
         if self.freedom == 0:
-            return f"{wrong} are wrong, chi squared is {self.chi_squared:.3g} and should be 0"
-        reduced = self.chi_squared / self.freedom
-        size = f"chi squared is {reduced:.3g} times its degrees of freedom"
+            return f"{wrong} are wrong, {cost} is {self._least:.3g} and should be 0"
+        size = f"{cost} is {self._least / self.freedom:.3g} times its degrees of freedom"
         worst = int(np.argmax(np.abs(self.deviations)))
         most = f"{self.measurements[worst].name} deviates most"
         if self.is_wrong:
@@ -333,8 +394,8 @@ class Fit(Summarised, Drawn, EqualByValue):
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         doubt = self.doubt
-        for name, fitted in self.parameters.items():
-            text = number_text(fitted.value, unit_of_parameter(name))
+        for name in self.parameters:
+            text = f"{self._value_text(name)} {unit_of_parameter(name)}".strip()
             if not doubt:
                 text += f" ({self._interval_text(name)})"
             yield name, text
@@ -427,7 +488,15 @@ def _is_held(name: str, bound: float, is_last: bool) -> str:
     return f"{name} is held by its bound {bound:.6g}: widen the bound, or fix it"
 
 
-def _ends_within(name: str, end: float) -> str:
-    """Return that what was measured does not exist at an end of a parameter's interval."""
-    place = f"{name}={end:.6g}"
-    return f"no such motion was found at {place}: a fold, or another end of the cycle, lies within the interval"
+def _ends_within(name: str, place: Sequence[str]) -> str:
+    """Return that what was measured does not exist at an end of a parameter's interval, and at which
+    values of all."""
+    within = (
+        "lies within the interval" if len(place) == 1 else f"lies within the interval of {name}"
+    )
+    return f"no such motion was found at {', '.join(place)}: a fold, or another end of the cycle, {within}"
+
+
+def _ends_outside(name: str, place: Sequence[str]) -> str:
+    """Return that there is no case at an end of a parameter's interval."""
+    return f"the interval of {name} ends where there is no case: {', '.join(place)}"

@@ -13,6 +13,8 @@ from disc_model.units import is_missing, number
 
 NEEDED = ("quantity", "value", "uncertainty")
 """Columns that every table has."""
+PASSED_OVER = ("comment", "comments", "remark", "remarks", "note")
+"""Columns for readers, in small or capital letters."""
 
 
 def is_table(measured: object) -> bool:
@@ -36,6 +38,7 @@ def measurements_in(
     index = table.index.name
     if index in (*NEEDED, *numbers) and index not in table.columns:
         table = table.reset_index()
+    table = table[[name for name in table.columns if str(name).lower() not in PASSED_OVER]]
     names = list(table.columns)
     wrong = _column_faults(names, numbers, vary)
     faults += wrong

@@ -24,7 +24,7 @@ import numpy as np
 from disc_model.arrays import EqualByValue, Indices
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, mode_arrays
-from disc_model.display import Summarised, number_text
+from disc_model.display import Summarised
 from disc_model.errors import (
     Fault,
     ParameterError,
@@ -36,7 +36,7 @@ from disc_model.errors import (
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.stability.return_map import Array
 from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
-from disc_model.units import is_number
+from disc_model.units import in_si, is_number
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -47,6 +47,8 @@ ORDER = 10  # of the series of exponentials: their error is 1e-9 per step
 MOST_STEPS = 100_000  # of half a turn
 LARGE = 1e100  # size of a propagator that is scaled down
 NOTICED = 0.1  # relative change of the growth rate that matters,
+ZERO = 1e-9  # 1/s, growth rate that is 0 but for rounding,
+ROUNDING = 1e-12  # and over the largest one
 LEAST = 1e-6  # 1/s, if it is more than this, which changes a motion by a tenth in a day
 
 
@@ -71,8 +73,14 @@ class SplitGrowth(Summarised, EqualByValue):
     pairs: "pd.DataFrame"
 
     def __repr__(self) -> str:
-        rates = f"together={self.together:.4g}, growth_rate={self.growth_rate:.4g}"
-        return f"SplitGrowth({rates}, apart={self.apart:.4g})"
+        together, growth_rate, apart = self._texts()
+        return f"SplitGrowth(together={together}, growth_rate={growth_rate}, apart={apart})"
+
+    def _texts(self) -> list[str]:
+        """The growth rates as numbers; 0 for rounding errors, which are small over the largest."""
+        rates = np.array([self.together, self.growth_rate, self.apart])
+        rates[np.abs(rates) < max(ZERO, ROUNDING * float(np.abs(rates).max()))] = 0.0
+        return [f"{rate:.4g}" for rate in rates.tolist()]
 
     @property
     def matters(self) -> bool:
@@ -83,9 +91,10 @@ class SplitGrowth(Summarised, EqualByValue):
         return change > LEAST and (changes_sign or change > NOTICED * abs(self.together))
 
     def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "pairs together", number_text(self.together, "1/s")
-        yield "with the splits", number_text(self.growth_rate, "1/s")
-        yield "halves apart", number_text(self.apart, "1/s")
+        together, growth_rate, apart = self._texts()
+        yield "pairs together", f"{together} 1/s"
+        yield "with the splits", f"{growth_rate} 1/s"
+        yield "halves apart", f"{apart} 1/s"
         yield "the split matters", "yes" if self.matters else "no"
 
 
@@ -112,8 +121,8 @@ def split_growth(case: Parameters, split: float | Iterable[float] | None = None)
     Parameters
     ----------
     case : the case
-    split : relative difference of the two frequencies of each pair, 0 to 0.2: one number, or one
-        for each mode in the order of `plate_modes`; if left out, those that `disc.report` has of a
+    split : relative difference of the two frequencies of each pair, 0 to 0.2 or "20 %": one number,
+        or one for each mode in the order of `plate_modes`; if left out, those that `disc.report` has of a
         file
 
     Returns
@@ -167,6 +176,9 @@ def _splits(p: Parameters, split: Any, modes: Modes) -> list[float]:
         require((report is not None and report.has_shapes, "split", split, rule))
         if report is not None:
             split = report.split
+    faults: list[Fault] = []
+    split = in_si(split, "1", faults, ("split",))
+    raise_faults(faults)
     numbers = split
     if is_number(split):
         numbers = [split] * count

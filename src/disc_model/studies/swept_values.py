@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from pydantic import create_model
 
-from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, ParameterError
+from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.case import SomeParameters
 from disc_model.units import Finite, Strict, in_si, is_missing, number

@@ -11,7 +11,8 @@ import re
 from typing import NamedTuple
 
 from disc_model.errors import Fault, ParameterError, suggestion
-from disc_model.units import NUMBER, in_si
+from disc_model.mode_units import UNIT_NEEDED, factor_to_si, unit_rule
+from disc_model.units import NUMBER
 
 COLUMNS = {
     "diameters": ("diameters", 1.0),
@@ -64,24 +65,9 @@ SHORT = {"n": "diameters", "m": "modal_mass (kg)", "m_kg": "modal_mass (kg)"}
 mean, for messages."""
 LOSS_FACTORS = ("loss_factor", "eta")  # twice the damping ratio
 
-POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
-
-UNIT_NEEDED = {
-    "omega": ("Hz, kHz or rad/s", "frequency_Hz or frequency (Hz)"),
-    "pole": ("rad/s or Hz", "pole (rad/s)"),
-    "pole_real": ("1/s, rad/s or Hz", "pole real (1/s)"),
-    "pole_imag": ("rad/s or Hz", "pole imag (rad/s)"),
-    "decay_rate": ("1/s or rad/s", "decay_rate (1/s)"),
-    "modal_mass": ("kg", "modal_mass (kg)"),
-    "amplitude": ("kg^-1/2", "amplitude_per_sqrt_kg or amplitude (kg^-1/2)"),
-    "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
-}
-"""Quantities whose heads must state a unit: which, and examples."""
-
 _SHAPE_AT = re.compile(r"shape[ _]+at[ _]+(\d*\.?\d+(?:e-?\d+)?)[ _]*([a-zµμ]*m)", re.IGNORECASE)
 _BRACKETS = re.compile(r"(.*?)\s*(?:\((.*)\)|\[(.*)\])")
 _WORD_IN = re.compile(r"(.*?)\s+in\s+(\S.*)")
-_ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?\.5)\)?")
 _CELL = re.compile(rf"({NUMBER})\s*([%A-Za-zµ].*)")
 _PER_METRE = {"m": 1.0, "mm": 1e3, "cm": 1e2}
 
@@ -207,64 +193,11 @@ def _word(name: str, unit: str) -> tuple[str, str]:
 
 def _factor(text: str, quantity: str, unit: str) -> float:
     """Factor from the unit of a head to the SI unit of its quantity."""
-    units, examples = UNIT_NEEDED.get(quantity, ("none or %", ""))
+    units, examples = UNIT_NEEDED.get(quantity, ("", ""))
     if not unit and examples:
         rule = f"must give its unit, {units}, as in {examples}"
         raise ParameterError(Fault.of(("columns",), text, rule))
-    plain = unit.replace("_per_", "/").replace("per_", "1/").replace("sqrt_", "sqrt ")
-    if quantity in ("omega", "decay_rate", *POLES):
-        factor = _rate(plain, quantity)
-    elif quantity == "modal_mass":
-        factor = _converted(plain, "kg")
-    elif quantity in ("amplitude", "tangential"):
-        factor = _per_root_mass(plain)
-    else:
-        factor = _share(plain, quantity)
+    factor = factor_to_si(quantity, unit)
     if math.isnan(factor):
-        rule = f"the unit of {quantity} must be {units}, not {unit}"
-        raise ParameterError(Fault.of(("columns",), text, rule))
+        raise ParameterError(Fault.of(("columns",), text, unit_rule(quantity, unit)))
     return factor
-
-
-def _rate(unit: str, quantity: str) -> float:
-    """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s."""
-    known = {"hz": math.tau, "khz": 1e3 * math.tau, "rad/s": 1.0}
-    if quantity in ("pole_real", "decay_rate"):
-        known["1/s"] = 1.0
-    if unit.lower() in known:
-        return known[unit.lower()]
-    if "hz" in unit.lower():
-        return _converted(unit, "Hz") * math.tau
-    return _converted(unit, "rad/s")
-
-
-def _per_root_mass(unit: str) -> float:
-    """Factor to kg^-1/2 from texts such as kg^-0.5, 1/sqrt(kg) and t^-1/2; nan for other units."""
-    text = unit.replace(" ", "").replace("**", "^").replace("√", "sqrt")
-    match = _ROOT.fullmatch(text)
-    if match is None:
-        return math.nan
-    mass = match[1] or match[2]
-    if mass == "kg":
-        return 1.0
-    return _converted(mass, "kg") ** -0.5
-
-
-def _share(unit: str, quantity: str) -> float:
-    """Factor to a ratio or a count without unit; nan for other units."""
-    if unit in ("", "-", "1"):
-        share = 1.0
-    elif unit in ("%", "percent", "per cent") and quantity in ("damping_ratio", "split"):
-        share = 0.01
-    else:
-        share = math.nan
-    return share
-
-
-def _converted(unit: str, target: str) -> float:
-    """One of a unit in another one; nan if it is not of its kind."""
-    faults: list[Fault] = []
-    value = in_si(f"1 {unit}", target, faults, ())
-    if faults or not isinstance(value, float):
-        return math.nan
-    return value

@@ -9,18 +9,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
 
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
-from disc_model.disc.files.heads import (
-    COLUMNS,
-    POLES,
-    Head,
-    read_head,
-    with_unit,
-    with_units_of_cells,
-)
+from disc_model.disc.files.heads import COLUMNS, Head, read_head, with_unit, with_units_of_cells
 from disc_model.disc.files.pairs import Halves, check_halves, halves_in, mean_of, origins_of
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import SAME_PAIR, DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
+from disc_model.mode_units import POLES, UNCERTAIN
 from disc_model.parameters import Disc
 
 if TYPE_CHECKING:
@@ -128,6 +122,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     halves: Halves = [[i] for i in range(len(columns[0].cells))]
     fields = values
     try:
+        raise_faults([*_with_units(values)])
         if pairs == "mean" and _all_numbers(values):
             halves = halves_in(values)
             check_halves(halves, values)
@@ -141,6 +136,14 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     notes = tuple(_notes(columns, disc))
     doubts = tuple(doubts_of_halves(origins))
     return disc.with_report(DiscReport(source, origins, notes=notes, doubts=doubts))
+
+
+def _with_units(values: Mapping[str, Any]) -> Iterator[Fault]:
+    """Yield faults of single cells with units, which the head of their column has for all."""
+    for name in UNCERTAIN:
+        for i, value in enumerate(values.get(name, [])):
+            if isinstance(value, str) and begins_a_number(value):
+                yield Fault.of((name, str(i)), value, "must be a number")
 
 
 # ---- Report

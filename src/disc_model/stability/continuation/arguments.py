@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
-from disc_model.parameters import Parameters, foreign_case
+from disc_model.mode_units import column_of, mode_number_in_si
+from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.units import in_si, is_number, is_quantity, number
 
@@ -47,11 +47,17 @@ def values_in_si(
         if isinstance(values, list | tuple):
             converted = [mode_number_in_si(name, value, found) for value in values]
     else:
-        unit = Parameters.unit(name) if isinstance(name, str) else ""
-        converted = _numbers(in_si(values, unit, found, ()))
+        converted = _numbers(in_si(values, _unit_of(name), found, ()))
     if faults is not None:
         faults += [Fault((argument,), each.value, each.rule) for each in found]
     return converted
+
+
+def _unit_of(name: Any) -> str:
+    """The SI unit of a parameter, "1" of a ratio; "" for what is neither."""
+    if not isinstance(name, str):
+        return ""
+    return "1" if name in RATIOS else Parameters.unit(name)
 
 
 def _numbers(values: Any) -> Any:

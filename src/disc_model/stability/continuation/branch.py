@@ -19,6 +19,7 @@ from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
+from disc_model.units import in_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -334,12 +335,12 @@ class Branch:
         values = self.values[self._number(i)].tolist()
         return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
 
-    def state(self, i: int, push: float = 0.0) -> State:
+    def state(self, i: int, push: float | str = 0.0) -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
         the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
 
         Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
-        the largest, times the leading multiplier. A `push`, such as 0.01 or -0.01, moves the state
+        the largest, times the leading multiplier. A `push`, such as 0.01 or "-1 %", moves the state
         along the eigenvector of that multiplier, in which an unstable cycle is left soonest: by this
         share of the disc's static deflection, both in terms of energy, and for a positive push in
         the sense that stretches the spring in the plane. Raises `ParameterError` if there is no such
@@ -361,13 +362,16 @@ class Branch:
         -0.01 False
         """
         i = self._number(i)
-        require((is_finite(push), "push", push, "must be a finite number"))
+        faults: list[Fault] = []
+        share: Any = in_si(push, "1", faults, ("push",))
+        raise_faults(faults)
+        require((is_finite(share), "push", push, "must be a finite number"))
         own = self._make_map(self.case_at(i))
         reference = self._make_map(self.case)
         point = self.points[i] / reference.scale * own.scale
-        if push and own.size:
+        if share and own.size:
             direction = leading_direction(own, point, float(self.period[i]))
-            point = point + push * own.deflection * direction
+            point = point + share * own.deflection * direction
         return own.state(point)
 
     @cached_property

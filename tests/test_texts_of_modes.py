@@ -1,0 +1,122 @@
+"""Numbers of modes, splits, pushes and measured functions may be texts with units, as parameters may."""
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import disc_model as dm
+from disc_model.stability.continuation.arguments import interval_in_si
+from tests.refusals import refusal
+
+MODES: dict[str, Any] = {"diameters": [0, 2], "omega": [5837.0, 7615.0], "amplitude": [0.43, 0.54]}
+DISC = dm.Disc(**MODES, damping_ratio=[1e-3, 1e-3])
+CASE = dm.Parameters(N=385, Omega=14, disc=DISC, r_0=0.1)
+
+
+def test_a_disc_takes_texts_with_units() -> None:
+    """They were refused."""
+    disc = dm.Disc(
+        diameters=[0, 2],
+        omega=["929 Hz", "1.212 kHz"],
+        amplitude=["0.43 kg^-1/2", "0.54"],
+        damping_ratio=["0.1 %", 1e-3],
+        tangential=[0, "-0.13 1/sqrt(kg)"],
+        static_compliance="42 nm/N",
+        radii=["80 mm", "0.1 m"],
+        shapes=[[0.3, 0.43], [0.4, 0.54]],
+    )
+    assert disc.omega == pytest.approx((929 * math.tau, 1212 * math.tau))
+    assert disc.amplitude == (0.43, 0.54)
+    assert disc.damping_ratio == (1e-3, 1e-3)
+    assert disc.tangential == (0.0, -0.13)
+    assert disc.static_compliance == pytest.approx(42e-9)
+    assert disc.radii == (0.08, 0.1)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "value"),
+    [
+        ("omega_2_0", "1.2 kHz", 1200 * math.tau),
+        ("omega_2_0", "7600", 7600.0),
+        ("damping_ratio_2_0", "0.2 %", 0.002),
+        ("amplitude_0_0", "0.5 1/sqrt(kg)", 0.5),
+    ],
+)
+def test_a_changed_copy_takes_texts_with_units(name: str, text: str, value: float) -> None:
+    assert CASE.replace(**{name: text}).numbers[name] == pytest.approx(value)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"omega_2_0": "5 kg"}, "omega_2_0='5 kg': the unit of omega must be Hz, kHz or rad/s"),
+        ({"omega_2_0": "fast"}, "omega_2_0='fast': must be a number"),
+        ({"amplitude_0_0": "3 m"}, "amplitude_0_0='3 m': the unit of amplitude must be kg^-1/2"),
+    ],
+)
+def test_texts_of_other_kinds_are_refused(changes: dict[str, str], message: str) -> None:
+    with refusal(re.escape(message)):
+        CASE.replace(**changes)
+
+
+def test_a_disc_names_the_row_of_another_kind() -> None:
+    with refusal(re.escape("omega.1='5 kg': the unit of omega must be Hz")):
+        dm.Disc(diameters=[0, 2], omega=[5837, "5 kg"], amplitude=[0.4, 0.5])
+
+
+def test_a_single_cell_of_a_loss_factor_is_not_read_as_a_damping_ratio(tmp_path: Path) -> None:
+    """A loss factor is twice as large."""
+    file = tmp_path / "modes.csv"
+    file.write_text(
+        "diameters,frequency_Hz,amplitude_per_sqrt_kg,loss_factor\n0,929,0.4,0.1 %\n2,1212,0.5,0.001\n"
+    )
+    with refusal("'0.1 %': must be a number"):
+        dm.Disc.from_csv(file)
+
+
+def test_bounds_of_a_ratio_may_be_in_percent() -> None:
+    assert interval_in_si("mu_k_over_mu_s", ("50 %", "70 %")) == [0.5, 0.7]
+    faults: list[Any] = []
+    assert interval_in_si("mu_k_over_mu_s", ("50 mm", "70 mm"), faults) is None
+    assert len(faults) == 2
+
+
+def test_a_split_may_be_in_percent() -> None:
+    assert dm.split_growth(CASE, "0.5 %") == dm.split_growth(CASE, 0.005)
+    with refusal(re.escape("split='3 mm': must be a number without a unit")):
+        dm.split_growth(CASE, "3 mm")
+
+
+def test_rounding_errors_of_growth_rates_are_zero() -> None:
+    """It was -1.421e-13."""
+    found = dm.split_growth(
+        CASE.replace(damping_ratio_0_0=0.0, damping_ratio_2_0=0.0, mu_s=0, mu_k=0), 0.0
+    )
+    assert repr(found) == "SplitGrowth(together=0, growth_rate=0, apart=0)"
+
+
+@pytest.mark.compiled
+def test_a_push_may_be_in_percent() -> None:
+    branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
+    assert branch.state(0, "1 %") == branch.state(0, 0.01)
+
+
+def thickness(case: dm.Parameters) -> float:
+    """A quantity of one's own, in m."""
+    return case.h
+
+
+def test_a_measured_function_takes_texts_with_units() -> None:
+    measured = dm.Measurement(thickness, "2.1 mm", "100 µm")
+    assert (measured.value, measured.uncertainty) == pytest.approx((2.1e-3, 1e-4))
+    assert dm.Measurement(thickness, 0.002, "0.1 mm").uncertainty == pytest.approx(1e-4)
+    found = dm.fit(dm.Parameters(N=385, Omega=14), ["h"], [measured])
+    assert found.case.h == pytest.approx(2.1e-3)
+
+
+def test_a_value_and_its_uncertainty_are_of_one_kind() -> None:
+    with refusal(re.escape("uncertainty='0.1 s': must be a number in m")):
+        dm.Measurement(thickness, "2.1 mm", "0.1 s")
