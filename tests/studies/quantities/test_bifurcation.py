@@ -84,7 +84,8 @@ def test_samples_once_a_turn_begin_with_the_first_after_the_transient(
     turn = 2 * np.pi / p.Omega
     options = Bifurcation(transient=turns_left_out * turn, samples=3, theta=2.0)
     values, message = options.compute_point(Point(p))
-    assert message == ""
+    assert message.startswith("not settled after ")
+    assert message.endswith("; raise transient")
     start = make_initial_state(p, Start(), options.tol)
     turns = {"turns": Poincare(theta=2.0)}
     run = simulate(p, 4.5 * turn, turns, tol=options.tol, initial_state=start)
@@ -245,9 +246,10 @@ def test_a_motion_without_an_event_while_samples_are_taken_says_so() -> None:
     p = Parameters(N=385, Omega=15.1, c_p=1)
     options = Bifurcation(section="event", transient=40, max_transient=40)
     values, message = options.compute_point(Point(p))
-    not_settled, no_event = message.split("; ")
+    not_settled, no_event, advice = message.split("; ")
     assert not_settled == "not settled after 40 s: changing at 0.025/s"
     assert no_event == "no event in the 5 s sampled after that"
+    assert advice == "raise max_transient"
     assert not len(values["psi"])
 
 
