@@ -219,7 +219,9 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
     calm = calm_points(study, name)
     if calm:
         no_events = {reason: gone & points for reason, points in calm.items()}
-        others = gone & ~np.logical_or(*calm.values())
+        others = gone
+        for points in calm.values():
+            others = others & ~points
         return {**no_events, missing_text(study, name): others}
     reason = missing_text(study, name)
     below = beyond_lowest_speed(study, name)

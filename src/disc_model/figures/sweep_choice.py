@@ -44,6 +44,7 @@ OF_FUNCTIONS = {
     "coupled_natural_frequencies": "value",
     "lyapunov": "exponent",
     "lyapunov_exponents": "exponents",
+    "plate_modes": "omega",
     "simulate": "n_separations",
 }
 """Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
