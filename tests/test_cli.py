@@ -212,6 +212,9 @@ def test_one_of_several_tables_is_chosen(command: Command, tmp_path: Path) -> No
     head, *rows = target.read_text().splitlines()
     assert "crossing_frequency" in head
     assert len(rows) == 3
+    assert advice[2:4] == ["or", "--variables"]
+    command.out("convert", str(file), str(target), "--variables", advice[4])
+    assert "growth_rate (s-1)" in target.read_text().splitlines()[0]
     some = ("--variables", "growth_rate, stick_slip_frequency")
     command.out("convert", str(file), str(target), *some)
     assert target.read_text().startswith("Omega (rad s-1),growth_rate (s-1),stick_slip_frequency")

@@ -445,6 +445,9 @@ def _refuse_several_tables(data: Any) -> None:
         return
     alike = [name for name in others if data[name].dims == data[others[0]].dims]
     choice = f"choose one, such as --variables {','.join(alike)}"
+    placed = [str(name) for name in data.data_vars if name not in others]
+    if placed:
+        choice = f"{choice} or --variables {','.join(placed)}"
     rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
     raise ParameterError(Fault(("SOURCE",), "", rule))
 

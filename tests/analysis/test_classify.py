@@ -428,7 +428,10 @@ def test_a_motion_is_told_in_words(motion: classify.Motion, text: str) -> None:
             classify.Settling(Settled.UNDECIDED, -0.002, least=0.01),
             "undecided, since the record cannot show changes below 0.01/s",
         ),
-        (classify.Settling(), "undecided, since the record has too few events to show a change"),
+        (
+            classify.Settling(),
+            "undecided, since a part of the record has too few events to show a change",
+        ),
     ],
 )
 def test_whether_a_motion_has_settled_is_told_with_what_the_record_shows(

@@ -92,7 +92,7 @@ def test_samples_at_releases_and_at_separations_have_marks_and_names_of_their_ow
     assert {*separations.get_xdata()} == {SPEEDS[2]}
     assert releases.get_marker() != separations.get_marker()
     events = ["at release of stick", "at loss of contact"]
-    assert labels(ax.figure) == [*events, "not settled, or undecided"]
+    assert labels(ax.figure) == [*events, "at loss of contact, not settled"]
     assert ax.get_ylabel() == "Angle (rad)"
 
 

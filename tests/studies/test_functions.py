@@ -141,6 +141,7 @@ SPELLED_OUT = [
             "seed": 5,
             "attractor_tol": 0.2,
             "n_bisection_directions": 4,
+            "max_attractors": 20,
         },
         {
             "energies": [0.1, 0.2],
@@ -151,6 +152,7 @@ SPELLED_OUT = [
             "seed": 5,
             "attractor_tol": 0.2,
             "n_bisection_directions": 4,
+            "max_attractors": 20,
         },
     ),
     (

@@ -8,6 +8,7 @@ import pytest
 import disc_model as dm
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
+from disc_model.studies.quantities.basins import AttractorBasins
 from disc_model.studies.quantities.branches import Branches, _Found
 from disc_model.studies.quantities.campbell import Campbell
 from disc_model.studies.quantities.stability_curves import StabilityCurves
@@ -48,6 +49,15 @@ def test_a_study_tells_it_at_the_point(alternating: None) -> None:
     axes = {"N": [200]}
     study = computed(quantity="critical_speed", options=options, base={}, axes=axes)
     assert study["message"].values.tolist() == [CUT]
+
+
+def test_attractors_without_room_are_told() -> None:
+    """The message named no option that gives them room."""
+    basins = AttractorBasins(max_attractors=2)
+    coordinates = coordinates_of(basins.COORDINATES, basins)
+    assert coordinates["attractor"].values.tolist() == [1, 2]
+    said = with_cuts("", {"attractor_starts": [5, 3, 1]}, basins, coordinates)
+    assert said == "3 were found along attractor, which has room for 2: raise max_attractors"
 
 
 def test_curves_and_branches_without_room_are_told() -> None:

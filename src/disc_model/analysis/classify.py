@@ -328,7 +328,7 @@ class Settling(NamedTuple):
 
     def __str__(self) -> str:
         if not np.isfinite(self.least):
-            return f"{self.answer}, since the record has too few events to show a change"
+            return f"{self.answer}, since a part of the record has too few events to show a change"
         if self.answer is Settled.UNDECIDED:
             return f"{self.answer}, since the record cannot show changes below {self.least:.2g}/s"
         return f"{self.answer} at {self.rate:.2g}/s"

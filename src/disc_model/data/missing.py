@@ -12,6 +12,8 @@ _OF_DIMENSIONS: Mapping[str, str] = _REASONS.pop("dimensions")
 
 WITH_ROOM = tuple(dimension for dimension in _OF_DIMENSIONS if dimension != "mode")
 """Dimensions with room for more than is found at most points; all points have their modes."""
+NUMBERED = tuple(_OF_DIMENSIONS)
+"""Dimensions of which there may be places that no point fills: those, and modes."""
 
 
 def reason_of(kind: str, name: str, dims: Iterable[Any] = ()) -> str:

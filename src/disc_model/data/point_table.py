@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from itertools import product
 from pathlib import Path
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.data.coded import words
 from disc_model.data.files import write_atomically
-from disc_model.data.missing import WITH_ROOM
+from disc_model.data.missing import NUMBERED, WITH_ROOM
 from disc_model.data.tables import head_of
 from disc_model.errors import Fault, ParameterError
 
@@ -26,7 +26,8 @@ def save_points(data: xr.Dataset, file: Path) -> None:
     Heads of columns have units, such as ``Omega (rad s-1)``, and words stand in place of their
     numbers. A variable that has further dimensions has a column for each place along these, such as
     ``multipliers_real[0]``. Where a dimension has room for more than was found, such as that of
-    crossings, places without a number have neither a row nor a column.
+    crossings, places without a number have neither a row nor a column; modes that no point has have none
+    either.
 
     Raises
     ------
@@ -54,10 +55,10 @@ def _numbers_along(data: xr.Dataset, dim: str) -> list[xr.DataArray]:
 
 
 def _without_empty_places(data: xr.Dataset) -> xr.Dataset:
-    """A dataset without the places along dimensions `WITH_ROOM` at which no point has a number; the first
+    """A dataset without the places along dimensions `NUMBERED` at which no point has a number; the first
     one stays, for its heads."""
     kept = {}
-    for dim in {*WITH_ROOM} & {*map(str, data.dims)}:
+    for dim in {*NUMBERED} & {*map(str, data.dims)}:
         found = np.zeros(data.sizes[dim], bool)
         numbers = _numbers_along(data, dim)
         for each in numbers:
@@ -107,8 +108,18 @@ def _check_dimensions(data: xr.Dataset) -> None:
     others = without_place(data)
     if others:
         choice = f'choose variables of one table, such as data[["{others[0]}"]]'
-        rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
+        dims = ", ".join(f'"{dim}"' for dim in _further_dimensions(data, others))
+        left = f"data.drop_dims([{dims}]), which has all others"
+        rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}, or {left}"
         raise ParameterError(Fault(("data",), "", rule))
+
+
+def _further_dimensions(data: xr.Dataset, others: Sequence[str]) -> list[str]:
+    """The dimensions of variables that have no place in a table of the points, but not of those that
+    have one."""
+    placed = {dim for name, each in data.items() if name not in others for dim in each.dims}
+    further = dict.fromkeys(dim for name in others for dim in data[name].dims)
+    return [str(dim) for dim in further if dim not in placed]
 
 
 def rule_of_rows(data: xr.Dataset) -> str:

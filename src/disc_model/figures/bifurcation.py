@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.ticker import NullLocator
 
 from disc_model.data.variables import axis_of, flag_names
+from disc_model.figures.classes import UNSETTLED, name_of
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -24,10 +25,12 @@ from disc_model.figures.drawing import (
     plain_decades,
     wide,
 )
+from disc_model.figures.edge_strip import draw_strip
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
 from disc_model.figures.sections import names_of_events, with_section
 from disc_model.figures.selection import failed, opened
+from disc_model.figures.settled_motions import CALM, kinds_of
 from disc_model.figures.types import Array, Axes, Figure, Mask, Words
 
 MARKS: dict[str, dict[str, Any]] = {
@@ -44,8 +47,12 @@ UNDECIDED: dict[str, Any] = {
     "mew": 0.5,
 }
 UNDECIDED_NAME = "not settled, or undecided"
+RINGS = {"stick": "o", "separation": "^"}
+"""Shapes of such marks by the phases of events at which samples are taken."""
 RINGS_APART = 0.025  # of the range of all samples, least distance of such marks at one point
 IN_LEGEND = 6.0  # size of the marks there: those of the diagram are too small for it
+SHAPES = {"steady_sliding": "_", "at_rest": "1"}
+"""Marks of motions without events."""
 EXPONENTS = (BLACK, BLUE, BROWN, GREY)
 """Colours of exponents, the largest first; none is the colour of a phase."""
 ERRORS = 4  # half-width of the band about an exponent, in standard errors
@@ -53,12 +60,13 @@ ANOTHER = 0.05  # 1/s, step of an exponent beyond which another motion begins
 SAME_PLACE = 1e-6  # of a step of the parameter, within which points of two studies are one
 LONE_BAND = 3.0  # points, width of the band about a point that is joined to none
 NARROW = 21  # characters of a line beside the samples, which also a low panel has room for
-IDLE = 0.02  # height of the marks of motions without samples, as a share of the panel
+STRIPS = (0.06, 0.16)
+"""Heights of the strips for motions without samples and without a period, as shares of their panels."""
 
 
 def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw samples by phase, hollow where the motion is not shown to have settled, with crosses
-    at failed points, dashes at motions without samples; below periods, and exponents with
+    at failed points, a strip of motions without samples; below periods, and exponents with
     crosses where the largest is missing."""
     study = study.transpose(plot.x, "sample", ...)
     label, factor = axis_of(plot.x)
@@ -74,7 +82,6 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     axes[-1].set_xlabel(label)
 
     _draw_samples(axes[0], study, along)
-    _draw_idle(axes[0], study, along)
     _draw_periods(axes[1], study, along)
     if "lyapunov" in overlays:
         _draw_exponents(axes[2], overlays["lyapunov"], study, plot.x)
@@ -84,6 +91,9 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         panel.margins(x=0.02)  # no dot is cut at the edge
     places = {case: value * factor for case, value in plot.paper_cases.items()}
     mark_cases(axes, places)
+    draw_strip(axes[0], STRIPS[0], _without_samples(study, along))
+    draw_strip(axes[1], STRIPS[1], _calm(study, along))
+    legend_above(axes[1])
     legend = legend_above(axes[0])
     for line in legend.get_lines() if legend else ():
         line.set_markersize(mark(IN_LEGEND))
@@ -103,8 +113,7 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
     phase = phases_of(study)
     settled = (flag_names(study["settled"]) == "settled")[:, None]
     names = names_of_events(study)
-    rings = apart(values, ~settled & (phase != "none"))
-    dots = [(UNDECIDED_NAME, rings, UNDECIDED)]
+    dots = rings_of(values, ~settled & (phase != "none"), phase, names)
     for name, colour in PHASE_COLOURS.items():
         look = {**MARKS[name], "color": colour}
         dots.append((names.get(name, name), settled & (phase == name), look))
@@ -117,6 +126,23 @@ def _draw_samples(ax: Axes, study: xr.Dataset, along: Array) -> None:
     words, unit = label.replace("rad", "mrad").rsplit(" ", 1)
     said = with_section(study, "psi", words)
     ax.set_ylabel(fill(f"{said} {unit}", NARROW))
+
+
+def rings_of(
+    values: Array, chosen: Mask, phase: Words, events: Mapping[str, str]
+) -> list[tuple[str, Mask, dict[str, Any]]]:
+    """The names, samples and looks of rings of chosen samples, (points, samples): those of each event
+    by the phase there, and all others.
+
+    events : names of events by their phases
+    """
+    rings = []
+    for event, name in events.items():
+        mask = apart(values, chosen & (phase == event))
+        rings.append((f"{name}, {UNSETTLED.label}", mask, {**UNDECIDED, "marker": RINGS[event]}))
+    others = chosen & ~np.isin(phase, [*events])
+    rings.append((UNDECIDED_NAME, apart(values, others), UNDECIDED))
+    return rings
 
 
 def apart(values: Array, chosen: Mask) -> Mask:
@@ -135,43 +161,35 @@ def apart(values: Array, chosen: Mask) -> Mask:
     return shown
 
 
-def _draw_idle(ax: Axes, study: xr.Dataset, along: Array) -> None:
-    """Mark motions without samples: steady sliding, and those without an event."""
-    moving = (phases_of(study) != "none").any(axis=1)
-    idle = ~moving & ~failed(study).values
-    slides = flag_names(study["kind"]) == "steady_sliding"
-    edge = ax.get_xaxis_transform()
-    for label, shape, mask in (
-        ("steady sliding", "_", idle & slides),
-        ("no event while sampled", "|", idle & ~slides),
-    ):
-        places = along[mask]
-        if places.size:
-            ax.plot(
-                places,
-                np.full(places.size, IDLE),
-                shape,
-                label=label,
-                transform=edge,
-                color=GREY,
-                markersize=mark(4),
-            )
+def _without_samples(study: xr.Dataset, along: Array) -> dict[str, tuple[str, Array]]:
+    """Places of motions without samples: steady sliding, permanent stick, and others without an event."""
+    idle = ~(phases_of(study) != "none").any(axis=1) & ~failed(study).values
+    kinds = kinds_of(study)
+    found = {name_of(word): (SHAPES[word], along[idle & (kinds == word)]) for word in CALM}
+    found["no event while sampled"] = ("|", along[idle & ~np.isin(kinds, CALM)])
+    return found
+
+
+def _calm(study: xr.Dataset, along: Array) -> dict[str, tuple[str, Array]]:
+    """Places of motions that have no period because they have no events."""
+    known = ~failed(study).values
+    kinds = kinds_of(study)
+    return {name_of(word): (SHAPES[word], along[known & (kinds == word)]) for word in CALM}
 
 
 def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:
-    """Draw after how many events motions repeat, and mark those that are not shown to."""
+    """Draw after how many events motions repeat, and mark those that have events and are not shown to."""
     moving = (phases_of(study) != "none").any(axis=1)
-    period = study["period_events"].values[moving]
-    repeats = period > 0
-    ax.plot(along[moving][repeats], period[repeats], ".", color=BLACK, markersize=mark(3))
+    period = study["period_events"].values
+    repeats = moving & (period > 0)
+    doubtful = moving & ~repeats & ~np.isin(kinds_of(study), CALM)
+    ax.plot(along[repeats], period[repeats], ".", color=BLACK, markersize=mark(3))
     ax.set_yscale("log")
     ax.set_ylabel("Events in\na period")
     ax.set_ylim(0.4, None)  # room for crosses below period 1
     plain_decades(ax.yaxis, least=1)  # there is no half of an event
     ax.yaxis.set_minor_locator(NullLocator())
-    mark_failed(ax, along[moving][~repeats], name="not shown to repeat")
-    if not repeats.all():
-        legend_above(ax)
+    mark_failed(ax, along[doubtful], name="not shown to repeat")
 
 
 def _draw_exponents(ax: Axes, lyapunov: xr.Dataset, study: xr.Dataset, name: str) -> None:

@@ -13,13 +13,14 @@ from disc_model.figures.kinds.general import CurvePlot
 from disc_model.figures.line_names import name_lines
 from disc_model.figures.outside_limits import note_outside
 from disc_model.figures.selection import Part, parts_along, picked, remaining, titles_of
+from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.truths import as_classes
 from disc_model.figures.types import Figure
 
 
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a line, or one for each value of a second dimension, in one panel or several."""
-    panels = panels_of(plot, picked(study, plot.at))
+    panels = panels_of(plot, picked(without_zeros(study), plot.at))
     width = plot.inches_of(len(panels))
     figure, axes = row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}

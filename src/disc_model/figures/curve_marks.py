@@ -25,6 +25,7 @@ from disc_model.figures.selection import (
     unsettled,
     unstable_everywhere,
 )
+from disc_model.figures.settled_motions import calm_points
 from disc_model.figures.types import Array, Axes, Mask
 from disc_model.figures.words import (
     NO_VALUE,
@@ -216,6 +217,13 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
     if everywhere is not None:
         unstable, stable = texts_without_border(study)
         return {unstable: gone & everywhere, stable: gone & ~everywhere}
+    calm = calm_points(study, name)
+    if calm:
+        no_events = {reason: gone & points for reason, points in calm.items()}
+        others = gone
+        for points in calm.values():
+            others = others & ~points
+        return {**no_events, missing_text(study, name): others}
     reason = missing_text(study, name)
     below = beyond_lowest_speed(study, name)
     if below is None:

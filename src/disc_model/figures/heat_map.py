@@ -11,6 +11,7 @@ from disc_model.figures.drawing import COLUMN, letter, panels
 from disc_model.figures.kinds.general import General, HeatMap
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import Part, parts_along, picked, remaining, titles_of
+from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.types import Figure
 
 IN_A_ROW = 4  # panels on a page
@@ -49,6 +50,6 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
 
 def parts_of(plot: General, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The parts of a study in the panels of a general figure."""
-    chosen = picked(study, plot.at)
+    chosen = picked(without_zeros(study), plot.at)
     by = remaining(chosen[plot.variable], [*plot.axes.values()])
     return parts_along(chosen, by, plot.names)

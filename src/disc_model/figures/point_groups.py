@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.display import counted
-from disc_model.figures.bifurcation import MARKS, UNDECIDED, UNDECIDED_NAME, apart
+from disc_model.figures.bifurcation import MARKS, UNDECIDED, rings_of
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import NOT_CONVERGED
 from disc_model.figures.curve_lines import DOT
@@ -15,7 +15,7 @@ from disc_model.figures.curve_marks import MARK
 from disc_model.figures.drawing import BLACK, mark
 from disc_model.figures.sections import names_of_events
 from disc_model.figures.selection import not_converged
-from disc_model.figures.types import Mask
+from disc_model.figures.types import Mask, Words
 
 MANY = 300  # points, which are small marks
 
@@ -34,16 +34,18 @@ def points_of(study: xr.Dataset, array: xr.DataArray, look: Look, marker: str) -
     known = np.isfinite(array.values.astype(float))
     doubtful = _not_settled(study, array)
     unsure = _not_converged(study, array)
+    events = names_of_events(study)
+    rings = rings_of(array.values.astype(float), doubtful & known, _phases_of(study, array), events)
     return [
         *_parts_of(study, array, ~doubtful & ~unsure, look, marker),
-        Points(UNDECIDED_NAME, apart(array.values.astype(float), doubtful & known), _ring_of(look)),
-        Points(NOT_CONVERGED.label, unsure & known, _ring_of(look)),
+        *(Points(name, mask, _ring_of(look, ring)) for name, mask, ring in rings),
+        Points(NOT_CONVERGED.label, unsure & known, _ring_of(look, UNDECIDED)),
     ]
 
 
-def _ring_of(look: Look) -> dict[str, Any]:
+def _ring_of(look: Look, ring: dict[str, Any]) -> dict[str, Any]:
     """The look of rings about values in doubt: grey, or beside black dots the colour of their sweep."""
-    ring = {**UNDECIDED, "markersize": mark(UNDECIDED["markersize"])}
+    ring = {**ring, "markersize": mark(ring["markersize"])}
     return ring if look.colour == BLACK else {**ring, "color": look.colour}
 
 
@@ -58,7 +60,7 @@ def _parts_of(
         dots |= {"markerfacecolor": "none", "markersize": mark(MARK)}
     parts = []
     for phase, name in names_of_events(study).items():
-        mask = _in_phase(study, array, phase) & shown
+        mask = (_phases_of(study, array) == phase) & shown
         if mask.any():
             parts.append(Points(name, mask, {**dots, **_look_at(phase, look, marker)}))
     return parts or [Points(_number_of_modes(array), shown, dots)]
@@ -80,12 +82,12 @@ def _look_at(phase: str, look: Look, marker: str) -> dict[str, Any]:
     return {"markerfacecolor": look.colour} if phase == "stick" else {}
 
 
-def _in_phase(study: xr.Dataset, array: xr.DataArray, phase: str) -> Mask:
-    """Values that were sampled in a phase of the motion."""
+def _phases_of(study: xr.Dataset, array: xr.DataArray) -> Words:
+    """The phase of the motion at each value, "" where a study does not know it."""
     phases = study.get("phase")
     if phases is None or {*phases.dims} != {*array.dims}:
-        return np.zeros(array.shape, dtype=bool)
-    return np.asarray(flag_names(phases.transpose(*array.dims)) == phase)
+        return np.full(array.shape, "")
+    return np.asarray(flag_names(phases.transpose(*array.dims)))
 
 
 def _not_converged(study: xr.Dataset, array: xr.DataArray) -> Mask:

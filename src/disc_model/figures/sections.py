@@ -2,7 +2,7 @@
 
 import xarray as xr
 
-from disc_model.data.variables import stated_in
+from disc_model.data.variables import flag_names, stated_in
 
 ONCE_A_TURN = "once per turn of the drive"
 EVENTS = {"stick": "at release of stick", "separation": "at loss of contact"}
@@ -16,12 +16,24 @@ def names_of_events(study: xr.Dataset) -> dict[str, str]:
 
 
 def with_section(study: xr.Dataset, name: str, words: str) -> str:
-    """The words for a variable of a study, with when it was sampled if that is once per turn; events are
-    named by the marks of their samples."""
+    """The words for a variable of a study, with when it was sampled if that is once per turn, or at the
+    event of a single motion; those of several are named by the marks of their samples."""
     sampled = name in study and "sample" in study[name].dims
     if sampled and _section(study) == "stroboscopic":
         return f"{words} {ONCE_A_TURN}"
+    if sampled:
+        return f"{words} {_only_event(study)}".rstrip()
     return words
+
+
+def _only_event(study: xr.Dataset) -> str:
+    """The name of the event at which a single motion was sampled; "" of several motions."""
+    phases = study.get("phase")
+    if phases is None or "sample" not in phases.dims or phases.size > phases.sizes["sample"]:
+        return ""
+    names = names_of_events(study)
+    found = [name for phase, name in names.items() if (flag_names(phases) == phase).any()]
+    return found[0] if len(found) == 1 else ""
 
 
 def _section(study: xr.Dataset) -> str:

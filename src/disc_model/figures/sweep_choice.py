@@ -14,6 +14,7 @@ from disc_model.data.variables import TRUTH, WITHOUT_EFFECT, flag_names, stated_
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
+from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
 from disc_model.figures.words import (
     IN_THOUSANDTH,
@@ -44,6 +45,7 @@ OF_FUNCTIONS = {
     "coupled_natural_frequencies": "value",
     "lyapunov": "exponent",
     "lyapunov_exponents": "exponents",
+    "plate_modes": "omega",
     "simulate": "n_separations",
 }
 """Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
@@ -114,7 +116,7 @@ def choose_drawn(
     points : whether all values at a place along the axis are points
     """
     _refuse_branches(study)
-    study = _without_zeros(_without_stacks(study))
+    study = without_zeros(_without_stacks(study))
     study = _with_own_coordinates(study)
     if not variables[0]:
         study = _with_first_values(study)
@@ -274,17 +276,6 @@ def _without_stacks(study: xr.Dataset) -> xr.Dataset:
             columns[name] = (dim, values, study[name].attrs)
         study = study.drop_vars([dim, *names]).assign_coords(columns)
     return study
-
-
-def _without_zeros(study: xr.Dataset) -> xr.Dataset:
-    """The study with no number of events in a period where a motion is not shown to repeat, for which it
-    has 0."""
-    if "period_events" not in study:
-        return study
-    events = study["period_events"]
-    words = str(events.attrs.get("long_name", "")).replace(", 0 if", ", nan if")
-    shown = events.where(events > 0).assign_attrs({**events.attrs, "long_name": words})
-    return study.assign(period_events=shown)
 
 
 def _with_own_coordinates(study: xr.Dataset) -> xr.Dataset:

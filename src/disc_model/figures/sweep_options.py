@@ -32,6 +32,7 @@ PHRASES = {
     "evaluation_time": Phrase("last {} of stays", "s"),
     "horizon": Phrase("horizon {}", "s"),
     "interval": Phrase("intervals of {}", "s"),
+    "max_attractors": Phrase("up to {} attractors"),
     "max_crossings": Phrase("up to {} crossings"),
     "n_bisection_directions": Phrase("{} bisected directions"),
     "n_starts": Phrase("{} starts"),

@@ -52,6 +52,10 @@ from disc_model.stability.segments import (
     segment_of,
     switch_angles,
 )
+from disc_model.stability.sliding_motion import segment_of_sliding
+
+EQUILIBRIA = {Outcome.AT_REST, Outcome.STEADY_SLIDING}
+"""Kinds of which a case has one attractor."""
 
 
 class Arrival(NamedTuple):
@@ -298,8 +302,9 @@ class Basins:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
         motion = _FollowedMotion()
         while True:
-            # a leg
-            end = min(state.time + thresholds.FIRST_LEG, self.horizon)
+            # a leg; the first takes what the others, which are of one length, leave of the horizon
+            later_legs = (self.horizon - state.time) // thresholds.FIRST_LEG - 1
+            end = self.horizon - max(later_legs, 0) * thresholds.FIRST_LEG
             leg = self._simulate_leg(state, end)
             state = leg.final_state
             if math.isnan(motion.first_separation):
@@ -425,10 +430,11 @@ class Basins:
         reached = arrival(self.p, motion.legs, thresholds.LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
-        segment = motion.segments[-1]
-        attractor = Attractor(reached.calm or Outcome.UNDECIDED, segment)
-        if reached.near is not None:
-            attractor = self._periodic(reached.near, segment)
+        attractor = Attractor(reached.calm or Outcome.UNDECIDED, motion.segments[-1])
+        if reached.calm is Outcome.STEADY_SLIDING:
+            attractor = Attractor(Outcome.STEADY_SLIDING, segment_of_sliding(self.p))
+        elif reached.near is not None:
+            attractor = self._periodic(reached.near, self._segment_on(reached.near, motion))
 
         same = self._known_as(attractor)
         is_proven = attractor.kind is not Outcome.UNDECIDED
@@ -446,6 +452,14 @@ class Basins:
         self.known.append(attractor)
         return attractor
 
+    def _segment_on(self, near: NearCycle, motion: _FollowedMotion) -> Segment:
+        """A segment on the cycle that a motion follows: the last one of a steady motion, otherwise
+        one from the cycle itself, since those of the motion have a transient."""
+        state = near.cycle.state
+        if motion.steady or state is None:
+            return motion.segments[-1]
+        return segment_of(self._simulate_leg(state, state.time + thresholds.FIRST_LEG))
+
     def _known_as(self, attractor: Attractor) -> Attractor | None:
         """The known attractor that is the same as another one; None if there is none."""
         for known in self.known:
@@ -454,8 +468,11 @@ class Basins:
         return None
 
     def _same(self, first: Attractor, second: Attractor) -> bool:
-        """Whether two attractors are the same: periodic ones by their fixed points, others by their
-        segments."""
+        """Whether two attractors are the same: equilibria by their kinds, periodic ones by their
+        fixed points, others by their segments."""
+        kinds = {first.kind, second.kind}
+        if kinds & EQUILIBRIA and Outcome.UNDECIDED not in kinds:
+            return len(kinds) == 1
         if first.points is not None and second.points is not None:
             apart = float(np.linalg.norm(second.points - first.points[0], axis=1).min())
             return apart <= thresholds.SAME_POINT * self.map.deflection

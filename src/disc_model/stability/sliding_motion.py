@@ -9,10 +9,11 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.states import State
+from disc_model.simulation.states import State, static_start
 from disc_model.stability import thresholds
 from disc_model.stability.linear_motion import grows_at_rate, left_vector
 from disc_model.stability.return_map import Array
+from disc_model.stability.segments import Segment
 from disc_model.stability.sliding import (
     SteadySliding,
     energy_weights,
@@ -68,6 +69,22 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
         parts.append(float(abs(leading @ apart)))
         before = time
     return grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
+
+
+def segment_of_sliding(p: Parameters) -> Segment:
+    """The segment of steady sliding itself, without the transient of a motion that approaches it."""
+    sliding = _sliding(p)
+    height = float(height_of_slider(p, sliding) - static_start(p).u)
+    return Segment(
+        P_min=sliding.contact_force,
+        P_max=sliding.contact_force,
+        u_min=height,
+        u_max=height,
+        stick_fraction=0.0,
+        slip_fraction=1.0,
+        separation_fraction=0.0,
+        separation_rate=0.0,
+    )
 
 
 def _from_sliding(p: Parameters, sliding: SteadySliding, state: State) -> Array:

@@ -24,6 +24,8 @@ from disc_model.studies.samples import OF_SWEEPS, Dimension, Known, zipped_dimen
 from disc_model.studies.swept_values import checked_values, faults_along_axis
 from disc_model.studies.varied_arguments import Arguments, values_over
 
+LIMITED = ("simulate", "tol")
+"""A function of this package and the argument in whose place it may use a limit."""
 RETURNED = (
     "must return a number, a mapping of names to numbers, words and one-dimensional arrays, or an "
     "xarray.Dataset"
@@ -102,6 +104,9 @@ class Call:
             own = kept.pop(name)
             if self.ours == "continue_cycle":
                 kept[name_beside(name)] = own
+            elif (self.ours, name) == LIMITED:
+                kept[f"{name}_used"] = own.copy()
+                kept[f"{name}_used"].attrs["long_name"] += " that was used, at most the limit"
             elif name not in self.arguments or {*own.dims} - {name}:
                 rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
                 raise ParameterError(Fault((self.title,), "", rule))

@@ -209,6 +209,7 @@ def basins(  # noqa: PLR0913
     n_bisection_directions: int = 1,
     precision: float = 0.05,
     confidence: float = 0.95,
+    max_attractors: int = 12,
     tol: float = 1e-10,
     progress: bool = False,
 ) -> xr.Dataset:
@@ -232,6 +233,7 @@ def basins(  # noqa: PLR0913
     n_bisection_directions : number of directions in which the critical energy is bisected
     precision : relative precision of the critical energy
     confidence : level of the confidence intervals of fractions
+    max_attractors : number of attractors that the dataset has room for
     tol : as in `simulate`
     progress : whether a bar on standard error shows how many starts are done; the bisection follows
 
@@ -267,6 +269,7 @@ def basins(  # noqa: PLR0913
         "n_bisection_directions": n_bisection_directions,
         "precision": precision,
         "confidence": confidence,
+        "max_attractors": max_attractors,
         "tol": tol,
     }
     return compute_quantity("basins", case, options, start, progress=progress)

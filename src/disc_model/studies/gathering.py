@@ -95,7 +95,8 @@ def _attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
 
 
 def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variable]:
-    """Numbers, words and one-dimensional arrays of a result; what else it holds is left out.
+    """Numbers, words and one-dimensional arrays of a result, such as the columns of a table; what else it
+    holds is left out.
 
     Parameters
     ----------
@@ -109,6 +110,7 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
+    along = "row" if _is_table(result, 2) else ""
     for key, value in _named_values(result).items():
         name = str(key)
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
@@ -116,7 +118,9 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
             attributes = _attributes_of(result, name, function)
             if array.dtype.kind in "fc":
                 attributes = with_reason(attributes, reason_of(type(result).__name__, name))
-            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attributes)
+            variables[name] = xr.Variable(
+                (along or f"{name}_index",)[: array.ndim], array, attributes
+            )
     return variables
 
 
@@ -126,9 +130,16 @@ def _named_values(result: Any) -> Mapping[str, Any]:
         return result.scalars()
     if is_dataclass(result):
         return _values_of_fields(result)
-    if hasattr(result, "to_dict") and np.ndim(result) == 1:  # a pandas.Series
+    if _is_table(result, 1):
         return {str(name): value for name, value in result.to_dict().items()}
+    if _is_table(result, 2):
+        return {str(name): np.array(column.tolist()) for name, column in result.items()}
     return result if isinstance(result, Mapping) else {"value": result}
+
+
+def _is_table(result: Any, dimensions: int) -> bool:
+    """Whether a result is a pandas.Series, of one dimension, or a pandas.DataFrame, of two."""
+    return hasattr(result, "to_dict") and np.ndim(result) == dimensions
 
 
 def _values_of_fields(result: Any) -> dict[str, Any]:

@@ -100,6 +100,19 @@ def test_samples_once_a_turn_begin_with_the_first_after_the_transient(
 
 
 @pytest.mark.compiled
+def test_samples_once_a_turn_of_a_motion_that_had_not_settled_say_so(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """They were undecided without a word."""
+    monkeypatch.setattr(attractors, "arrival", lambda p, legs: attractors.Arrival(Settling()))
+    options = Bifurcation(transient=0.1, samples=1)
+    values, message = options.compute_point(Point(Parameters(N=200, Omega=20, n_diameters=0)))
+    assert values["kind"] == Outcome.UNDECIDED
+    assert message.startswith("not settled after 0.47")
+    assert message.endswith("; raise transient")
+
+
+@pytest.mark.compiled
 def test_a_motion_on_a_torus_has_no_period() -> None:
     """At rest there since 220 s, see `tests.stability.test_attractor`: the cycle within the torus
     is unstable."""
@@ -245,9 +258,10 @@ def test_a_motion_without_an_event_while_samples_are_taken_says_so() -> None:
     p = Parameters(N=385, Omega=15.1, c_p=1)
     options = Bifurcation(section="event", transient=40, max_transient=40)
     values, message = options.compute_point(Point(p))
-    not_settled, no_event = message.split("; ")
+    not_settled, no_event, advice = message.split("; ")
     assert not_settled == "not settled after 40 s: changing at 0.025/s"
     assert no_event == "no event in the 5 s sampled after that"
+    assert advice == "raise max_transient"
     assert not len(values["psi"])
 
 

@@ -83,6 +83,9 @@ class AttractorBasins(Start, Quantity):
     precision: Annotated[Real, Field(gt=1e-6, le=1)] = 0.05
     """relative precision of the critical energy"""
 
+    max_attractors: Annotated[Count, Field(ge=1, le=1000)] = 12
+    """room for that many attractors, those of most starts first"""
+
     _found: Any = PrivateAttr(default=None)
     """Attractors of the last point's case, for points of a batch that differ only in their starts."""
 
@@ -119,7 +122,12 @@ class AttractorBasins(Start, Quantity):
         "critical_energy_sampled": Variable(
             "J", "least energy among the starts that come to lasting separation"
         ),
-        "attractor_kind": Variable("1", "what the attractor is", LONG_TERM_OUTCOMES, dims=_KNOWN),
+        "attractor_kind": Variable(
+            "1",
+            "what the attractor is, none if there is no further one",
+            ("none", *LONG_TERM_OUTCOMES[1:]),
+            dims=_KNOWN,
+        ),
         "attractor_starts": Variable(
             "1", "number of starts that reach it", dims=_KNOWN, whole=True
         ),
@@ -143,8 +151,13 @@ class AttractorBasins(Start, Quantity):
         "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
         "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
         "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
-        # room for twelve, those of most starts; there are seven at 10 rad/s and 385 N
-        "attractor": Coordinate("1", "number of the attractor", lambda o: range(1, 13)),
+        # those of most starts come first; there are seven at 10 rad/s and 385 N
+        "attractor": Coordinate(
+            "1",
+            "number of the attractor",
+            lambda o: range(1, o.max_attractors + 1),
+            "max_attractors",
+        ),
     }
 
     @property

@@ -150,8 +150,11 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "transient_time": options.transient,
         "stick_fraction": run.statistics["time_stick"] / time if time else np.nan,
     }
-    message = "" if run.status.complete else f"the simulation ended early: {run.status}"
-    return values, message
+    if not run.status.complete:
+        return values, f"the simulation ended early: {run.status}"
+    if not reached.settled:
+        return values, f"not settled after {time:g} s: {reached.settling}; raise transient"
+    return values, ""
 
 
 def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
@@ -180,12 +183,14 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
             break
         transient *= 2
     near = reached.near
-    stick = shares(run)[0]
+    stick = shares(run).stick
     if near is not None:  # the attractor is known exactly
         assert near.cycle.state is not None
         state = near.cycle.state
         stick = near.cycle.stick_fraction
     record = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state)
+    if reached.calm is not None:  # the run has its transient
+        stick = shares(record).stick
     if np.isnan(first):
         first = record.first_separation
     separations += int(record.statistics["n_separations"])
@@ -221,7 +226,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     message = f"not settled after {transient:g} s: {reached.settling}"
     if taken.empty:
         message = f"{message}; no event in the {FIRST_LEG:g} s sampled after that"
-    return values, message
+    return values, f"{message}; raise max_transient"
 
 
 def _ended_early(run: Result, first: float, separations: int) -> tuple[dict[str, Any], str]:
