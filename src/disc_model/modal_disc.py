@@ -28,7 +28,7 @@ UNCERTAIN = ("omega", "amplitude", "damping_ratio", "tangential")  # columns of 
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
     "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
-    "(Disc.from_csv averages halves with pairs='mean', disc-model modes with --pairs mean)"
+    "(Disc.from_csv joins halves with pairs='mean' or 'test', disc-model modes with --pairs)"
 )
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
