@@ -83,6 +83,7 @@ class Disc(DiscFiles, Strict):
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _report: DiscReport | None = pydantic.PrivateAttr(None)
+    _varied_from: Disc | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
         "omega",
@@ -220,7 +221,15 @@ class Disc(DiscFiles, Strict):
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
             columns[column] = [changes.get(self._name_of(column, i), value) for i, value in given]
-        return self.replace(**columns)
+        disc = self.replace(**columns)
+        disc._varied_from = self.varied_from
+        return disc
+
+    @property
+    def varied_from(self) -> Disc:
+        """The disc of which this one was made by changes of its `numbers`; itself if there were
+        none."""
+        return self._varied_from or self
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""
