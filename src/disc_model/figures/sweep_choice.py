@@ -15,6 +15,7 @@ from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
+from disc_model.figures.varied_discs import varied_numbers, with_frequencies
 from disc_model.figures.words import (
     IN_THOUSANDTH,
     known_name,
@@ -470,10 +471,11 @@ def values_of(study: xr.Dataset) -> dict[str, Any]:
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
     fixed = {name: value for name, value in case.items() if name not in shown}
+    single = {}
     for name, values in study.coords.items():
         if not values.ndim or values.size == 1:
-            fixed[str(name)] = values.item()
-    return fixed
+            single[str(name)] = values.item()
+    return with_frequencies({**fixed, **single}, {**varied_numbers(*shown), **single})
 
 
 def said_of(study: xr.Dataset) -> dict[str, str]:

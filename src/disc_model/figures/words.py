@@ -23,6 +23,7 @@ from disc_model.data.variables import (
     typeset,
     values_text,
 )
+from disc_model.display import counted
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
 from disc_model.figures.kinds.base import si_unit
@@ -712,8 +713,9 @@ def head_text(width: float, title: str, values: str, most: int | None = None) ->
     for count in range(len(unbroken) - 1, 0, -1):
         if most is None or said.count("\n") < most:
             break
-        rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
-        said = _in_lines(f"{', '.join(unbroken[:count])} {rest}", length)
+        further = counted(len(unbroken) - count, "further parameter")
+        rest = f"and {further}".replace(" ", "\u00a0")
+        said = _in_lines(f"{', '.join(unbroken[:count])}, {rest}", length)
     lines = [fill(line, length) for line in title.splitlines()]
     lines = [text for text in (*lines, said) if text]
     return "\n".join(lines).replace("\u00a0", " ")
