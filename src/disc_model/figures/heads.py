@@ -46,6 +46,6 @@ def _chosen(plot: Plot, study: xr.Dataset) -> list[str]:
     """Values along dimensions of the study that a general figure takes at one place."""
     if not isinstance(plot, General):
         return []
-    shown = picked(study, plot.at)[plot.variable]
+    shown = picked(study, plot.at, *plot.axes.values())[plot.variable]
     alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
     return [named_value(shown, name) for name in alone if name in shown.coords]

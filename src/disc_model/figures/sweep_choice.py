@@ -213,7 +213,10 @@ def _with_few_lines(study: xr.Dataset, drawn: Drawn, x: str) -> Drawn:
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
     """The study without dimensions of one value; but shares of starts of one case stay along their
-    energies."""
+    energies, and a single point along its numbers."""
+    numbers = _drawn_dims(study)
+    if numbers and all(study.sizes[dim] == 1 for dim in numbers):
+        return without_single(study, *numbers[-2:])
     alone = (
         "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]
     )
