@@ -165,8 +165,10 @@ class ModesOptions(Strict):
     modal_mass: str | None = Field(
         None, description="of shapes whose modal mass is 0 in the file: 1 if they are normalised"
     )
-    pairs: Literal["given", "mean"] = Field(
-        "given", description="mean: a table may have both halves of each pair"
+    pairs: Literal["given", "mean", "test"] = Field(
+        "given",
+        description="mean: a table may have both halves of each pair; test: with amplitudes at one point, which are "
+        "joined by the root of the sum of squares",
     )
     save: Annotated[Path, AfterValidator(_writable)] | None = Field(
         None, description="write the modes as a table, for --disc and for studies"

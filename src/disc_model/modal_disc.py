@@ -29,7 +29,7 @@ AMPLITUDES = (1e-6, 1e6)
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
     "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
-    "(Disc.from_csv averages halves with pairs='mean', disc-model modes with --pairs mean)"
+    "(Disc.from_csv joins halves with pairs='mean' or 'test', disc-model modes with --pairs)"
 )
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
@@ -91,6 +91,7 @@ class Disc(DiscFiles, Strict):
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _report: DiscReport | None = pydantic.PrivateAttr(None)
+    _varied_from: Disc | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
         "omega",
@@ -229,7 +230,15 @@ class Disc(DiscFiles, Strict):
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
             columns[column] = [numbers.get(self._name_of(column, i), value) for i, value in given]
-        return self.replace(**columns)
+        disc = self.replace(**columns)
+        disc._varied_from = self.varied_from
+        return disc
+
+    @property
+    def varied_from(self) -> Disc:
+        """The disc of which this one was made by changes of its `numbers`; itself if there were
+        none."""
+        return self._varied_from or self
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""

@@ -185,7 +185,7 @@ def test_both_halves_of_pairs_become_their_mean(tmp_path: Path) -> None:
     table += "2,1209,0.53,0.0012,-0.12,0.2,0.53\n0,980,0.1,0.001,0,0.1,0.1\n3,1900,0.5,0.001,-0.1,0.2,0.5\n"
     with refusal(r"modes 1 and 3 .* 0.49 % apart"):
         read(tmp_path, heads + table)
-    with refusal(r"pairs='Mean': must be 'given' or 'mean'"):
+    with refusal(r"pairs='Mean': must be 'given', 'mean' or 'test'"):
         read(tmp_path, heads + table, pairs="Mean")
     table = table.replace("0,980,0.1,", "0,1980,0.1,")
     disc = read(tmp_path, heads + table, pairs="mean")

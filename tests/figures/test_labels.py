@@ -185,7 +185,7 @@ def test_many_values_take_two_lines_above_a_figure() -> None:
     assert title == "A title"
     assert len(lines) == 2
     shown = " ".join(lines).count("=")
-    assert lines[-1].endswith(f"and {40 - shown} more")
+    assert lines[-1].endswith(f"and {40 - shown} further parameters")
     assert head_text(3.5, "", "N = 1 N", most=2) == "N = 1 N"
     assert head_text(3.5, "", values).count("=") == 40
 
@@ -234,7 +234,7 @@ def test_titles_say_choices_of_the_model_before_the_size_of_the_disc() -> None:
     lines = head_text(COLUMN, "", said, 3).splitlines()
     assert len(lines) == 3
     assert "friction on the surface" in " ".join(lines)
-    assert lines[-1].endswith("more")
+    assert lines[-1].endswith("further parameters")
 
 
 def test_titles_say_which_disc_and_slider_before_how_they_are_computed() -> None:

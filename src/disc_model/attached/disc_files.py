@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def from_csv(
-    cls: type[Disc], path: str | os.PathLike[str], pairs: Literal["given", "mean"] = "given"
+    cls: type[Disc], path: str | os.PathLike[str], pairs: Literal["given", "mean", "test"] = "given"
 ) -> Disc:
     """Read a table of modes.
 
@@ -25,7 +25,8 @@ def from_csv(
         give a name and its unit, such as "frequency (kHz)", "damping [%]" or "pole (rad/s)". Lines that begin
         with # are comments; one may give ``static_compliance_m_per_N: ...``
     pairs : "given" if each pair of modes is given once; "mean" if both halves of a pair may be given: two modes of
-        equal diameters within 5 % in frequency become their mean, and `report` has the splits
+        equal diameters within 5 % in frequency become their mean, and `report` has the splits; "test" if both halves
+        were measured at one point, as in a driving-point test: the amplitude is then the root of the sum of squares
 
     Raises
     ------

@@ -265,7 +265,7 @@ _OF_A_MODE = {
     "omega": OfMode("ω", "rad/s", Variable("rad s-1", "natural frequency")),
     "amplitude": OfMode("Ψ", "1/√kg", Variable("kg^-1/2", "amplitude")),
     "damping_ratio": OfMode("ζ", "", Variable("1", "damping ratio")),
-    "tangential": OfMode("t", "kg^-1/2", Variable("kg^-1/2", "tangential amplitude")),
+    "tangential": OfMode("t", "1/√kg", Variable("kg^-1/2", "tangential amplitude")),
 }
 
 
@@ -313,12 +313,16 @@ def stated_in(study: Any, what: str) -> dict[str, Any]:
     return json.loads(study.attrs.get(what, "{}"))
 
 
-def _disc_text(frequencies: Sequence[float]) -> str:
+def _disc_text(frequencies: Sequence[float | None]) -> str:
     """What tells a disc that is given by its modes from others, whose table is too long: how many
-    there are, and the range of their frequencies, given in rad/s."""
-    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
+    there are, and the range of their frequencies, given in rad/s, unless one is None, as it varies."""
+    counted_modes = f"a disc given by {counted(len(frequencies), 'mode')}"
+    known = [omega for omega in frequencies if omega is not None]
+    if len(known) < len(frequencies):
+        return counted_modes
+    low, high = (f"{omega / math.tau:.4g}" for omega in (min(known), max(known)))
     extent = low if low == high else f"{low} to {high}"
-    return f"a disc given by {counted(len(frequencies), 'mode')} of {extent} Hz"
+    return f"{counted_modes} of {extent} Hz"
 
 
 def values_text(

@@ -39,7 +39,8 @@ class ModeOrigin:
         nan for a table
     in_phase : share of the motion that is in phase, 1 for a real mode; nan for a table
     amplitude_split, damping_split : difference of the greatest and the least amplitude and damping
-        ratio of the shapes over their mean; nan if they are not known
+        ratio of the shapes over their mean; nan if they are not known, as of amplitudes at the point
+        of a test
     """
 
     diameters: int
@@ -89,6 +90,7 @@ class DiscReport(Summarised):
     read: 'f (Hz)' as frequency, 1212 Hz
     read: 'amplitude (kg^-1/2)' as amplitude, 0.545 kg^-1/2
     read: no damping
+    read: amplitudes of pairs are the means of their halves; if both were measured at one point, give pairs='test'
     """
 
     source: str
@@ -164,14 +166,16 @@ def relative_difference(values: Sequence[float]) -> float:
     return (max(values) - min(values)) / mean if mean else 0.0
 
 
-def doubts_of_halves(origins: Sequence[ModeOrigin]) -> Iterator[str]:
-    """Yield doubts whether halves of pairs, of which a disc has the mean, are one mode."""
+def doubts_of_halves(origins: Sequence[ModeOrigin], of_amplitudes: str = "") -> Iterator[str]:
+    """Yield doubts whether halves of pairs, of which a disc has the mean, are one mode;
+    `of_amplitudes`: advice on amplitudes that differ."""
     for i, origin in enumerate(origins, 1):
-        for name, split, doubted in (
-            ("amplitudes", origin.amplitude_split, DOUBTED_AMPLITUDES),
-            ("damping ratios", origin.damping_split, DOUBTED_DAMPING),
+        for name, split, doubted, advice in (
+            ("amplitudes", origin.amplitude_split, DOUBTED_AMPLITUDES, of_amplitudes),
+            ("damping ratios", origin.damping_split, DOUBTED_DAMPING, ""),
         ):
             if split > doubted:
                 head = f"the halves of mode {i}, {counted(origin.diameters, 'nodal diameter')} at "
                 head += f"{origin.lower / math.tau:.5g} and {origin.upper / math.tau:.5g} Hz"
-                yield f"{head}, have {name} {100 * split:.0f} % apart, and the disc has their mean"
+                apart = f"{name} {100 * split:.0f} % apart"
+                yield f"{head}, have {apart}, and the disc has their mean{advice}"

@@ -26,6 +26,9 @@ from disc_model.arrays import Array, Indices
 from disc_model.errors import Fault, ModeError, ParameterError, as_text
 from disc_model.parameters import SURFACE, Disc, Parameters
 
+SAME_AMPLITUDE = (
+    0.05  # of the largest motion of a mode: how far its shape may be from its amplitude
+)
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
@@ -89,10 +92,7 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     `modes_at_point`. For a table they are splines through its shapes and amplitudes. Raises
     ParameterError if it has no shapes."""
     if p.disc is not None:
-        from scipy.interpolate import make_interp_spline  # few callers need it
-
-        radii, known = _given_shapes(p.disc, p.r_0)
-        return make_interp_spline(radii, known, k=min(3, len(radii) - 1), axis=1)(r)
+        return _spline(*_given_shapes(p.disc, p.r_0), r)
     if p.n_diameters < 0:  # a rigid disc
         return np.zeros((0, len(r)))
     shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
@@ -114,16 +114,42 @@ def radial_range(p: Parameters) -> tuple[float, float]:
 
 
 def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and the shapes of a table at these; at the slider the amplitudes replace them."""
+    """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them
+    replace them."""
     if not disc.radii:
         rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
     radii = np.array([r_0, *disc.radii])
-    shapes = np.column_stack([disc.amplitude, disc.shapes])
+    at_slider = np.array(disc.amplitude)
+    if disc.radii[0] <= r_0 <= disc.radii[-1]:
+        by_shapes = shapes_at_slider(disc, r_0)
+        at_slider = np.where(are_elsewhere(disc, r_0), by_shapes, at_slider)
+    shapes = np.column_stack([at_slider, disc.shapes])
     _, first = np.unique(
         np.round(radii, 9), return_index=True
     )  # nm, by which two radii are the same
     return radii[first], shapes[:, first]
+
+
+def shapes_at_slider(disc: Disc, r_0: float) -> Array:
+    """The shapes of a table at the radius of the slider, by splines: kg^-1/2, (n_modes,)."""
+    return _spline(np.array(disc.radii), np.array(disc.shapes), np.array([r_0]))[:, 0]
+
+
+def are_elsewhere(disc: Disc, r_0: float) -> np.ndarray:
+    """Whether the amplitude of each mode of a table is not that of its shape at the slider, within
+    a share of the mode's largest motion: (n_modes,)."""
+    amplitude = np.array(disc.amplitude)
+    largest = np.abs(np.column_stack([amplitude, disc.shapes])).max(axis=1)
+    return np.abs(shapes_at_slider(disc, r_0) - amplitude) > SAME_AMPLITUDE * largest
+
+
+def _spline(radii: Array, shapes: Array, r: Array) -> Array:
+    """Shapes (n_modes, k) at radii (k,), interpolated at others (m,): (n_modes, m)."""
+    from scipy.interpolate import make_interp_spline  # few callers need it
+
+    degree = min(3, len(radii) - 1)
+    return np.asarray(make_interp_spline(radii, shapes, k=degree, axis=1)(r))
 
 
 def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:

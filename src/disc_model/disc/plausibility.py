@@ -12,7 +12,7 @@ from types import FrameType
 
 import numpy as np
 
-from disc_model.disc.plate import mode_arrays
+from disc_model.disc.plate import are_elsewhere, mode_arrays, shapes_at_slider
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import counted
 from disc_model.errors import DiscModelError
@@ -51,7 +51,7 @@ def doubts(p: Parameters) -> dict[str, str]:
     return {kind: text for kind, doubt in RULES.items() if (text := doubt(p))}
 
 
-_reported: set[str] = set()
+_reported: set[tuple[object, ...]] = set()  # rules, and for those on a disc its numbers
 _on_trial = ContextVar("_on_trial", default=False)
 
 
@@ -67,14 +67,23 @@ def trial_cases() -> Iterator[None]:
 
 
 def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -> None:
-    """Report implausible values of a case, once in a process by each rule; by default as a
-    warning."""
+    """Report implausible values of a case by each rule, once in a process, or once for each disc
+    that is given by its modes; by default as a warning."""
     if _on_trial.get():
         return
     for kind, text in doubts(p).items():
-        if kind not in _reported:
-            _reported.add(kind)
+        told = _told_of(kind, p.disc)
+        if told not in _reported:
+            _reported.add(told)
             (tell or _warn)(text)
+
+
+def _told_of(kind: str, disc: Disc | None) -> tuple[object, ...]:
+    """By what it is known that a doubt was told: a disc whose numbers vary, as in a sweep, is the
+    one of which it was made."""
+    if disc is None or kind not in OF_A_DISC:
+        return (kind,)
+    return (kind, *dict(disc.varied_from).values())
 
 
 def warn_of_disc(disc: Disc) -> None:
@@ -84,7 +93,7 @@ def warn_of_disc(disc: Disc) -> None:
         _warn(text)
     for kind, doubt in DISC_RULES.items():
         if text := doubt(disc):
-            _reported.add(kind)
+            _reported.add(_told_of(kind, disc))
             _warn(text)
 
 
@@ -279,16 +288,22 @@ def _elsewhere(p: Parameters) -> str:
     low, *_, high = p.disc.radii
     if not low <= p.r_0 <= high:
         return f"{_value(p, 'r_0')} is not within {low:g} to {high:g} m, where the disc's shapes are known"
-    amplitude, shape = max(
-        zip(p.disc.amplitude, p.disc.shapes, strict=True), key=lambda mode: abs(mode[0])
-    )
-    at_slider = float(np.interp(p.r_0, p.disc.radii, shape))
-    if abs(at_slider - amplitude) <= 0.05 * abs(amplitude):
+    return _unlike_shapes(p, p.disc)
+
+
+def _unlike_shapes(p: Parameters, disc: Disc) -> str:
+    """What is implausible of amplitudes that are not those of the shapes at the slider."""
+    doubted = np.flatnonzero(are_elsewhere(disc, p.r_0))
+    if doubted.size == 0:
         return ""
-    return (
-        f"{_value(p, 'r_0')} is not where the amplitudes of the disc were taken: "
-        f"a mode moves by {at_slider:.3g} kg^-1/2 there, and its amplitude is {amplitude:.3g}"
-    )
+    by_shapes = shapes_at_slider(disc, p.r_0)
+    far = np.abs(by_shapes - disc.amplitude)[doubted]
+    i = int(doubted[np.argmax(far)])
+    text = f"{_value(p, 'r_0')} is not where the amplitudes of the disc were taken: "
+    text += f"mode {i + 1} moves by {by_shapes[i]:.3g} kg^-1/2 there by its shape, "
+    text += f"and its amplitude is {disc.amplitude[i]:.3g}"
+    others = doubted.size - 1
+    return f"{text}; {counted(others, 'other mode')} alike" if others else text
 
 
 def _unstated(p: Parameters) -> str:
@@ -317,6 +332,9 @@ DISC_RULES: dict[str, Callable[[Disc], str]] = {
     "damping of the disc": _overdamped,
 }
 
+SLIDER = "radius of the slider"  # a rule
+OF_A_DISC = (*DISC_RULES, SLIDER)  # rules that are told once for each disc
+
 _MEASURED = ("D_star", "k", "k_p", "E", "m", "mu_s", "mu_k", "a", "b", "r_0", "h", "nu", "rho")
 # what each rule says of a case, "" if that is plausible
 RULES: dict[str, Callable[[Parameters], str]] = {
@@ -325,7 +343,7 @@ RULES: dict[str, Callable[[Parameters], str]] = {
     "modes and damping": _unstated,
     "damping_ratio": _overdamped_plate,
     **{kind: partial(_of_disc, doubt) for kind, doubt in DISC_RULES.items()},
-    "radius of the slider": _elsewhere,
+    SLIDER: _elsewhere,
     "short waves": _short,
     "static deflection": _deflected,
 }

@@ -1,6 +1,7 @@
 """Maps of a variable in colour: of classes, of growth rates, and of other numbers."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -65,7 +66,16 @@ def draw_maps(
     for ax in axes:
         set_label(ax, "x", across)
         set_label(ax, "y", up)
+        _tick_alone(ax.xaxis, across)
+        _tick_alone(ax.yaxis, up)
     return Key(handles, title)
+
+
+def _tick_alone(axis: Any, coordinate: xr.DataArray) -> None:
+    """Let an axis have one tick if it has one value: a cell has a width, but no value elsewhere."""
+    if coordinate.size == 1 and coordinate.dtype.kind in "fi":
+        value = float(measured(coordinate).values[0])
+        axis.set_ticks([value], labels=[f"{value:g}"])
 
 
 def class_panels(

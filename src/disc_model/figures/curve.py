@@ -20,7 +20,7 @@ from disc_model.figures.types import Figure
 
 def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a line, or one for each value of a second dimension, in one panel or several."""
-    panels = panels_of(plot, picked(without_zeros(study), plot.at))
+    panels = panels_of(plot, picked(without_zeros(study), plot.at, plot.x))
     width = plot.inches_of(len(panels))
     figure, axes = row_of_panels(width, len(panels), 2.9, 2.2, sharey=True)
     marks: dict[str, str] = {}

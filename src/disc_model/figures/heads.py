@@ -7,6 +7,7 @@ import xarray as xr
 from disc_model.figures.kinds import NORM, General, Plot
 from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, picked
+from disc_model.figures.varied_discs import varied_numbers, with_frequencies
 from disc_model.figures.words import MODES, named_value, what_case
 
 
@@ -28,7 +29,8 @@ def _stated(study: xr.Dataset) -> str:
     # 0 stands for N or Omega if the quantity varies it by itself
     by_itself = [name for name in ("N", "Omega") if not base.get(name)]
     varied = {*map(str, study.coords), *by_itself}
-    return what_case({name: value for name, value in base.items() if name not in varied})
+    kept = {name: value for name, value in base.items() if name not in varied}
+    return what_case(with_frequencies(kept, varied_numbers(*varied)))
 
 
 def _single_modes(plot: Plot, study: xr.Dataset) -> list[str]:
@@ -44,6 +46,6 @@ def _chosen(plot: Plot, study: xr.Dataset) -> list[str]:
     """Values along dimensions of the study that a general figure takes at one place."""
     if not isinstance(plot, General):
         return []
-    shown = picked(study, plot.at)[plot.variable]
+    shown = picked(study, plot.at, *plot.axes.values())[plot.variable]
     alone = [str(name) for name, size in study.sizes.items() if size > 1 and name not in shown.dims]
     return [named_value(shown, name) for name in alone if name in shown.coords]

@@ -50,6 +50,6 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
 
 def parts_of(plot: General, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The parts of a study in the panels of a general figure."""
-    chosen = picked(without_zeros(study), plot.at)
+    chosen = picked(without_zeros(study), plot.at, *plot.axes.values())
     by = remaining(chosen[plot.variable], [*plot.axes.values()])
     return parts_along(chosen, by, plot.names)

@@ -17,6 +17,7 @@ from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
 from disc_model.figures.family import Member
 from disc_model.figures.types import Array, Axes
+from disc_model.figures.varied_discs import varied_numbers, with_frequencies
 from disc_model.figures.words import what_case
 from disc_model.parameters import Parameters
 
@@ -39,7 +40,8 @@ def stated_values(p: Parameters, *varied: str) -> dict[str, Any]:
     """What titles say of a case, by name, but what varies."""
     # what varies has the value of a number, so that the ratio of another is kept
     values = p.replace(**{name: p.numbers[name] for name in varied}).stated
-    return {name: value for name, value in values.items() if name not in varied}
+    kept = {name: value for name, value in values.items() if name not in varied}
+    return with_frequencies(kept, varied_numbers(*varied))
 
 
 def told_apart(case: xr.DataTree, name: str, **further: str) -> Member:

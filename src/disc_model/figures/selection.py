@@ -74,6 +74,9 @@ OF_CYCLES = (
 )
 """Variables of a cycle."""
 
+ALONE = 0.1
+"""Half the width of a cell over its value, where this is the only one along an axis."""
+
 AVERAGES = ("exponent", "exponents")
 """Variables that are averages over a time, which may be too short."""
 
@@ -98,11 +101,18 @@ def has_values(planes: Sequence[xr.Dataset], variable: str) -> bool:
 # ---- Parts of a study
 
 
-def picked(study: xr.Dataset, values: Mapping[str, float | str]) -> xr.Dataset:
-    """A grid study at values of some dimensions; dimensions of one value are dropped."""
-    words = {dim: value for dim, value in values.items() if isinstance(value, str)}
-    numbers = {dim: value for dim, value in values.items() if dim not in words}
-    return study.sel(words).sel(numbers, method="nearest").squeeze()
+def picked(study: xr.Dataset, values: Mapping[str, float | str], *kept: str) -> xr.Dataset:
+    """A grid study at values of some dimensions; dimensions of one value are dropped, but those that
+    are kept."""
+    words: dict[str, str] = {}
+    numbers: dict[str, Any] = {}
+    for dim, value in values.items():
+        if study[dim].dtype.kind in "iufM":
+            numbers[dim] = value
+        else:
+            known = {key_of(text): str(text) for text in study[dim].values}
+            words[dim] = known.get(key_of(value), str(value))
+    return without_single(study.sel(words).sel(numbers, method="nearest"), *kept)
 
 
 def without_single(study: xr.Dataset, *kept: str) -> xr.Dataset:
@@ -116,7 +126,7 @@ def normalizations(study: xr.Dataset) -> list[str]:
     if NORM in study.coords:
         return [str(name) for name in np.atleast_1d(study[NORM].values)]
     base = stated_in(study, "base")
-    if base.get("disc"):
+    if base.get("disc") or "disc" in study.coords:
         return ["given"]
     return [base[NORM]]
 
@@ -442,7 +452,10 @@ def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
 
 def edges(values: Array) -> Array:
     """Edges of cells around ascending values: halfway between neighbours, and the first and last
-    value."""
+    value; on both sides of a single one."""
+    if values.size == 1:
+        around = ALONE * np.abs(values) + (values == 0)
+        return np.concatenate([values - around, values + around])
     between = 0.5 * (values[1:] + values[:-1])
     return np.concatenate([values[:1], between, values[-1:]])
 

@@ -16,6 +16,7 @@ from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
+from disc_model.figures.varied_discs import varied_numbers, with_frequencies
 from disc_model.figures.words import (
     IN_THOUSANDTH,
     MISSING,
@@ -215,7 +216,10 @@ def _with_few_lines(study: xr.Dataset, drawn: Drawn, x: str) -> Drawn:
 
 def _varying(study: xr.Dataset) -> xr.Dataset:
     """The study without dimensions of one value; but shares of starts of one case stay along their
-    energies."""
+    energies, and a single point along its numbers."""
+    numbers = _drawn_dims(study)
+    if numbers and all(study.sizes[dim] == 1 for dim in numbers):
+        return without_single(study, *numbers[-2:])
     alone = (
         "basin_fraction" in study and study["basin_fraction"].size == study.sizes["attractor_class"]
     )
@@ -474,10 +478,11 @@ def values_of(study: xr.Dataset) -> dict[str, Any]:
     case = json.loads(study.attrs.get("base", study.attrs.get("parameters", "{}")))
     shown = {str(name).removeprefix("sweep_").removeprefix("scan_") for name in study.coords}
     fixed = {name: value for name, value in case.items() if name not in shown}
+    single = {}
     for name, values in study.coords.items():
         if not values.ndim or values.size == 1:
-            fixed[str(name)] = values.item()
-    return fixed
+            single[str(name)] = values.item()
+    return with_frequencies({**fixed, **single}, {**varied_numbers(*shown), **single})
 
 
 def said_of(study: xr.Dataset) -> dict[str, str]:

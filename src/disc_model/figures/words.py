@@ -23,6 +23,7 @@ from disc_model.data.variables import (
     typeset,
     values_text,
 )
+from disc_model.display import counted
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
 from disc_model.figures.kinds.base import si_unit
@@ -63,6 +64,8 @@ AT_ZERO = {
     "friction_offset": "friction in the middle plane",
 }
 """What parameters mean that are zero: they name themselves."""
+NUMBER_OR_WORD = ("contact_compliance", "friction_offset")
+"""Parameters that are a number or a word, and texts along a dimension that has both."""
 BY_SIZE = {"exponent_number": "exponent {}"}
 """Names of the values along a dimension of descending numbers, but for the first, the largest."""
 IN_WORDS = {
@@ -593,6 +596,8 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
     """A value along a dimension with its unit, or its word; a short one has four digits if six do not give
     it exactly, as that of a sample."""
     value = data[by].item()
+    if isinstance(value, str) and by in NUMBER_OR_WORD:
+        value = _number_or_name(value)
     if isinstance(value, str):
         words = KINDS if by == "kind" else WORDS
         return words.get(value, value)
@@ -612,6 +617,14 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
     unit, factor = UNITS.get().get(by, (unit, factor))
     number = _short_number(value * factor) if short else f"{value * factor:g}"
     return f"{number} {unit}".strip()
+
+
+def _number_or_name(text: str) -> float | str:
+    """The number in a text along a dimension that has words as well; a word has its name."""
+    try:
+        return float(text)
+    except ValueError:
+        return MODELS.get(text, text)
 
 
 def _short_number(value: float) -> str:
@@ -713,8 +726,9 @@ def head_text(width: float, title: str, values: str, most: int | None = None) ->
     for count in range(len(unbroken) - 1, 0, -1):
         if most is None or said.count("\n") < most:
             break
-        rest = f"and {len(unbroken) - count} more".replace(" ", "\u00a0")
-        said = _in_lines(f"{', '.join(unbroken[:count])} {rest}", length)
+        further = counted(len(unbroken) - count, "further parameter")
+        rest = f"and {further}".replace(" ", "\u00a0")
+        said = _in_lines(f"{', '.join(unbroken[:count])}, {rest}", length)
     lines = [fill(line, length) for line in title.splitlines()]
     lines = [text for text in (*lines, said) if text]
     return "\n".join(lines).replace("\u00a0", " ")

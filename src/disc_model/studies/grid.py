@@ -19,17 +19,7 @@ from disc_model.data.variables import PERTURBATIONS, START, attributes, values_t
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
-from disc_model.parameters import (
-    AUTO,
-    CHOOSING,
-    PLATE,
-    RATIOS,
-    RELATED,
-    RESIDUAL,
-    SURFACE,
-    Parameters,
-    case_of,
-)
+from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
@@ -43,6 +33,7 @@ GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "
 REQUIRED = ("N", "Omega")  # parameters without a base value
 STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
+WORDED = ("contact_compliance", "friction_offset")  # parameters that are a number or a word
 ALL_MOTIONS = (
     100  # points of a grid up to which a motion of each is stored, some 3 kB of the explorer each
 )
@@ -177,6 +168,14 @@ class FigureEntry(NamedTuple):
     title: str
     caption: str
     titles: Mapping[str, str] = MappingProxyType({})  # of the cases that have one, by their names
+
+
+def _in_words(blocks: Blocks) -> Blocks:
+    """Values of which one is a word, all as texts, as a dimension has them; numbers alone as they
+    are."""
+    if not any(isinstance(value, str) for value in chain.from_iterable(blocks)):
+        return blocks
+    return tuple(tuple(map(str, block)) for block in blocks)
 
 
 def _given_twice(path: tuple[str, ...], blocks: Blocks) -> list[Fault]:
@@ -469,7 +468,8 @@ class GridStudy:
         columns = {}
         for name, axis in given_values(axes).items():
             try:
-                columns[name] = tuple(self._block(name, block) for block in _blocks_of(axis))
+                blocks = tuple(self._block(name, block) for block in _blocks_of(axis))
+                columns[name] = _in_words(blocks) if name in WORDED else blocks
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
         return columns
@@ -486,9 +486,6 @@ class GridStudy:
                 rule = f"no such {name}{suggestion(value, known)}"
                 raise ParameterError(Fault.of((), value, rule))
             return value
-        if (name, value) in (("contact_compliance", RESIDUAL), ("friction_offset", SURFACE)):
-            rule = "must be a number along an axis: give it in base, for all points"
-            raise ParameterError(Fault.of((), value, rule))
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
@@ -619,7 +616,7 @@ class GridStudy:
         unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
         first = next(self.points_along(self.dims))
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
-        for point in self.points_of(RELATED):
+        for point in self.points_of((*RELATED, *WORDED)):
             values = case_of({**self.given, **first, **point}, self.discs)
             try:
                 whole = Parameters(**{**unused, **values}).model_dump()

@@ -16,7 +16,7 @@ from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribu
 from disc_model.data.missing import explained
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, Variable, flag_names
 from disc_model.errors import DiscModelError, as_text
-from disc_model.parameters import RATIOS
+from disc_model.parameters import PLATE, RATIOS
 from disc_model.studies.batch import Batch, GridAxis
 from disc_model.studies.quantity import Quantity
 from disc_model.studies.registry import quantity_of
@@ -133,11 +133,14 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
 def _fixed(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) -> dict[str, Any]:
     """The values of a base that all points have: not of what a quantity varies by itself, of which
     it has those with which the file was checked, such as a speed of zero; nor the damping that a
-    damping ratio replaces, which may be among the names of axes."""
+    damping ratio replaces, which may be among the names of axes; nor what a plate has, of a disc that
+    is given by its modes."""
     varied = {*quantity.scanned}
     varied.update(RATIOS[name][0] for name in quantity.scanned if name in RATIOS)
     if "damping_ratio" in names or base.get("damping_ratio") is not None:
         varied.add("D_star")
+    if "disc" in names or base.get("disc") is not None:
+        varied.update((*PLATE, "damping_ratio"))
     return {name: value for name, value in base.items() if name not in varied}
 
 

@@ -8,8 +8,10 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from typing import NamedTuple
 
+from disc_model.disc.files.rows import number_in
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.mode_units import UNIT_NEEDED, factor_to_si, unit_rule
 from disc_model.units import NUMBER
@@ -123,24 +125,48 @@ def with_unit(text: str, unit: str) -> str:
 def with_units_of_cells(
     names: list[str], body: list[list[str]]
 ) -> tuple[list[str], list[list[str]]]:
-    """Heads with the units that all cells of their columns have, and cells without these."""
+    """Heads with the units that cells of their columns have, and cells without these, all in the
+    unit of their head."""
     found = [*names]
     cells = [[*row] for row in body]
     for i, name in enumerate(names):
-        matches = [_CELL.fullmatch(row[i]) if i < len(row) else None for row in body]
-        units = {match[2] if match else "" for match in matches}
-        if len(units) != 1 or units == {""}:
-            continue
-        head = _with_unit_of_cells(name, units.pop())
-        if head:
-            found[i] = head
-            for row, match in zip(cells, matches, strict=True):
-                row[i] = match[1] if match else row[i]
+        texts = [row[i] if i < len(row) else "" for row in body]
+        found[i], numbers = _in_one_unit(name, texts)
+        for row, number in zip(cells, numbers, strict=True):
+            if i < len(row):
+                row[i] = number
     return found, cells
 
 
+def _in_one_unit(name: str, texts: Sequence[str]) -> tuple[str, Sequence[str]]:
+    """A head with the first unit that is in its cells, and the cells in that unit; both as they are
+    if no cell has a unit, or one has none that fits the head."""
+    matches = [_CELL.fullmatch(text) for text in texts]
+    units = [match[2] if match else "" for match in matches]
+    if not any(units):
+        return name, texts
+    heads = [_with_unit_of_cells(name, unit) for unit in units]
+    factors = [*map(_known_factor, heads)]
+    if any(map(math.isnan, factors)):
+        return name, texts
+    first = next(i for i, unit in enumerate(units) if unit)
+    numbers = []
+    for match, text, factor in zip(matches, texts, factors, strict=True):
+        number = match[1] if match else text
+        numbers.append(_times(number, factor / factors[first]))
+    return heads[first], numbers
+
+
+def _times(number: str, factor: float) -> str:
+    """The text of a number times a factor; other text as it is."""
+    value = number_in(number, factor)
+    return number if factor == 1 or isinstance(value, str) else repr(value)
+
+
 def _with_unit_of_cells(name: str, unit: str) -> str:
-    """The head of a column whose cells have a unit; "" if it states another one."""
+    """The head of a column for a cell that has a unit, or none; "" if the head states another one."""
+    if not unit:
+        return name
     stated = f"{name} ({unit})"
     if not math.isnan(_known_factor(stated)):
         return stated

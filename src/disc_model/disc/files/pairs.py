@@ -1,15 +1,31 @@
-"""Both halves of pairs of modes in a table, which become one mode of a disc: their mean."""
+"""Both halves of pairs of modes in a table, which become one mode of a disc.
+
+Their amplitudes are those at antinodes, which are alike, or those at the point of a test, which are
+the cosine and the sine of one angle.
+"""
 
 import math
 from collections.abc import Mapping, Sequence
 from itertools import combinations
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
 from disc_model.disc.given import SAME_PAIR, ModeOrigin, relative_difference
 from disc_model.display import counted
-from disc_model.errors import Fault, raise_faults
+from disc_model.errors import Fault, raise_faults, require
+
+Pairs = Literal["given", "mean", "test"]
+"""How a table has pairs of modes: each once, by halves at antinodes, or by halves at the point of a test."""
+
+OF_A_TEST = "; if both were measured at one point, give pairs='test'"
+"""Advice on halves of which a disc has the mean."""
+
+JOINED = {
+    "mean": f"amplitudes of pairs are the means of their halves{OF_A_TEST}",
+    "test": "amplitudes of pairs are the roots of the sums of squares of their halves, as of a test at one point",
+}
+"""How the amplitudes of halves were joined, for a report."""
 
 Halves = list[list[int]]
 """The rows of a table that become each mode of a disc: one, or the two halves of a pair."""
@@ -87,8 +103,39 @@ def mean_of(groups: Halves, values: Mapping[str, Any]) -> dict[str, Any]:
     return means
 
 
+def of_a_test(groups: Halves, values: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields of a disc with both halves of each pair in one mode, whose halves were measured at
+    one point.
+
+    There they move by the cosine and the sine of one angle, so that the root of the sum of squares
+    is the amplitude. Raises `ParameterError` for tangential motion of halves.
+    """
+    fields = mean_of(groups, values)
+    for mode, group in enumerate(groups):
+        if len(group) == 1:
+            continue
+        _refuse_tangential(group, values)
+        amplitudes = np.array(values["amplitude"])[group]
+        amplitude = math.hypot(*amplitudes)
+        fields["amplitude"][mode] = amplitude
+        if "shapes" in values and amplitude > 0:
+            shapes = np.array(values["shapes"])[group]
+            fields["shapes"][mode] = (amplitudes @ shapes / amplitude).tolist()
+    return fields
+
+
+def _refuse_tangential(group: Sequence[int], values: Mapping[str, Any]) -> None:
+    """Raise `ParameterError` if the halves of a pair have tangential motion at the point of a
+    test."""
+    for row in group:
+        tangential = values.get("tangential", {row: 0.0})[row]
+        rule = "must be 0 with pairs='test', because its sign beside the amplitude cannot be told "
+        rule += f"from halves at one point: give the pair in one row (mode {row + 1})"
+        require((tangential == 0, "tangential", tangential, rule))
+
+
 def origins_of(
-    groups: Halves, values: Mapping[str, Any], splits: Sequence[float] = ()
+    groups: Halves, values: Mapping[str, Any], splits: Sequence[float] = (), pairs: Pairs = "given"
 ) -> tuple[ModeOrigin, ...]:
     """What each mode of a disc was made of; `splits`: of rows that are pairs, if a table states
     them."""
@@ -98,15 +145,19 @@ def origins_of(
         if splits and len(group) == 1 and splits[group[0]] > 0:
             half = splits[group[0]] / 2
             frequencies = [frequencies[0] * (1 - half), frequencies[0] * (1 + half)]
+        amplitude_split = math.nan
         damping_split = math.nan
-        if "damping_ratio" in values:
+        has_halves = len(group) > 1
+        if has_halves and pairs != "test":
+            amplitude_split = relative_difference([abs(values["amplitude"][i]) for i in group])
+        if has_halves and "damping_ratio" in values:
             damping_split = relative_difference([values["damping_ratio"][i] for i in group])
         origin = ModeOrigin(
             diameters=int(values["diameters"][group[0]]),
             lower=min(frequencies),
             upper=max(frequencies),
             shapes=len(frequencies),
-            amplitude_split=relative_difference([abs(values["amplitude"][i]) for i in group]),
+            amplitude_split=amplitude_split,
             damping_split=damping_split,
         )
         origins.append(origin)

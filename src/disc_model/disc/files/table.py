@@ -6,11 +6,21 @@ import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple, get_args
+from typing import TYPE_CHECKING, Any, NamedTuple, get_args
 
 from disc_model.disc.files.compliance import STATIC_COMPLIANCE, check_compliance, stated_compliance
 from disc_model.disc.files.heads import COLUMNS, Head, read_head, with_unit, with_units_of_cells
-from disc_model.disc.files.pairs import Halves, check_halves, halves_in, mean_of, origins_of
+from disc_model.disc.files.pairs import (
+    JOINED,
+    OF_A_TEST,
+    Halves,
+    Pairs,
+    check_halves,
+    halves_in,
+    mean_of,
+    of_a_test,
+    origins_of,
+)
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import SAME_PAIR, DiscReport, doubts_of_halves
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
@@ -19,8 +29,6 @@ from disc_model.parameters import Disc
 
 if TYPE_CHECKING:
     import os
-
-Pairs = Literal["given", "mean"]
 
 WRITTEN = (
     "diameters",
@@ -33,6 +41,8 @@ WRITTEN = (
 """Columns of `table_text`, in this order, before those of shapes."""
 SPLIT = "frequency_split"
 """Column of a table with the relative difference of the frequencies of each pair, which is in the report."""
+DOUBT = "# check:"
+"""Beginning of a comment with a doubt of the report on the file from which a disc was first read."""
 IGNORED = ("name", "mode_name", "comment", "comments", "remark", "remarks", "description", "note")
 """Heads of columns that are for readers, in lower case with "_" between words."""
 LABELS = ("mode", "mode_number", "mode_no", "mode_nr", "number", "no", "nr")
@@ -77,7 +87,7 @@ class Column(NamedTuple):
 def read_disc(path: str | os.PathLike[str], pairs: Pairs = "given") -> Disc:
     """Read a disc from a table of its modes, see `disc_model.Disc.from_csv`."""
     is_choice = isinstance(pairs, str) and pairs in get_args(Pairs)
-    require((is_choice, "pairs", pairs, "must be 'given' or 'mean'"))
+    require((is_choice, "pairs", pairs, "must be 'given', 'mean' or 'test'"))
     name = Path(path).name
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
@@ -98,12 +108,15 @@ def table_text(disc: Disc) -> str:
         if values:
             columns[name] = values
     if disc.report is not None and any(disc.report.split):
-        columns[SPLIT] = disc.report.split
+        splits = zip(disc.diameters, disc.report.split, strict=True)
+        columns[SPLIT] = [split if diameters else 0.0 for diameters, split in splits]
     for i, radius in enumerate(disc.radii):
         columns[f"shape_at_{radius}_m"] = [shape[i] for shape in disc.shapes]
     lines = [",".join(columns)]
     for row in zip(*columns.values(), strict=True):
         lines.append(",".join(map(str, row)))
+    for doubt in disc.report.doubts if disc.report else ():
+        lines.insert(0, f"{DOUBT} {doubt}")
     if disc.static_compliance is not None:
         lines.insert(0, f"# {STATIC_COMPLIANCE}: {disc.static_compliance}")
     return "".join(f"{line}\n" for line in lines)
@@ -123,19 +136,29 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     fields = values
     try:
         raise_faults([*_with_units(values)])
-        if pairs == "mean" and _all_numbers(values):
+        if pairs != "given" and _all_numbers(values):
             halves = halves_in(values)
             check_halves(halves, values)
-            fields = mean_of(halves, values)
+            joined_halves = mean_of if pairs == "mean" else of_a_test
+            fields = joined_halves(halves, values)
         disc = Disc(**fields)
     except ParameterError as error:
         faults = (_of_table(fault, columns, halves) for fault in error.faults)
         raise ParameterError(*faults) from None
     check_compliance(disc)
-    origins = origins_of(halves, values, splits)
-    notes = tuple(_notes(columns, disc))
-    doubts = tuple(doubts_of_halves(origins))
-    return disc.with_report(DiscReport(source, origins, notes=notes, doubts=doubts))
+    origins = origins_of(halves, values, splits, pairs)
+    notes = [*_notes(columns, disc)]
+    if any(len(group) > 1 for group in halves):
+        notes.append(JOINED[pairs])
+    doubts = (*stated_doubts(lines), *doubts_of_halves(origins, OF_A_TEST))
+    return disc.with_report(DiscReport(source, origins, notes=tuple(notes), doubts=doubts))
+
+
+def stated_doubts(lines: list[str]) -> Iterator[str]:
+    """Yield the doubts of an earlier report, which comments of a table have."""
+    for line in lines:
+        if line.startswith(DOUBT):
+            yield line.removeprefix(DOUBT).strip()
 
 
 def _with_units(values: Mapping[str, Any]) -> Iterator[Fault]:
@@ -312,7 +335,9 @@ def _stated_splits(values: dict[str, Any], columns: list[Column]) -> list[float]
         is_split = isinstance(split, float) and 0 <= split < 2 * SAME_PAIR
         head = next(column.head.text for column in columns if column.head.quantity == "split")
         rule = f"must be a number from 0 to {2 * SAME_PAIR:g} (mode {i + 1})"
-        require((is_split, head, split, rule))
+        is_alone = values["diameters"][i] == 0 and split != 0
+        alone = f"must be 0 for a mode without nodal diameters, which is no pair (mode {i + 1})"
+        require((is_split, head, split, rule), (not is_alone, head, split, alone))
     return splits
 
 

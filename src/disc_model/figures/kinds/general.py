@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Literal
 from pydantic import Field
 
 from disc_model.errors import Fault, as_text, suggestion
-from disc_model.figures.kinds.base import NORM, Names, Plot, Values, unknown
+from disc_model.figures.kinds.base import NORM, Names, Plot, Values, key_of, unknown
 from disc_model.units import UNITS, Finite, Unit
 
 Dims = Mapping[str, Sequence[Any]]
@@ -47,9 +47,6 @@ class General(Plot):
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
         yield from self.wrong_axes(own, self.variable)
-        for axis, name in self.axes.items():
-            if len(own.get(name, ())) == 1:
-                yield Fault.of((axis,), name, "must have two values or more")
         yield from self._wrong_by(own)
         yield from self._wrong_places(own)
         yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
@@ -87,7 +84,7 @@ class General(Plot):
 def _same(value: Any, other: Any) -> bool:
     if isinstance(value, float) and isinstance(other, float):
         return math.isclose(value, other, rel_tol=1e-12)
-    return bool(value == other)
+    return key_of(value) == key_of(other)
 
 
 Limits = tuple[Finite, Finite]

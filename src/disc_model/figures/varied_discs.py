@@ -1,0 +1,28 @@
+"""What a title says of a disc given by its modes, of which some frequencies vary."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from disc_model.parameters import Disc
+
+
+def with_frequencies(
+    values: Mapping[str, Any], given: Mapping[str, float | None]
+) -> dict[str, Any]:
+    """Values of a case whose disc has other frequencies of some modes, by names such as omega_1_0;
+    None for one that varies. Without such names, the values as they are."""
+    disc = values.get("disc")
+    if isinstance(disc, Disc):
+        disc = dict(disc)
+    if not isinstance(disc, Mapping) or not any(name.startswith("omega_") for name in given):
+        return dict(values)
+    modes = zip(disc["diameters"], disc["circles"], disc["omega"], strict=True)
+    omega = []
+    for diameters, circles, frequency in modes:
+        omega.append(given.get(f"omega_{diameters}_{circles}", frequency))
+    return {**values, "disc": {**disc, "omega": omega}}
+
+
+def varied_numbers(*names: str) -> dict[str, float | None]:
+    """Numbers of a disc that vary, by their names, for `with_frequencies`."""
+    return dict.fromkeys(names)
