@@ -13,12 +13,12 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from disc_model.figures.branch_lines import Look
+from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.drawing import mark, wide
 from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
 from disc_model.figures.labels import in_a_row
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
-from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
 from disc_model.figures.types import Array, Artist, Axes
