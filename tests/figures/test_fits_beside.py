@@ -10,6 +10,6 @@ from tests.refusals import refusal
 def test_a_second_fit_on_the_same_axes_is_refused() -> None:
     """It was drawn over the first one, whose rows and labels were gone."""
     axes = plot_fit(made_up())
-    said = refusal(lambda: plot_fit(made_up(), ax=axes))
-    assert "shows a fit already: give each its own axes" in said
+    with refusal("shows a fit already: give each its own axes"):
+        plot_fit(made_up(), ax=axes)
     pyplot.close("all")
