@@ -23,6 +23,8 @@ UNIT_NEEDED = {
     "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
 }
 """Quantities whose heads must state a unit: which, and examples."""
+OF_COLUMNS = {"omega": "rad/s", "amplitude": "kg^-1/2", "tangential": "kg^-1/2"}
+"""SI units of the numbers of modes."""
 
 _OF_A_MODE = re.compile(r"(.*)_\d+_\d+")
 _WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*(\S.*)?")
@@ -104,6 +106,11 @@ def column_of(name: Any) -> str:
     """What a name such as omega_2_0 is of a mode: omega; "" if it is no such name."""
     match = _OF_A_MODE.fullmatch(name) if isinstance(name, str) else None
     return match[1] if match and match[1] in UNCERTAIN else ""
+
+
+def unit_of_mode(name: str) -> str:
+    """The SI unit of a number of a mode by its name, "" of a share or another name."""
+    return OF_COLUMNS.get(column_of(name), "")
 
 
 def mode_number(quantity: str, value: Any) -> Any:

@@ -35,7 +35,7 @@ WRITTEN = (*SUFFIXES, TABLE)
 
 
 class HasDataset(Protocol):
-    """A result that becomes a dataset, such as a `Fit` or a `Branch`."""
+    """A result that becomes a dataset, such as a `Fit`, a `Branch` or a `Critical`."""
 
     def to_dataset(self) -> xr.Dataset: ...
 
@@ -45,8 +45,9 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
 
     Parameters
     ----------
-    data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit` or a `Branch` is written
-        as the dataset of its method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone
+    data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit`, a `Branch` and
+        what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
+        has a name as a dataset of it alone
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...

@@ -1,5 +1,6 @@
 """The values of a case above a reader's axes."""
 
+from textwrap import fill
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -8,7 +9,7 @@ from matplotlib.text import Text
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import in_a_row, titles_of
 from disc_model.figures.types import Axes
-from disc_model.figures.words import head_text
+from disc_model.figures.words import CHARACTER, head_text
 
 MOST_LINES = 3  # of values of a case above a picture
 SIZE = 8.0  # points
@@ -45,7 +46,18 @@ def _case_text(ax: Axes, said: str, note: str, size: float) -> str:
     lines = [title_text(width, said)]
     if note != said:
         lines.append(head_text(width, note, ""))
-    return "\n".join(filter(None, lines))
+    return _narrowed("\n".join(filter(None, lines)), width)
+
+
+def _narrowed(text: str, width: float) -> str:
+    """A text whose lines of words are broken to fit a width in inches; a value stays with its name."""
+    length = max(round(width / CHARACTER), 1)
+    lines = []
+    for line in text.splitlines():
+        if "=" not in line:
+            line = fill(line, length, break_long_words=False, break_on_hyphens=False)
+        lines.append(line)
+    return "\n".join(lines)
 
 
 def rewrite_case(ax: Axes, said: str) -> None:

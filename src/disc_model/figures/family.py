@@ -12,6 +12,7 @@ from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.case_titles import rewrite_case, title_text
+from disc_model.figures.disc_names import disc_name, same_disc, without_plates
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -43,6 +44,9 @@ LOOKS = (
     Look(ROSE, (2, 1.1)),
 )
 """Of members of a family, in their order: dashes tell them apart in grey print."""
+
+DISC = "disc"
+"""The parameter that is a table of modes, or None for a plate."""
 
 
 @dataclass
@@ -107,12 +111,27 @@ def _what_differs(member: Member, family: Sequence[Member]) -> str:
     a period of its cycles has; "" if nothing does."""
     common = _common_values(family)
     said = []
-    for name, value in _without_ratios(member, family).items():
+    values = _without_ratios(member, family)
+    for name in sorted(
+        values, key=lambda name: name != DISC
+    ):  # which kind of disc it is comes first
         if name not in common:
-            said.append(member.said.get(name) or typeset(stated_value(name, value)))
+            said.append(member.said.get(name) or _value_said(name, values[name], family))
     if len({each.releases for each in family}) > 1:
         said.append(f"{counted(member.releases, 'release')} per period")
     return ", ".join(filter(None, said))
+
+
+def _value_said(name: str, value: Any, family: Sequence[Member]) -> str:
+    """What the legend says of a value that differs between members."""
+    if name == DISC:
+        return disc_name(value, _discs_of(family))
+    return typeset(stated_value(name, value))
+
+
+def _discs_of(family: Sequence[Member]) -> list[Any]:
+    """The discs of all members, None for those given by their sizes and material."""
+    return [each.values.get(DISC) for each in family]
 
 
 def retitle(page: Page, family: Sequence[Member], first: str = "") -> None:
@@ -144,7 +163,8 @@ def _common_values(family: Sequence[Member]) -> dict[str, Any]:
     first, *others = (_without_ratios(each, family) for each in family)
     common = {}
     for name, value in first.items():
-        if all(name in other and _equal(other[name], value) for other in others):
+        same = same_disc if name == DISC else _equal
+        if all(name in other and same(other[name], value) for other in others):
             common[name] = value
     return common
 
@@ -152,7 +172,7 @@ def _common_values(family: Sequence[Member]) -> dict[str, Any]:
 def _without_ratios(member: Member, family: Sequence[Member]) -> dict[str, Any]:
     """The values of a member, with a parameter in place of a ratio that others do not state: both
     may say the same."""
-    values = dict(member.values)
+    values = without_plates(member.values, _discs_of(family))
     for ratio, (name, other) in RATIOS.items():
         stated_by_all = all(ratio in each.values for each in family)
         if ratio in values and other in values and not stated_by_all:

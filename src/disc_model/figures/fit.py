@@ -21,7 +21,7 @@ from disc_model.figures.drawing import (
     wide,
 )
 from disc_model.figures.fitted_values import fitted_text
-from disc_model.figures.named_axes import Quantities
+from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.types import Axes
 from disc_model.figures.words import stated_value
 
@@ -73,6 +73,7 @@ def plot_fit(
         wishes, PAGE, 1.3 + rows, 1, 2, stacked=1.9 + rows, title=said, sharey=True
     )
     with page_of_two as page:
+        check_free(page.axes, ROWS, "a fit")
         page.show(Quantities(DIFFERENCE, ROWS), Quantities(DEVIATION, ROWS))
         left, right = page.axes
         _draw_differences(left, fit)

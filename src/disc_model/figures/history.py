@@ -37,6 +37,8 @@ from disc_model.figures.types import Artist, Axes
 LINE = 0.8  # points, width of the lines of several runs,
 SAMPLE = 1.2  # and of those in the legend
 BAND = 0.2  # opacity of their ranges
+BEFORE_END = "Time before the end of each run (s)"
+"""Name of the time where runs of several lengths are seen at their ends."""
 ROOM = 0.05  # free share of the values above and below them
 
 
@@ -163,19 +165,21 @@ def _lines(window: xr.Dataset, name: str) -> Lines:
 
     def draw(ax: Axes, style: Style) -> Artist:
         line = style.look.line(LINE)
+        shown = time - time[-1] if style.from_end else time
         if ranges:
-            ax.fill_between(time, low, high, color=style.look.colour, alpha=BAND, linewidth=0)
-            ax.plot(time, low, **line)
-        ax.plot(time, high, **line)
-        ax.set_xlabel(TIME)
+            ax.fill_between(shown, low, high, color=style.look.colour, alpha=BAND, linewidth=0)
+            ax.plot(shown, low, **line)
+        ax.plot(shown, high, **line)
+        ax.set_xlabel(BEFORE_END if style.from_end else TIME)
         ax.set_ylabel(label)
         _number_times(ax)
         return sample(**style.look.line(SAMPLE))
 
-    across = (0.0, end_of_ranges(time)) if ranges else (float(time[0]), float(time[-1]))
-    return Lines(
-        draw, (across, limits_of(np.concatenate([low, high]), ROOM)), label.rpartition(" (")[0]
-    )
+    stretch = (float(time[0]), float(time[-1]))
+    across = (0.0, end_of_ranges(time)) if ranges else stretch
+    upward = limits_of(np.concatenate([low, high]), ROOM)
+    lines = Lines(draw, (across, upward), label.rpartition(" (")[0])
+    return lines if ranges else lines._replace(stretch=stretch)
 
 
 def draw_history(
@@ -194,7 +198,7 @@ def draw_history(
     """
     for ax, name in zip(axes, variables, strict=True):
         show(ax, case, window, name, named=marked and ax is axes[0])
+        _number_times(ax)
     _leave_to_last(axes)
-    _number_times(axes[-1])
 
     return shade_phases(axes if marked else [], spans_in(case, window))

@@ -20,7 +20,10 @@ REMEDIES = {
     "bar": "other axes",
 }
 """Where another quantity can be drawn, by the axis along which one is shown."""
-SAME = {"Growth rate of the stick-slip cycle (1/s)": "Growth rate of the cycle (1/s)"}
+SAME = {
+    "Growth rate of the stick-slip cycle (1/s)": "Growth rate of the cycle (1/s)",
+    "Growth rate of the cycle, or of sliding (1/s)": "Growth rate of the cycle (1/s)",
+}
 """Labels of one quantity in other words."""
 
 

@@ -13,6 +13,7 @@ from weakref import WeakKeyDictionary, ref
 import numpy as np
 
 from disc_model.figures.branch_lines import Look
+from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.drawing import mark, wide
 from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
 from disc_model.figures.labels import in_a_row
@@ -43,10 +44,12 @@ class Style(NamedTuple):
     colour and shape of marks.
 
     cases : how many there are
+    from_end : whether time is counted from the end of each, and is negative
     """
 
     place: int
     cases: int = 1
+    from_end: bool = False
 
     @property
     def look(self) -> Look:
@@ -87,11 +90,13 @@ class Lines(NamedTuple):
     draw : draws it on axes in a style; returns its entry of a legend, which has no label yet
     limits : of the axes that show it
     what : the name of what is drawn, if axes can show several in one unit
+    stretch : begin and end of the samples in time, s; None of what is not sampled over time, or whole
     """
 
     draw: Callable[[Axes, Style], Artist]
     limits: Limits
     what: str = ""
+    stretch: tuple[float, float] | None = None
 
 
 @dataclass
@@ -239,13 +244,15 @@ def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
         limits.append((ax.get_xlim(), ax.get_ylim()))
     handles = []
     count = 1 + max(panel.case.place for panel in family)
+    shown = stretch_shown([panel.lines.stretch for panel in family])
     for panel in family:
         _remove(ax, panel)
         before = {id(artist) for artist in ax.get_children()}
-        handles.append(panel.lines.draw(ax, Style(panel.case.place, count)))
+        handles.append(panel.lines.draw(ax, Style(panel.case.place, count, shown.from_end)))
         panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
     ends = np.array(limits)
-    ax.set_xlim(ends[:, 0].min(), ends[:, 0].max())
+    across = shown.limits or (ends[:, 0].min(), ends[:, 0].max())
+    ax.set_xlim(across)
     ax.set_ylim(ends[:, 1].min(), ends[:, 1].max())
     return handles
 

@@ -16,11 +16,13 @@ from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
 from disc_model.stability.floquet import beside_motion
 from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
+from disc_model.stability.sliding import SteadySliding
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
 SHORTEST = 1e-6  # of the range, to which crossings are bisected
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
+SLIDING_MOTIONS = ("steady_sliding", "unstable_sliding")
 RULE_OF_KIND = (
     f"must be {STICK_SLIP!r}, the motion near the static start, or {SLIDING!r}, steady sliding"
 )
@@ -169,7 +171,17 @@ def _result(scan: Scan, kind: str, shortest: float) -> Critical:
         kind=kind,
         near_motion=compared.near_motion if compared else None,
         other_growth_rate=compared.other_growth_rate if compared else math.nan,
+        _sliding_growth_rate=np.array(
+            [_rate_of_sliding(scan.motions[value]) for value in computed]
+        ),
     )
+
+
+def _rate_of_sliding(motion: FloquetResult | SteadySliding) -> float:
+    """The growth rate of steady sliding, 1/s, if this takes the place of a cycle; else nan."""
+    if isinstance(motion, FloquetResult) and motion.motion in SLIDING_MOTIONS:
+        return float(motion.sliding.growth_rate)
+    return math.nan
 
 
 def _compared_with_motion(scan: Scan, value: float) -> FloquetResult | None:

@@ -1,17 +1,23 @@
 """Values of one parameter at which a motion gains or loses stability, as `critical` finds them."""
 
+from __future__ import annotations
+
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.display import Drawn, counted, html_table
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation.problem import value_text
+from disc_model.stability.continuation.problem import unit_text, value_text
 from disc_model.stability.cycle import STICK_SLIP
 from disc_model.stability.parameter_scan import SLIDING
+
+if TYPE_CHECKING:
+    import xarray as xr
 
 MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
 """Kinds of motion whose stability is followed, and what texts call them."""
@@ -23,7 +29,7 @@ class Critical(Drawn, EqualByValue):
     start, or steady sliding.
 
     `plot` draws the growth rate over the parameter, with the intervals in which the motion is
-    unstable.
+    unstable; `to_dataset` makes a dataset, which `disc_model.save` writes.
 
     Attributes
     ----------
@@ -34,7 +40,8 @@ class Critical(Drawn, EqualByValue):
     border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
         stable there, or unstable at all values. Tongues of instability may lie below it
     at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
-    message : says so if `value` is the lower bound or nan, or the motion from the static start is elsewhere; else ""
+    message : says so if `value` is the lower bound or nan, where steady sliding is unstable instead of a cycle, or if
+        the motion from the static start is elsewhere; else ""
     near_motion : whether the motion from the static start may be near the unstable cycle at `value`, as in
         `FloquetResult`; None, which sweeps have as nan, without such a cycle. Where it is False, that motion may be
         stable at `value`
@@ -44,7 +51,7 @@ class Critical(Drawn, EqualByValue):
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
-        sliding (1/s; nan without)
+        sliding (1/s; nan without). Where steady sliding takes the place of a cycle, `sliding_growth_rate` has its own
     resolution : the largest step between neighbouring values computed. No stretch of stability or
         of instability that is wider has been overlooked. Most narrower ones are seen, because they
         are looked for where multipliers meet
@@ -72,22 +79,27 @@ class Critical(Drawn, EqualByValue):
     kind: str = STICK_SLIP
     near_motion: bool | None = None
     other_growth_rate: float = math.nan
+    _sliding_growth_rate: Array = field(default_factory=lambda: np.zeros(0))
 
     def __repr__(self) -> str:
-        found = self._without_loss or f"unstable from {self.value:.6g}"
-        first = "; ".join(filter(None, (found, self._elsewhere)))
+        unit = unit_text(self.name)
+        found = self._without_loss or f"unstable from {self.value:.6g} {unit}".rstrip()
+        first = "; ".join(filter(None, (found, self._in_sliding, self._elsewhere)))
         crossings = counted(len(self.crossings), "crossing")
-        seen = f"{len(self.values)} values, steps of at most {self.resolution:.2g}"
+        steps = f"{self.resolution:.2g} {unit}".rstrip()
+        seen = f"{len(self.values)} values, steps of at most {steps}"
         return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
 
     def _repr_html_(self) -> str:
         """The intervals of one stability in a notebook, and what may have been overlooked."""
-        unit = self.parameters.unit(self.name).removeprefix("1")
+        unit = unit_text(self.name)
         edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
         unstable = {float(low) for low, _ in self.unstable}
         rows = []
         for low, high in pairwise(edges):
-            stability = "unstable" if low in unstable else "stable"
+            stability = "stable"
+            if low in unstable:
+                stability = f"unstable{self._sliding_between(low, high)}"
             rows.append((f"{low:.9g}", f"{high:.9g}", stability))
         if self.message:
             rows.append((self.message, "", ""))
@@ -98,7 +110,62 @@ class Critical(Drawn, EqualByValue):
     @property
     def message(self) -> str:
         """Why `value` is no value at which the motion loses stability, in words; "" where it is one."""
-        return "; ".join(filter(None, (self._without_loss, self._elsewhere)))
+        said = (self._without_loss, self._in_sliding, self._elsewhere)
+        return "; ".join(filter(None, said))
+
+    @property
+    def sliding_growth_rate(self) -> Array:
+        """Growth rates of steady sliding (1/s) at the `values` where it is the motion near the static start,
+        as there is no cycle; nan elsewhere. With ``kind="sliding"``, all of them."""
+        if self.kind == SLIDING:
+            return self.growth_rate
+        if not self._sliding_growth_rate.size:
+            return np.full(self.values.shape, math.nan)
+        return self._sliding_growth_rate
+
+    @property
+    def _in_sliding(self) -> str:
+        """Between which values it is steady sliding that is unstable, as no cycle exists, in words; "" of a
+        cycle."""
+        places = self.values[self.sliding_growth_rate > 0]
+        if self.kind == SLIDING or not places.size:
+            return ""
+        lowest, highest = (value_text(self.name, each) for each in (places[0], places[-1]))
+        said = "no cycle exists, and steady sliding is unstable"
+        if places.size == 1:
+            return f"at {lowest} {said}"
+        return f"at values from {lowest} to {highest.partition(' = ')[2]} {said}"
+
+    def _sliding_between(self, low: float, high: float) -> str:
+        """That steady sliding is the unstable motion between two values, or at some of them, to stand
+        after a word; "" of a cycle."""
+        if self.kind == SLIDING:
+            return ""
+        within = (self.values >= low) & (self.values <= high)
+        grows = self.sliding_growth_rate[within] > 0
+        if not grows.any():
+            return ""
+        return ", steady sliding" if grows.all() else ", partly steady sliding"
+
+    def to_dataset(self) -> xr.Dataset:
+        """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
+
+        Along the parameter, by its name: `growth_rate` and `sliding_growth_rate` (1/s). Along `crossing`:
+        `crossings` and `unstable_above`. Alone: `value`, `border`, `resolution`, `other_growth_rate`, and
+        `near_motion`, nan where this is not examined. Attributes: `kind`, `message`, and the case's
+        `parameters` in JSON.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> found = dm.critical(dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
+        >>> dm.save(found, "critical.nc")
+        >>> dm.load("critical.nc")["growth_rate"].dims
+        ('mu_s',)
+        """
+        from disc_model.stability.critical_data import dataset_of
+
+        return dataset_of(self)
 
     @property
     def _elsewhere(self) -> str:
@@ -126,7 +193,7 @@ class Critical(Drawn, EqualByValue):
     @property
     def _range_searched(self) -> str:
         """The bounds of the search, in the unit of the parameter."""
-        unit = self.parameters.unit(self.name).removeprefix("1")
+        unit = unit_text(self.name)
         return f"from {self.values[0]:.6g} to {self.values[-1]:.6g} {unit}".rstrip()
 
     @property

@@ -16,6 +16,7 @@ from disc_model.data.swept_branches import variables_of_branch
 from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, CycleStatus
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.result import Result
+from disc_model.stability.critical_values import Critical
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 
@@ -105,7 +106,7 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     """
     if isinstance(result, xr.DataArray):
         result = result.to_dataset(name=result.name or "value")
-    elif is_dataclass(result) and hasattr(result, "to_dataset"):
+    elif _is_whole_dataset(result):
         result = variables_of_branch(result.to_dataset())
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
@@ -122,6 +123,13 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
                 (along or f"{name}_index",)[: array.ndim], array, attributes
             )
     return variables
+
+
+def _is_whole_dataset(result: Any) -> bool:
+    """Whether a result of this package is gathered as its dataset; critical values are by their fields, as
+    each point has values of its own along the parameter."""
+    has_dataset = is_dataclass(result) and hasattr(result, "to_dataset")
+    return has_dataset and not isinstance(result, Critical)
 
 
 def _named_values(result: Any) -> Mapping[str, Any]:

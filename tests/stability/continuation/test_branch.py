@@ -47,7 +47,7 @@ def branch(name: str) -> Branch:
 
 def test_a_branch_states_how_far_it_reaches_with_its_special_points() -> None:
     text = repr(branch("Omega"))
-    assert text == "Branch(3 cycles, Omega from 3 to 5.2, 1 fold; ended: made up)"
+    assert text == "Branch(3 cycles, Omega from 3 to 5.2 rad/s, 1 fold; ended: made up)"
 
 
 @pytest.mark.parametrize(("name", "head"), [("Omega", "Omega (rad/s)"), ("mu_s", "mu_s")])

@@ -521,7 +521,7 @@ def test_values_that_are_not_reached_are_said() -> None:
     branch = continue_cycle(FOLDED, "Omega", bounds, values=[*reached, 15.5])
     assert branch.not_reached == [15.5]
     assert {*reached} < {*branch.values[:, 0]}
-    said = "; not reached: Omega = 15.5"
+    said = "; not reached: Omega = 15.5 rad/s"
     assert said in repr(branch)
     assert said in branch._repr_html_()
 

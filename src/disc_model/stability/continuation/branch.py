@@ -17,6 +17,7 @@ from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
+from disc_model.stability.continuation.problem import unit_text
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
 from disc_model.units import in_si
@@ -176,7 +177,8 @@ class Branch:
         reached = np.vstack([self.values, *(special.values for special in self.special)])
         spans = []
         for name, values in zip(self.parameters, reached.T, strict=True):
-            spans.append(f"{name} from {values.min():.6g} to {values.max():.6g}")
+            unit = unit_text(name)
+            spans.append(f"{name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip())
         folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; {self._end_text()})"
 
@@ -186,11 +188,12 @@ class Branch:
         if not len(self.not_reached):
             return text
         missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
-        return f"{text}; not reached: {self.parameters[0]} = {missed}"
+        unit = unit_text(self.parameters[0])
+        return f"{text}; not reached: {self.parameters[0]} = {missed} {unit}".rstrip()
 
     def _repr_html_(self) -> str:
         """The special points in a notebook, and why the branch ends."""
-        units = [self.case.unit(name).removeprefix("1") for name in self.parameters]
+        units = [unit_text(name) for name in self.parameters]
         named = zip(self.parameters, units, strict=True)
         head = [f"{name} ({unit})" if unit else name for name, unit in named]
         rows: list[tuple[object, ...]] = []
@@ -279,7 +282,7 @@ class Branch:
         >>> branch.plot("period").get_xlabel()
         'Speed Ω (rad/s)'
         >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
-        Branch(... cycles, Omega from 14.7 to 14.9, 0 folds; ended: ...)
+        Branch(... cycles, Omega from 14.7 to 14.9 rad/s, 0 folds; ended: ...)
         """
         stored = StoredBranch(data)
         data = stored.data

@@ -80,7 +80,7 @@ def continue_cycle(  # noqa: PLR0913
     >>> import disc_model as dm
     >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
     >>> branch
-    Branch(... cycles, Omega from 14.8 to 15.09..., 1 fold; ended: the bound Omega = 14.8 rad/s was reached)
+    Branch(... cycles, Omega from 14.8 to 15.09... rad/s, 1 fold; ended: the bound Omega = 14.8 rad/s was reached)
     >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
     15.094912 rad/s
     >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()

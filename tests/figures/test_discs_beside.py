@@ -1,0 +1,83 @@
+"""Cases with different discs on the same axes: the legend says which disc is which."""
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from matplotlib import pyplot
+
+import disc_model as dm
+from tests.figures.test_wishes import legend_texts
+
+PLATE = dm.Parameters(N=385, Omega=15)
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> object:
+    yield
+    pyplot.close("all")
+
+
+def table(*frequencies: float) -> dm.Disc:
+    count = len(frequencies)
+    return dm.Disc(diameters=[2, 3, 4][:count], omega=frequencies, amplitude=[1.0] * count)
+
+
+def of_modes(*frequencies: float) -> dm.Parameters:
+    return PLATE.replace(disc=table(*frequencies), r_0=0.1)
+
+
+def _run(case: dm.Parameters, **wishes: Any) -> Any:
+    run = dm.simulate(case, 0.1, {"late": dm.Window(last=0.05, rate=1e4)})
+    return run.plot("late", variables=["u"], **wishes)
+
+
+def _sweep(case: dm.Parameters, **wishes: Any) -> Any:
+    swept = dm.sweep(dm.steady_sliding, case, Omega=[14, 15])
+    return dm.plot_sweep(swept, "growth_rate", **wishes)
+
+
+DRAWN: dict[str, Callable[..., Any]] = {
+    "run": _run,
+    "sweep": _sweep,
+    "eigenvalues": lambda case, **wishes: dm.steady_sliding(case).plot(**wishes),
+}
+
+
+def names(kind: str, *cases: dm.Parameters) -> list[str]:
+    draw = DRAWN[kind]
+    ax = draw(cases[0])
+    for case in cases[1:]:
+        draw(case, ax=ax)
+    return legend_texts(ax)[: len(cases)]
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_table_beside_a_plate(kind: str) -> None:
+    assert names(kind, of_modes(3000, 5000), PLATE) == ["disc of 2 modes", "plate"]
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_plate_beside_a_table(kind: str) -> None:
+    assert names(kind, PLATE, of_modes(3000)) == ["plate", "disc of 1 mode"]
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_tables_of_as_many_modes_by_frequencies(kind: str) -> None:
+    first, second = names(kind, of_modes(3000, 5000), of_modes(3000, 6000))
+    assert first == "disc of 2 modes of 477.5 to 795.8 Hz"
+    assert second == "disc of 2 modes of 477.5 to 954.9 Hz"
+
+
+@pytest.mark.parametrize("kind", DRAWN)
+def test_equal_tables_are_one_disc(kind: str) -> None:
+    cases = (of_modes(3000, 5000).replace(N=load) for load in (300, 385))
+    assert names(kind, *cases) == ["N = 300 N", "N = 385 N"]
+
+
+def test_what_differs_of_a_plate_follows() -> None:
+    thick = PLATE.replace(h=0.003, normalization="orthonormal", D_star=1e-6)
+    first, second = names("eigenvalues", of_modes(3000), thick)
+    assert first.startswith("disc of 1 mode")
+    assert second.startswith("plate, ")
+    assert "h = 3 mm" in second
