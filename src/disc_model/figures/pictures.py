@@ -53,14 +53,16 @@ def plot_sweep(  # noqa: PLR0913
     the rate is steep. A line that is not open may join different cycles as well; finer steps show them. Marks
     on a grey strip above the panel are of points without a value; no line leads to a value that is the lower
     bound of its search. Filled marks, and hatched cells of a map, are of a sweep of the speed whose motion had
-    not settled, of an exponent that has not converged, or of an unstable cycle where the motion from the static
-    start is not near, as the legend says. An axis is logarithmic if three or more positive values span a decade
-    or more and have equal ratios within 1e-6, as those of `numpy.geomspace`.
+    not settled, of a range or share of `outcome` late in a motion that still grows or is undecided, of an
+    exponent that has not converged, or of an unstable cycle where the motion from the static start is not near,
+    as the legend says. An axis is logarithmic if three or more positive values span a decade or more and have
+    equal ratios within 1e-6, as those of `numpy.geomspace`.
 
     Parameters
     ----------
     study : such as `disc_model.sweep`, `run_study`, `hysteresis` and `basins` return; of one or two dimensions of
-        several values
+        several values, beside one that only counts the values of a variable at each point. Over two dimensions, such
+        values have marks of their own for each value of `lines`
     variable : one, or a list of variables that are lines of one unit, such as ``["onset_speed", "offset_speed"]`` of
         `hysteresis`; if not given, the shares of starts, the growth rate, the outcome, the largest Lyapunov exponent,
         the number of separations of `simulate`, the lowest coupled frequency, the angle ψ of the samples of
