@@ -157,3 +157,45 @@ def test_stable_cycles_are_not_examined_for_a_motion_near_them() -> None:
     study.attrs["function"] = "floquet"
     ax = dm.plot_sweep(study, "near_motion", ax=small_axes())
     assert [text.get_text() for text in ax.texts] == ["stable: not examined"]
+
+
+# ---- Words
+
+
+def words_up(ax: Axes) -> list[str]:
+    """The words along the vertical axis, from below."""
+    return [label.get_text() for label in ax.get_yticklabels()]
+
+
+@pytest.mark.parametrize(
+    ("given", "expected"),
+    [
+        (["low", "hi", "low"], ["low", "hi"]),
+        (["separation", "growing", "quiet"], ["quiet", "growing, in contact", "separation"]),
+        (["yes", "no", "yes"], ["no", "yes"]),
+        (["own", "separation", "another"], ["separation", "own", "another"]),
+    ],
+)
+def test_words_stand_in_their_order(given: list[str], expected: list[str]) -> None:
+    """They stood in that of the alphabet."""
+    study = grid(Omega=[10.0, 12, 14]).assign(level=("Omega", given))
+    ax = dm.plot_sweep(study, "level", ax=small_axes())
+    assert words_up(ax) == expected
+
+
+def test_words_of_a_further_sweep_stand_above_those_before() -> None:
+    ax = small_axes()
+    for words in (["low", "hi"], ["hi", "at the top"]):
+        study = grid(Omega=[10.0, 12]).assign(level=("Omega", words))
+        dm.plot_sweep(study, "level", ax=ax)
+    assert words_up(ax) == ["low", "hi", "at the top"]
+
+
+def test_names_of_sweeps_behind_a_reason_begin_small() -> None:
+    """They had a capital within a sentence."""
+    study = grid(N=[300.0, 400], Omega=[10.0, 12, 14])
+    for name in ("rising_force", "falling_force"):
+        study[name] = study["height"].where(study["height"] > 0).assign_attrs(units="N")
+    ax = dm.plot_sweep(study, ["rising_force", "falling_force"], x="Omega", ax=small_axes())
+    reasons = [text.get_text().replace("\n", " ") for text in ax.texts]
+    assert reasons == ["no value, rising force", "no value, falling force"]

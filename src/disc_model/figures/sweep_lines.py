@@ -238,7 +238,8 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page, shown)
-        called = dict(zip([each.number for each in family], names, strict=True))
+        for each, name in zip(family, names, strict=True):
+            called[each.number] = name if each.shown.name else _within(name)  # behind a reason
 
     page.joins = True
     # lines of a former variable of the page may have replaced names already
