@@ -39,7 +39,8 @@ def draw(
 def as_map(study: xr.Dataset, *chosen: Any, **wishes: Any) -> Axes:
     """Draw a sweep as a map, also if one of its dimensions has few values; along one dimension, as it is
     drawn there."""
-    shown = study[chosen[0]] if chosen else study.get("status", study)
+    name = chosen[0] if chosen else "status"
+    shown = study.get(name, study)
     plane = [dim for dim in shown.dims if study.sizes[dim] > 1 and study[dim].dtype.kind in "fi"]
     lines: Any = False if len(plane) == 2 else ""
     return dm.plot_sweep(study, *chosen, lines=lines, **wishes)
