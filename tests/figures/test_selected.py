@@ -1,6 +1,7 @@
 """What pictures say of a selection of a sweep, and how they draw values that are equal but for
 rounding."""
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -58,12 +59,12 @@ def swept() -> xr.Dataset:
         ({"N": 301.0, "direction": "up"}, ["N = 301 N", "on the way up"]),
     ],
 )
-@pytest.mark.parametrize("lines", ["", False])
+@pytest.mark.parametrize("draw", [plot_sweep, as_map])
 def test_a_title_says_what_was_selected(
-    chosen: dict[str, Any], phrases: list[str], lines: Any
+    chosen: dict[str, Any], phrases: list[str], draw: Callable[..., Axes]
 ) -> None:
     selected = swept().sel(chosen)
-    ax = plot_sweep(selected, lines=lines)
+    ax = draw(selected, "range")
     said = title_of(ax).split(", ")
     count = len(phrases)
     assert said[:count] == phrases

@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from disc_model.figures.drawing import is_in_data
 from disc_model.figures.types import Array, Axes
-from disc_model.figures.words import in_lines
+from disc_model.figures.words import in_lines, in_order
 
 _NAMES: WeakKeyDictionary[Any, list[str]] = WeakKeyDictionary()
 """The names of classes along axes, by the locators of their ticks."""
@@ -71,12 +71,13 @@ def _sharing(ax: Axes) -> list[Axes]:
 
 
 def _in_one_order(former: Sequence[str], names: Sequence[str]) -> list[str]:
-    """All classes in the order of those that have most of them, or else of the alphabet."""
+    """All classes in the order of those that have most of them, or else the further ones behind those there
+    were."""
     if {*names} <= {*former}:
         return [*former]
     if {*former} <= {*names}:
         return [*names]
-    return sorted({*former, *names})
+    return in_order([*former, *names])
 
 
 def _moved(heights: Array, names: Sequence[str], common: Sequence[str]) -> Array:

@@ -238,10 +238,12 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page, shown)
-        called = dict(zip([each.number for each in family], names, strict=True))
+        for each, name in zip(family, names, strict=True):
+            called[each.number] = name if each.shown.name else _within(name)  # behind a reason
 
     page.joins = True
-    page.replaced = _rename(family, names)
+    # lines of a former variable of the page may have replaced names already
+    page.replaced = [*page.replaced, *_rename(family, names)]
     axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
     page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
     return called

@@ -2,7 +2,7 @@
 draws."""
 
 import re
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextvars import ContextVar
 from textwrap import fill
 from types import MappingProxyType
@@ -24,7 +24,7 @@ from disc_model.data.variables import (
     values_text,
 )
 from disc_model.display import counted
-from disc_model.figures.classes import name_of
+from disc_model.figures.classes import LOOKS, name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text, with_duration
 from disc_model.figures.kinds.base import si_unit
 from disc_model.figures.sections import with_section
@@ -129,6 +129,7 @@ PLAIN_WORDS = re.compile(
 )  # names that are words, and no symbols such as f_ss
 ROUNDING = 1e-9  # relative, of a number in another unit
 MISSING = "missing"  # what stands for a value that there is not
+ANSWERS = ("no", "yes")  # words for False and True, in their order
 STAYS = "stays"  # key of words for the time at each value of a sweep
 LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
@@ -171,6 +172,7 @@ GONE: Mapping[str, Mapping[str, str]] = {
         **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
     },
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
+    "floquet": {"near_motion": "stable: not examined"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
         **dict.fromkeys(("leading_multiplier", "growth_rate"), _NO_LOCK),
@@ -576,14 +578,23 @@ def lowered(text: str) -> str:
     return re.sub(r"\b([^\W_])_([^\W_])\b", with_index, text)
 
 
+def in_order(words: Iterable[str]) -> list[str]:
+    """Each of some words or names of classes once: those with looks of their own in the order of these,
+    "no" before "yes", and others as they come first."""
+    known = {word: place for place, word in enumerate((*ANSWERS, *LOOKS))}
+    known |= {name_of(word): place for word, place in known.items()}
+    return sorted(dict.fromkeys(words), key=lambda word: known.get(word, len(known)))
+
+
 def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
     """Names of a flag's classes, none for other variables; and the variable with numbers for words,
     their places, nan where there is no word."""
     if variable.dtype.kind in "UO":
         words = flag_names(variable)
-        distinct = np.unique(words[words != ""])
-        places = np.searchsorted(distinct, words).astype(float)
-        numbers = variable.copy(data=np.where(words == "", np.nan, places))
+        distinct = in_order([str(word) for word in words.flat if word != ""])
+        places = {"": np.nan} | {word: float(place) for place, word in enumerate(distinct)}
+        heights = [places[word] for word in words.flat]
+        numbers = variable.copy(data=np.reshape(heights, words.shape))
         return [name_of(word) for word in distinct], numbers
     words = variable.attrs.get("flag_meanings", "").split()
     return [name_of(word) for word in words if word != EXCLUDED], variable
@@ -647,6 +658,12 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False
 def is_truth(variable: xr.DataArray) -> bool:
     """Whether the numbers or words of a variable stand for True and False."""
     return variable.attrs.get("comment") == TRUTH["comment"]
+
+
+def are_counts(variable: xr.DataArray) -> bool:
+    """Whether a variable or coordinate counts something, also where some points have no value."""
+    whole = variable.dtype.kind in "iu" or variable.name in OF_MODES
+    return whole or named(variable).name.startswith("Number of ")
 
 
 def symbol_of(name: str) -> str:
