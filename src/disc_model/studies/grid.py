@@ -679,7 +679,9 @@ class GridStudy:
         for coordinates in (quantity.COORDINATES, quantity.SUMMARY_COORDINATES):
             for name, coordinate in coordinates.items():
                 values[name] = [*coordinate.values(quantity)]
-        return plot.faults_among(values, variables)
+        columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
+        classes = [name for name, column in columns.items() if column.has_classes]
+        return plot.faults_among(values, variables, classes)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
         """A figure of the grid, whose caption states the values that differ from Table 1 and do not
