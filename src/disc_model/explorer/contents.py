@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SHOWN, attributes, stated_in
+from disc_model.display import counted
 from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
@@ -18,6 +19,7 @@ from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
+from disc_model.figures.reader_units import unit_key
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.truths import as_classes
 from disc_model.figures.words import (
@@ -190,7 +192,7 @@ def _fixed(name: str, value: Any) -> dict[str, Any]:
         case str():
             shown = _word(name, value)
         case Mapping():  # a disc, of which the page has the call
-            shown = f"{len(value['omega'])} modes"
+            shown = counted(len(value["omega"]), "mode")
     return {**_named(name, attrs), "value": value, "shown": shown, "usual": usual}
 
 
@@ -286,7 +288,7 @@ def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
 def _unit_of(variable: xr.DataArray) -> tuple[str, float]:
     """The unit in which figures show a variable, and the factor from SI to it."""
     usual = named(variable)
-    return UNITS.get().get(known_name(variable), (usual.unit, usual.factor))
+    return UNITS.get().get(unit_key(variable), (usual.unit, usual.factor))
 
 
 def _dimension(study: xr.Dataset, dim: str, at: Mapping[str, Any]) -> dict[str, Any]:

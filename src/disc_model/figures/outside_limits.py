@@ -1,5 +1,6 @@
 """Lines of which the limits of an axis, as a file states them, leave nothing to be seen."""
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,6 +10,8 @@ from disc_model.figures.drawing import is_in_data
 from disc_model.figures.types import Axes
 from disc_model.figures.words import in_lines
 
+WITHIN_VALUE = re.compile(r" (?==)|(?<==) |(?<=\d) (?=\S{1,5}$)")
+"""Spaces of a name at which no line ends: a value stays with its name and unit."""
 ALL = "all values"  # of a single line, which has no name
 
 
@@ -31,7 +34,7 @@ def note_outside(axes: Sequence[Axes], limits: tuple[float, float]) -> bool:
     for name in outside:
         for line in hidden[name]:
             line.set_label("_nolegend_")
-    unbroken = [name.replace(" ", "\u00a0") for name in outside]  # a value stays with its unit
+    unbroken = [WITHIN_VALUE.sub("\u00a0", name) for name in outside]
     text = in_lines(f"outside the limits: {', '.join(unbroken) or ALL}")
     axes[0].plot([], [], linestyle="", label=text.replace("\u00a0", " "))
     return True

@@ -63,12 +63,12 @@ class General(Plot):
             yield Fault.of(("variable",), self.variable, rule)
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
-        yield from self.wrong_axes(own, self.variable)
+        wrong = [*self.wrong_axes(own, self.variable)]
         for axis, name in self.axes.items():
             if len(own.get(name, ())) == 1:
-                yield Fault.of((axis,), name, "must have two values or more")
-        yield from self._wrong_by(own)
-        yield from self._wrong_places(own)
+                wrong.append(Fault.of((axis,), name, "must have two values or more"))
+        wrong += self._wrong_by(own)
+        yield from wrong or self._wrong_places(own)  # these rest on what is on axes
         yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
         if self.variable in classes:
             yield from self._wrong_scales()
