@@ -37,8 +37,12 @@ def draw(
 
 
 def as_map(study: xr.Dataset, *chosen: Any, **wishes: Any) -> Axes:
-    """Draw a sweep as a map, also if one of its dimensions has few values."""
-    return dm.plot_sweep(study, *chosen, lines=False, **wishes)
+    """Draw a sweep as a map, also if one of its dimensions has few values; along one dimension, as it is
+    drawn there."""
+    shown = study[chosen[0]] if chosen else study["status"]
+    plane = [dim for dim in shown.dims if study.sizes[dim] > 1 and study[dim].dtype.kind in "fi"]
+    lines: Any = False if len(plane) == 2 else ""
+    return dm.plot_sweep(study, *chosen, lines=lines, **wishes)
 
 
 LEAST_PANEL = 0.4  # inch

@@ -15,7 +15,7 @@ from matplotlib import pyplot
 import disc_model as dm
 from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
-from disc_model.figures.classes import UNKNOWN_STARTS, name_of
+from disc_model.figures.classes import GROWING, UNKNOWN_STARTS, name_of
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
@@ -279,7 +279,7 @@ def test_maps_have_a_bar_for_numbers_and_a_legend_for_words(
         values = study[name].values
         expected = Shown(1, "bar", words_of(study[name]), values, unit_of(study[name]))
         assert_shows(figure, expected)
-        of_starts = {"undecided", UNKNOWN_STARTS.label}
+        of_starts = {"undecided", UNKNOWN_STARTS.label, GROWING.label}
         assert entries <= {"no cycle found", "stable", "unresolved", "no value", *of_starts}
     else:
         assert len(figure.axes) == 1, "no bar"

@@ -14,7 +14,7 @@ from disc_model.figures.curve_marks import measured_along, set_margins
 from disc_model.figures.drawing import is_in_data, plain_decades
 from disc_model.figures.rate_scale import scale_heights
 from disc_model.figures.types import Array, Axes
-from disc_model.figures.words import label_in, named
+from disc_model.figures.words import are_counts, label_in
 
 LINE = 1.1  # height of a line of text over its size
 CHARACTER = 0.6  # mean width of a character over its size
@@ -35,7 +35,7 @@ def set_scales(
     _scale_across(ax, array[x], along)
     ax.set_xlabel(label)
     ax.set_ylabel(label_in(study, variable))
-    _set_ticks(ax, names, shows, whole=_are_counts(study[variable]))
+    _set_ticks(ax, names, shows, whole=are_counts(study[variable]))
     set_margins(ax)
 
 
@@ -45,8 +45,8 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
         _turn_words(ax, words_along(ax, along.astype(str).tolist()))
         return
     ax.set_xscale(scale_along(values))
-    if values.dtype.kind == "i":
-        _number_whole(ax.xaxis)
+    if are_counts(values):
+        number_whole(ax.xaxis)
     if ax.get_xscale() == "log":
         plain_decades(ax.xaxis)
 
@@ -70,11 +70,6 @@ def _widest_pair(words: Sequence[str]) -> float:
     them; 0 of a single word."""
     pairs = pairwise(words)
     return max((0.5 * (len(left) + len(right) + 1) for left, right in pairs), default=0.0)
-
-
-def _are_counts(variable: xr.DataArray) -> bool:
-    """Whether a variable counts something, also where some points have no value."""
-    return variable.dtype.kind in "iu" or named(variable).name.startswith("Number of ")
 
 
 class NoNumbers(NullLocator):
@@ -110,12 +105,12 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
         axis.set_major_locator(NoNumbers())
         axis.set_minor_locator(NullLocator())
     elif whole:
-        _number_whole(axis)
+        number_whole(axis)
     if isinstance(axis.get_major_formatter(), ScalarFormatter):
         axis.get_major_formatter().set_useOffset(False)  # a sum beside the panel is overlooked
 
 
-def _number_whole(axis: Any) -> None:
+def number_whole(axis: Any) -> None:
     """Write whole numbers only along an axis of counts."""
     if isinstance(axis.get_major_locator(), AutoLocator):
         axis.get_major_locator().set_params(integer=True, min_n_ticks=1)

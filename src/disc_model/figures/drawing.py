@@ -142,13 +142,14 @@ def leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
 # ---- Ticks
 
 FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too
-NARROW = 0.4  # decades, up to which all of 1 to 9 are
+FEW_TICKS = 3  # numbers that an axis has at least, if not more even steps than
+STEPS = (5, 8)  # would be needed
 ROUNDING = 1e-9  # relative, of limits that are edges of cells
 
 
 class PlainDecades(Locator):
-    """Ticks of a logarithmic axis: powers of ten; 1, 2 and 5 over few decades; more over less than
-    half of one. All are labelled, and a horizontal axis has no more of them than find room."""
+    """Ticks of a logarithmic axis: powers of ten; 1, 2 and 5 over few decades; even steps where these
+    would be fewer than three. All are labelled, and a horizontal axis has no more of them than find room."""
 
     def __init__(self, least: float = 0.0) -> None:
         """Have no ticks below `least`."""
@@ -170,11 +171,19 @@ class PlainDecades(Locator):
         decades = math.log10(vmax / vmin)
         if decades > FEW_DECADES:
             return LogLocator().tick_values(vmin, vmax)
-        if decades < NARROW:
-            ticks = np.asarray(MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(vmin, vmax))
-        else:
-            ticks = np.asarray(DECADES)
-        return ticks[(ticks >= vmin) & (ticks <= vmax)]
+        ticks = _between(np.asarray(DECADES), vmin, vmax)
+        whole = self.least >= 1
+        for most in STEPS:
+            if ticks.size >= FEW_TICKS:
+                break
+            steps = MaxNLocator(most, steps=[1, 2, 5, 10], integer=whole, min_n_ticks=1)
+            ticks = _between(np.asarray(steps.tick_values(vmin, vmax)), vmin, vmax)
+        return ticks
+
+
+def _between(ticks: Array, low: float, high: float) -> Array:
+    """The ticks from one value to another."""
+    return ticks[(ticks >= low) & (ticks <= high)]
 
 
 def _fewer(ticks: Array, room: int) -> Array:

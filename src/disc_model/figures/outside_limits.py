@@ -1,18 +1,18 @@
 """Lines of which the limits of an axis, as a file states them, leave nothing to be seen."""
 
-import re
 from collections.abc import Sequence
+from textwrap import fill
 
 import numpy as np
 from matplotlib.lines import Line2D
 
 from disc_model.figures.drawing import is_in_data
 from disc_model.figures.types import Axes
-from disc_model.figures.words import in_lines
+from disc_model.figures.words import LONGEST_NAME
 
-WITHIN_VALUE = re.compile(r" (?==)|(?<==) |(?<=\d) (?=\S{1,5}$)")
-"""Spaces of a name at which no line ends: a value stays with its name and unit."""
 ALL = "all values"  # of a single line, which has no name
+NOTE = "outside the limits"
+"""What matplotlib calls the entry of a legend that says it."""
 
 
 def note_outside(axes: Sequence[Axes], limits: tuple[float, float]) -> bool:
@@ -34,10 +34,28 @@ def note_outside(axes: Sequence[Axes], limits: tuple[float, float]) -> bool:
     for name in outside:
         for line in hidden[name]:
             line.set_label("_nolegend_")
-    unbroken = [WITHIN_VALUE.sub("\u00a0", name) for name in outside]
-    text = in_lines(f"outside the limits: {', '.join(unbroken) or ALL}")
-    axes[0].plot([], [], linestyle="", label=text.replace("\u00a0", " "))
+    unbroken = [name.replace(" ", "\u00a0") for name in outside]  # a value stays with its unit
+    words = f"outside the limits: {', '.join(unbroken) or ALL}"
+    text = fill(words, LONGEST_NAME, break_long_words=False, break_on_hyphens=False)
+    axes[0].plot([], [], linestyle="", label=text.replace("\u00a0", " "), gid=NOTE)
     return True
+
+
+def remove_note(ax: Axes) -> None:
+    """Remove what a legend says of lines outside the limits of an axis, before further lines are drawn
+    there."""
+    for note in _notes_on(ax):
+        note.remove()
+
+
+def words_of_note(ax: Axes) -> list[str]:
+    """What a legend says of lines outside the limits of an axis, in one line; none if it says nothing."""
+    return [str(note.get_label()).replace("\n", " ") for note in _notes_on(ax)]
+
+
+def _notes_on(ax: Axes) -> list[Line2D]:
+    """The entries of a legend that say what is outside the limits of an axis."""
+    return [line for line in ax.lines if line.get_gid() == NOTE]
 
 
 def _lines_with_values(ax: Axes) -> list[Line2D]:

@@ -69,7 +69,7 @@ def plot_sweep(  # noqa: PLR0913
         numbers, or the one with more values if the other has three or fewer. Over a dimension beside paired samples,
         each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map;
-        False for a map in any case, which `cmap` asks for as well
+        False for a map of them also where one has few values, which `cmap` asks for as well
     points : whether all values at each place along the axis are points that no line joins, as in a bifurcation diagram
         of the turns that a function of your own returns
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
@@ -79,8 +79,9 @@ def plot_sweep(  # noqa: PLR0913
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
         there in any case. Classes have the same colours in all pictures
-    limits : ends of the axis of a variable that is drawn as lines, or of the bar of colours, in its unit; without them
-        colours of growth rates end at 0.3/s, or, if most rates are larger, beyond 98 % of them
+    limits : ends of the axis of a variable that is drawn as lines, or of the bar of colours, in the unit that its label
+        says, such as ms of a period; the legend says which lines lie outside. Without them colours of growth rates end
+        at 0.3/s, or, if most rates are larger, beyond 98 % of them
     ax, legend, labels, title : as in `Result.plot`; `labels` also takes other words for the bar of colours, by
         "bar", and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a
         sweep, those of another case, or of another variable of the same unit, get a colour and dashes of their own,

@@ -5,6 +5,7 @@ from typing import Any
 import xarray as xr
 
 from disc_model.figures.sweep_options import COMPARED, option_text
+from disc_model.figures.swept_lists import name_of_list
 from disc_model.figures.words import known_name, label_in, named_value, symbol_of, value_text
 from disc_model.parameters import RATIOS, Parameters
 
@@ -55,4 +56,5 @@ def _selected_text(study: xr.Dataset, name: str) -> str:
         return f"{name.removesuffix('_number').replace('_', ' ')} {value}"
     if isinstance(value, bool):
         return f"{name.replace('_', ' ')} = {value}"
-    return option_text(name, value) or named_value(study, name)
+    listed = name_of_list(study, name)
+    return listed or option_text(name, value) or named_value(study, name)

@@ -10,6 +10,7 @@ from disc_model.data import dataset
 from disc_model.data.swept_speeds import has_settled, swept_speeds
 from disc_model.data.variables import EXCLUDED, Outcome, flag_names, stated_in
 from disc_model.figures.classes import (
+    GROWING,
     NOT_CONVERGED,
     NOT_NEAR,
     UNKNOWN_STARTS,
@@ -388,6 +389,19 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
+def still_growing(study: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Points whose value describes the end of a motion that still grows or is undecided at the horizon;
+    None of other variables and studies."""
+    if not {variable, "outcome"} <= {*study}:
+        return None
+    outcome = study["outcome"]
+    is_late = "the late stretch" in str(study[variable].attrs.get("long_name", ""))
+    if not is_late or not {*outcome.dims} <= {*study[variable].dims}:
+        return None
+    open_end = np.isin(flag_names(outcome), (Outcome.GROWING, Outcome.UNDECIDED))
+    return outcome.copy(data=open_end).broadcast_like(study[variable]) & study[variable].notnull()
+
+
 def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points whose value is that of an unstable cycle which the motion from the static start is not
     near, or the critical value at which it is found; None of other variables and studies."""
@@ -430,6 +444,7 @@ def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     look that says why."""
     masks = {
         UNSETTLED: unsettled(study, variable),
+        GROWING: still_growing(study, variable),
         NOT_NEAR: not_near(study, variable),
         UNKNOWN_STARTS: rest_on_unknown(study, variable),
         NOT_CONVERGED: not_converged(study, variable),

@@ -12,10 +12,13 @@ from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shar
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colour_maps import draw_maps
 from disc_model.figures.colour_wishes import ColourWishes, are_limits, is_colormap
+from disc_model.figures.covered import twins_of
+from disc_model.figures.curve_scales import number_whole
 from disc_model.figures.drawing import COLUMN
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.named_axes import Quantities, refuse_beside_areas
+from disc_model.figures.outside_limits import note_outside, remove_note, words_of_note
 from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.selected import selected_of
 from disc_model.figures.separating_share import (
@@ -43,9 +46,10 @@ from disc_model.figures.sweep_lines import (
     quantities_of,
 )
 from disc_model.figures.sweep_options import options_of, set_options
+from disc_model.figures.sweep_parts import parts_beside
 from disc_model.figures.truths import are_of_classes, as_classes
 from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import label_in, label_of, measured
+from disc_model.figures.words import are_counts, label_in, label_of, measured
 
 OUTCOMES = "Outcome of starts"  # what the colours of bars show
 ALONE = "must be left out beside lines, or the colours of a map"
@@ -87,9 +91,14 @@ def plot_sweep(  # noqa: PLR0913
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
     )
+    if parts := parts_beside(study, variable, x, lines):  # type: ignore[arg-type]  # checked
+        looks = {"log": log, "limits": limits, "legend": legend, "labels": labels, "title": title}
+        return _plot_parts(parts, variable, x, ax, cmap=cmap, **looks)
     asked = lines or ""
     as_map = lines is False or (cmap is not None and not lines)  # lines have no map of colours
     varying, drawn = choose_drawn(study, variables, x, None if as_map else asked, points=points)  # type: ignore[arg-type]  # checked
+    for each in drawn:
+        require((lines is not False or each.mapped, "lines", lines, _rule_of_maps(each)))
     called, labels = names_asked(labels, [each.variable for each in drawn])
     wishes = Wishes(ax, legend, labels, title)
     colours = ColourWishes(bool(log), cmap, limits, linear=log is False)
@@ -99,6 +108,20 @@ def plot_sweep(  # noqa: PLR0913
             _draw(page, varying, each, colours, called.get(each.variable, ""), selected)
             page.remember()  # the next variable joins this one
     return page.ax
+
+
+def _plot_parts(parts: Sequence[xr.Dataset], variable: Any, x: str, ax: Any, **looks: Any) -> Axes:
+    """Draw parts of a study beside each other, as several sweeps on the same axes."""
+    for part in parts:
+        ax = plot_sweep(part, variable, x, ax=ax, **looks)
+    return ax
+
+
+def _rule_of_maps(drawn: Drawn) -> str:
+    """What a reader has to know who asks for a map of what is none."""
+    if drawn.variable in SHARES:
+        return f"must be left out, because {drawn.variable} is drawn as bars"
+    return f"must be left out: a map needs two dimensions of numbers, and {drawn.variable} has one"
 
 
 def _draw(
@@ -127,6 +150,7 @@ def _draw(
             page.ax.set_yscale("linear")
         if wishes.limits is not None:
             set_limits(page.ax, wishes.limits)
+            _say_what_is_outside(page, wishes.limits)
     else:
         _refuse_many_words(study, drawn.variable)
         page.show(Quantities(across, label_of(study[drawn.second])[0], label))
@@ -135,9 +159,9 @@ def _draw(
         key = draw_maps(page.figure, [page.ax], [plane], drawn.variable, wishes)
         page.explain(key.handles, beside="below", title=key.title)
         page.is_map = True
-        whole = study[drawn.second].dtype.kind == "i"
-        if whole and page.ax.get_yscale() == "linear":
-            page.ax.locator_params(axis="y", integer=True)
+        for axis, dim in ((page.ax.xaxis, drawn.across), (page.ax.yaxis, drawn.second)):
+            if are_counts(study[dim]):
+                number_whole(axis)
 
 
 def _refuse_many_words(study: xr.Dataset, variable: str) -> None:
@@ -162,14 +186,26 @@ def _new_lines(study: xr.Dataset, drawn: Drawn, name: str, selected: Mapping[str
 
 def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, lines: Lines) -> None:
     """Draw lines beside those of other variables of the same unit, and of other cases."""
+    page.replaced = [*page.replaced, *words_of_note(page.ax)]
+    remove_note(page.ax)
     others = lines_on(page.ax)
     quantities = quantities_of(lines, others)
     page.show(quantities)
-    lines.number = len(lines_beside(page.ax))
-    found = draw_each(page.ax, study, drawn, log, lines.number)
+    before = lines_beside(page.ax)
+    lines.number = len(before)
+    taken = sum(len(each.parts) for each in before)
+    found = draw_each(page.ax, study, drawn, log, lines.number, taken)
     page.ax.set_ylabel(quantities.y)
     lines.parts = [(part, ref(line)) for part, line in found]
     name_rows(page.ax, join_lines(page, lines))
+
+
+def _say_what_is_outside(page: Page, limits: tuple[float, float]) -> None:
+    """Let the legend say which lines lie outside the limits of their axis, in place of their names."""
+    note_outside([page.ax], limits)
+    page.replaced = [*page.replaced, *words_of_note(page.ax)]  # a legend is written more than once
+    axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
+    page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
 
 
 def _energies_of(study: xr.Dataset, drawn: Drawn) -> str:

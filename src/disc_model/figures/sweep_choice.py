@@ -15,6 +15,7 @@ from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_options import function_of, option_text, stays_in
+from disc_model.figures.swept_lists import with_names_of_lists
 from disc_model.figures.words import (
     IN_THOUSANDTH,
     known_name,
@@ -131,6 +132,7 @@ def choose_drawn(
         alike = each.is_line and drawn[0].is_line and each.across == drawn[0].across
         rule = "must be lines over the same dimension to be drawn together"
         require((alike, "variable", each.variable, rule))
+    varying = with_names_of_lists(varying, drawn[0].second)
     return _in_common_units(varying, variables), drawn
 
 
@@ -177,7 +179,7 @@ def _drawn(paired: Paired, variable: str, x: str, lines: str | None) -> Drawn:
         drawn = _with_few_lines(study, drawn, x)
     if column:
         return replace(drawn, mapped=False, joined=False)
-    if _only_counts(study, drawn.across):
+    if only_counts(study, drawn.across):
         drawn = replace(drawn, joined=False)
     if samples and drawn.second == samples:
         return replace(drawn, mapped=False, sampled=True)
@@ -367,7 +369,7 @@ def _drawn_dims(study: xr.Dataset) -> list[str]:
     """Dimensions of a study whose values are numbers of a quantity; words where there are none."""
     named = [str(dim) for dim in study.dims if dim in study.coords and dim not in COUNTED]
     numbers = [dim for dim in named if study[dim].dtype.kind in "fi"]
-    if "status" not in study or not all(_only_counts(study, dim) for dim in numbers):
+    if "status" not in study or not all(only_counts(study, dim) for dim in numbers):
         return numbers
     words = [dim for dim in named if dim in study["status"].dims and dim not in numbers]
     return [*words, *numbers]
@@ -409,7 +411,8 @@ def _choices(study: xr.Dataset) -> list[str]:
     for name, values in study.items():
         along_grid = bool({*values.dims} & drawn)
         several = len(_dims_without_coordinates(study, str(name))) > 1
-        if along_grid and values.dtype.kind != "c" and not several:
+        at_points = {*study.get("status", values).dims} <= {*values.dims}
+        if along_grid and at_points and values.dtype.kind != "c" and not several:
             choices.append(str(name))
     return choices
 
@@ -440,13 +443,13 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     """The dimensions along which a variable is drawn; raises `ParameterError`."""
     dims = [str(dim) for dim in study[variable].dims]
     numbers = [dim for dim in dims if dim in _drawn_dims(study)]
-    across = x or next((dim for dim in numbers if not _only_counts(study, dim)), numbers[0])
+    across = x or next((dim for dim in numbers if not only_counts(study, dim)), numbers[0])
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
     known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
     require((across in known, "x", across, f"must be one of {', '.join(known)}"))
     second = next((dim for dim in dims if dim != across), None)
-    counted = second is not None and _only_counts(study, second)
+    counted = second is not None and only_counts(study, second)
     drawn = Drawn(variable, across, second, mapped=False, counted=counted)
     return replace(drawn, mapped=not counted and _are_plane(study, drawn))
 
@@ -457,7 +460,7 @@ def _are_plane(study: xr.Dataset, drawn: Drawn) -> bool:
     return len(numbers) == 2 and all(study[dim].dtype.kind in "fi" for dim in numbers)
 
 
-def _only_counts(study: xr.Dataset, dim: str) -> bool:
+def only_counts(study: xr.Dataset, dim: str) -> bool:
     """Whether a dimension only counts the values that a variable has at a point, such as the samples
     of a Poincaré section."""
     if dim not in study.coords:

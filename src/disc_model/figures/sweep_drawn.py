@@ -4,22 +4,25 @@ from typing import Any
 
 import xarray as xr
 
+from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_lines import draw_lines
 from disc_model.figures.curve_marks import MARKS
 from disc_model.figures.curve_points import draw_points
 from disc_model.figures.curve_samples import MOST_NAMED, draw_samples
 from disc_model.figures.family import LOOKS
+from disc_model.figures.selection import parts_along, remaining
 from disc_model.figures.sweep_choice import Drawn
 from disc_model.figures.types import Axes
 
 
 def draw_each(
-    ax: Axes, study: xr.Dataset, drawn: Drawn, log: bool, number: int
+    ax: Axes, study: xr.Dataset, drawn: Drawn, log: bool, number: int, taken: int
 ) -> list[tuple[str, Any]]:
     """Draw a line, or one for each value of a second dimension; many samples have one name, and
     values that are only counted are points.
 
-    number : of lines that were drawn there before
+    number : of sweeps and variables that were drawn there before
+    taken : of the marks of all their lines
     """
     across = drawn.across
     look = LOOKS[number % len(LOOKS)]
@@ -32,4 +35,19 @@ def draw_each(
     options: dict[str, Any] = {"joined": drawn.joined, "single": look}
     if drawn.second is None:
         return draw_lines(ax, study, drawn.variable, across, log, {"": mark}, **options)
-    return draw_lines(ax, study, drawn.variable, across, log, sweep=number, **options)
+    marks = {} if _has_dashes(study, drawn) else _further_marks(study, drawn, taken)
+    return draw_lines(ax, study, drawn.variable, across, log, marks, sweep=number, **options)
+
+
+def _has_dashes(study: xr.Dataset, drawn: Drawn) -> bool:
+    """Whether lines join the points, whose dashes tell sweeps and variables apart."""
+    words, _ = heights_of(study, drawn.variable)
+    along_words = study[drawn.across].dtype.kind in "UO"
+    return drawn.joined and not words and not along_words
+
+
+def _further_marks(study: xr.Dataset, drawn: Drawn, taken: int) -> dict[str, str]:
+    """The marks of points that no line joins, by their names: others than those before them have."""
+    array = study[drawn.variable]
+    parts = parts_along(array, remaining(array, [drawn.across]))
+    return {part.name: MARKS[(taken + i) % len(MARKS)] for i, part in enumerate(parts)}

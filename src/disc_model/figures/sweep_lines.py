@@ -241,7 +241,8 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
         called = dict(zip([each.number for each in family], names, strict=True))
 
     page.joins = True
-    page.replaced = _rename(family, names)
+    # lines of a former variable of the page may have replaced names already
+    page.replaced = [*page.replaced, *_rename(family, names)]
     axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
     page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
     return called

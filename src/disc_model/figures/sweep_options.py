@@ -7,9 +7,8 @@ from typing import Any, NamedTuple
 
 import xarray as xr
 
-from disc_model.data.variables import stated_in
+from disc_model.data.variables import stated_in, unit_of_parameter
 from disc_model.figures.words import KINDS, STAYS
-from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
 
@@ -98,20 +97,36 @@ def options_of(study: xr.Dataset) -> dict[str, str]:
     """Words for the options with which a study was computed, by their names, such as the length of
     stays: those that are numbers, words, true or false, or lists of such."""
     options = stated_in(study, "options")
-    function = function_of(study)
+    phrases = _phrases_of(study)
     if {"dwell", "max_dwell"} <= {*options}:
         stays = {f"{options.pop(name)}".removesuffix(".0"): None for name in ("dwell", "max_dwell")}
         options[STAYS] = f"{' to '.join(stays)} s"
-    if function == "critical":
+    if function_of(study) == "critical":
         searched = options.pop("name", "")
         options.pop("kind", None)  # which is said of what is sought
         options = _in_unit_of(options, searched)
-    phrases = {**PHRASES, **OF_FUNCTIONS.get(function, {})}
     said = {}
     for name, value in options.items():
         if name not in UNSAID and _has_words(value):
             said[name] = _said(name, value, phrases.get(name))
     return said
+
+
+def _phrases_of(study: xr.Dataset) -> dict[str, Phrase]:
+    """What legends say of the options of a study; the bounds of a search are in the unit of the parameter
+    that is searched."""
+    function = function_of(study)
+    phrases = {**PHRASES, **OF_FUNCTIONS.get(function, {})}
+    searched = stated_in(study, "options").get("name")
+    if function == "critical" and isinstance(searched, str):
+        unit = unit_of_parameter(searched)
+        phrases["bounds"] = phrases["bounds"]._replace(unit=unit)
+    return phrases
+
+
+def list_text(study: xr.Dataset, name: str, values: list[Any]) -> str:
+    """What is said of a list that is the value of an option."""
+    return _said(name, values, _phrases_of(study).get(name))
 
 
 def stays_in(study: xr.Dataset) -> dict[str, str]:
@@ -140,7 +155,7 @@ def _in_unit_of(options: dict[str, Any], searched: str) -> dict[str, Any]:
     precision = options.get("precision")
     if not is_number(precision):
         return options
-    unit = Parameters.unit(searched)
+    unit = unit_of_parameter(searched)
     return {**options, "precision": f"{precision:g} {unit}".rstrip()}
 
 

@@ -167,6 +167,7 @@ GONE: Mapping[str, Mapping[str, str]] = {
         **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
     },
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
+    "floquet": {"near_motion": "stable: not examined"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
         **dict.fromkeys(("leading_multiplier", "growth_rate"), _NO_LOCK),
@@ -633,6 +634,12 @@ def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False
 def is_truth(variable: xr.DataArray) -> bool:
     """Whether the numbers or words of a variable stand for True and False."""
     return variable.attrs.get("comment") == TRUTH["comment"]
+
+
+def are_counts(variable: xr.DataArray) -> bool:
+    """Whether a variable or coordinate counts something, also where some points have no value."""
+    whole = variable.dtype.kind in "iu" or variable.name in OF_MODES
+    return whole or named(variable).name.startswith("Number of ")
 
 
 def symbol_of(name: str) -> str:

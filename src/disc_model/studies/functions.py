@@ -170,8 +170,8 @@ def _part_of(step: Any) -> float:
 def _with_bound(speeds: xr.Dataset) -> xr.Dataset:
     """Results of a scan with whether each critical speed is the lowest one of the scan."""
     lowest = float(speeds["scan_Omega"].min())
-    attrs = {"long_name": "whether contact is lost at the lowest speed already"}
-    at_bound = (speeds["critical_speed"] <= lowest).assign_attrs(attrs)
+    at_bound = speeds["critical_speed"] <= lowest
+    at_bound.attrs = {"long_name": "whether contact is lost at the lowest speed already"}
     return speeds.assign(at_lower_bound=at_bound)
 
 
