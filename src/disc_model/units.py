@@ -94,8 +94,10 @@ _MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "
 nanometre) or for none, and what is meant."""
 _EXAMPLES = {"N": "kN", "Pa": "GPa", "m": "mm", "N/m": "kN/m", "kg": "g", "s": "ms"}
 """Units of the kind of others that readers often use."""
-_USUAL = ("kN", "MN", "mN", "mm", "kPa", "MPa", "GPa", "kg", "ms", "rpm", "rad", "Hz", "kHz", "kJ")
-_USUAL += ("N", "m", "s", "J", "g", "Pa", "deg")
+_USUAL: tuple[str, ...] = (
+    *("kN", "MN", "N", "kPa", "MPa", "GPa", "Pa", "kJ", "J"),
+    *("mm", "m", "kg", "g", "ms", "s", "rpm", "rad", "deg", "Hz", "kHz"),
+)
 """Units whose small and capital letters are often confused."""
 ENDS = ("start", "stop", "step")
 """Keys of a range whose numbers have one unit."""
