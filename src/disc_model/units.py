@@ -198,7 +198,7 @@ def _other_letters(text: str, unit: str) -> list[str]:
     return [meant]
 
 
-def mixed_units(values: list[Any], path: tuple[str, ...]) -> list[Fault]:
+def _mixed_units(values: list[Any], path: tuple[str, ...]) -> list[Fault]:
     """The fault of a number without a unit beside such as have one, of which it may have the unit or that
     of SI; zero is zero in any."""
     with_unit = [x for x in values if isinstance(x, str) and _WITH_UNIT.fullmatch(x)]
@@ -218,12 +218,11 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
         if isinstance(unit, str):
-            faults += mixed_units([value[key] for key in ENDS if key in value], path)
+            faults += _mixed_units([value[key] for key in ENDS if key in value], path)
         return {
             x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()
         }
     if type(value) in (list, tuple):
-        faults += mixed_units([*value], path)
         return type(value)(
             in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
         )

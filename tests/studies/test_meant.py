@@ -37,12 +37,7 @@ def faults_of_figure(**keys: Any) -> list[str]:
 
 
 @pytest.mark.parametrize(
-    "axis",
-    [
-        "{start: 200 rpm, stop: 600, count: 3}",
-        "[200 rpm, 600]",
-        "{start: 9, stop: 600 rpm, step: 1 rpm}",
-    ],
+    "axis", ["{start: 200 rpm, stop: 600, count: 3}", "{start: 9, stop: 600 rpm, step: 1 rpm}"]
 )
 def test_a_number_without_a_unit_beside_one_with_it_is_refused(axis: str) -> None:
     """A range from 200 rpm to 600 ended at 600 rad/s."""
@@ -51,17 +46,11 @@ def test_a_number_without_a_unit_beside_one_with_it_is_refused(axis: str) -> Non
 
 
 def test_zero_needs_no_unit_beside_others() -> None:
-    assert parse_study({**GRID, "axes": {"Omega": [0, "600 rpm"]}}).grids()
+    axis = {"start": 0, "stop": "600 rpm", "count": 3}
+    assert parse_study({**GRID, "axes": {"Omega": axis}}).grids()
 
 
-def test_a_sweep_refuses_a_number_without_a_unit_beside_others() -> None:
-    with refusal("Omega=600: has no unit beside '200 rpm'"):
-        dm.sweep(dm.floquet, CASE, Omega=["200 rpm", 600])
-
-
-@pytest.mark.parametrize(
-    "axis", ["{start: 8,5 kN, stop: 9 kN, count: 3}", "[8,5 kN, 9 kN]", "['8,5 kN']"]
-)
+@pytest.mark.parametrize("axis", ["{start: 8,5 kN, stop: 9 kN, count: 3}", "['8,5 kN']"])
 def test_a_decimal_comma_is_told(axis: str) -> None:
     """YAML ends a number at it, and the rest was an unknown key."""
     found = faults(base={}, axes={"Omega": [10, 20], "N": yaml.safe_load(axis)})

@@ -11,7 +11,7 @@ from disc_model.disc.mode_units import column_of, mode_number_in_si
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.case import SomeParameters
-from disc_model.units import Finite, Strict, in_si, is_missing, mixed_units, number
+from disc_model.units import Finite, Strict, in_si, is_missing, number
 
 
 def checked_values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:
@@ -49,7 +49,6 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
                 impossible.append(told)
     if impossible and len(impossible) == len(raw):
         faults += [fault for told in impossible for fault in told]
-    faults += mixed_units(raw, (*within, name))
     return checked
 
 
