@@ -39,7 +39,7 @@ class ColourWishes:
         """Raise `ParameterError` where words or flags are drawn, which have no scale."""
         rule = "is for numbers: classes have places and colours of their own"
         require(
-            (self.cmap is None, "cmap", self.cmap, rule),
+            (self.cmap is None, "cmap", self.cmap, rule.replace("numbers", "maps of numbers")),
             (self.limits is None, "limits", self.limits, rule),
             (not self.log, "log", self.log, rule),
         )
