@@ -34,7 +34,7 @@ from disc_model.disc.given import DiscReport
 from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.disc.plate import damping_ratios, mode_arrays
 from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
-from disc_model.display import number_text
+from disc_model.display import counted, number_text
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
@@ -126,7 +126,7 @@ def print_rows(lines: Iterable[tuple[str, str]]) -> None:
 
 def model_line(p: Parameters) -> tuple[str, str]:
     """The model of a case in words."""
-    modes = p.normalization if p.disc is None else f"a disc of {len(p.disc.omega)} modes"
+    modes = p.normalization if p.disc is None else f"a disc of {counted(len(p.disc.omega), 'mode')}"
     return "model", f"{modes}, {p.contact} contact"
 
 

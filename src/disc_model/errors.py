@@ -202,6 +202,8 @@ def _unknown_name(path: tuple[str, ...], value: Any, model: type[BaseModel]) -> 
     more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
     if rule:
         return Fault(path, "", rule + more)
+    if value is None and path[-1][:1].isdigit():  # the rest of a number that YAML ends at its comma
+        return Fault(path, "", "is no key: decimals have a point in place of a comma")
     return Fault(path, as_text(value), f"unknown {word or 'key'}{more}")
 
 
@@ -266,6 +268,24 @@ def _pieces(value: Any) -> Iterator[str]:
         yield " ".join(repr(value).split("\n"))
 
 
+OTHER_NAMES: Mapping[str, tuple[str, ...]] = {
+    "bounds": ("scan",),
+    "count": ("exponents",),
+    "exponents": ("count",),
+    "horizon": ("horizons",),
+    "horizons": ("horizon",),
+    "initial_state": ("perturbation",),
+    "name": ("parameter",),
+    "parameter": ("name",),
+    "perturbation": ("start", "initial_state"),
+    "prerun": ("start", "initial_state"),
+    "scan": ("bounds",),
+    "start": ("perturbation",),
+    "step": ("scan", "points"),
+}
+"""What studies call arguments of functions, and functions the options of studies, if otherwise."""
+
+
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
     """Text with the most similar known name and the known names; with `all_of_them` false, only one
     of the two."""
@@ -274,6 +294,7 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
         field for field in folded if len(str(name)) > 1 and field.startswith(str(name).lower())
     ]
     close = begin or difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
+    close = [other for other in OTHER_NAMES.get(str(name), ()) if other in folded] or close
     meant = f", did you mean {folded[close[0]]}?" if close else ""
     if known and (all_of_them or not close):
         return f"{meant} (known: {', '.join(known)})"

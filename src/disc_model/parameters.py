@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_a
 import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from disc_model.display import html_table
+from disc_model.display import counted, html_table
 from disc_model.errors import Fault, as_text, raise_faults
 from disc_model.hashing import canonical_json, content_key
 from disc_model.modal_disc import Disc, Quantity
@@ -360,7 +360,7 @@ class Parameters(Strict):
             if is_number(value):
                 text = f"{value:.15g}"
             if isinstance(value, Disc):
-                text = f"{len(value.omega)} modes"
+                text = counted(len(value.omega), "mode")
             unit = self.unit(name).removeprefix("1")
             rows.append((name, text, unit, fields[name].description))
         return html_table(("symbol", "value", "unit", "meaning"), rows)

@@ -92,6 +92,15 @@ _PER_MINUTE = ("1/min", "min**-1", "1/minute", "minute**-1")  # of a speed of ro
 _MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "Kg": "kg"}
 """Words for other units than they seem to be (grain, a hundredth of a right angle, short ton,
 nanometre) or for none, and what is meant."""
+_EXAMPLES = {"N": "kN", "Pa": "GPa", "m": "mm", "N/m": "kN/m", "kg": "g", "s": "ms"}
+"""Units of the kind of others that readers often use."""
+_USUAL: tuple[str, ...] = (
+    *("kN", "MN", "N", "kPa", "MPa", "GPa", "Pa", "kJ", "J"),
+    *("mm", "m", "kg", "g", "ms", "s", "rpm", "rad", "deg", "Hz", "kHz"),
+)
+"""Units whose small and capital letters are often confused."""
+ENDS = ("start", "stop", "step")
+"""Keys of a range whose numbers have one unit."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -217,9 +226,35 @@ def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Faul
     if unit == "1/s":
         rule += ", such as 1/min; Hz and rpm may mean turns"
     meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
+    meant = meant or _other_letters(text, unit)
     if meant:
         rule += f", did you mean {meant[0]}?"
+    elif unit in _EXAMPLES:
+        rule += f", such as {_EXAMPLES[unit]}"
     return Fault.of(path, value, rule)
+
+
+def _other_letters(text: str, unit: str) -> list[str]:
+    """A unit of the kind of another one that differs from a text in small and capital letters alone, if
+    there is one."""
+    usual = {word.lower(): word for word in _USUAL}
+    meant = re.sub(r"[A-Za-z]+", lambda word: usual.get(word[0].lower(), word[0]), text)
+    try:
+        _converted(1.0, meant, unit)
+    except Exception:  # of pint and of Python's tokenizer, which have no common base
+        return []
+    return [meant]
+
+
+def _mixed_units(values: list[Any], path: tuple[str, ...]) -> list[Fault]:
+    """The fault of a number without a unit beside such as have one, of which it may have the unit or that
+    of SI; zero is zero in any."""
+    with_unit = [x for x in values if isinstance(x, str) and _WITH_UNIT.fullmatch(x)]
+    without = [x for x in values if is_number(x) and x != 0]
+    if not (with_unit and without):
+        return []
+    rule = f"has no unit beside {with_unit[0]!r}: give it one; decimals have a point in place of a comma"
+    return [Fault.of(path, without[0], rule)]
 
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
@@ -230,6 +265,8 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
         return value
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
+        if isinstance(unit, str):
+            faults += _mixed_units([value[key] for key in ENDS if key in value], path)
         return {
             x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()
         }
@@ -276,7 +313,14 @@ def number(value: Any) -> Any:
     except OverflowError:  # a whole number beyond the range of floats
         return math.inf if value > 0 else -math.inf  # type: ignore[operator]
     except ValueError:
-        raise ValueError("must be a number") from None
+        raise ValueError(f"must be a number{_of_comma(value)}") from None
+
+
+def _of_comma(value: Any) -> str:
+    """What to say of a text with a comma in place of a decimal point; "" of others."""
+    if isinstance(value, str) and re.match(r"\s*[-+]?\d+,\d", value):
+        return ": decimals have a point in place of a comma"
+    return ""
 
 
 def whole(value: Any) -> Any:

@@ -127,7 +127,7 @@ def test_limits_end_the_scale_of_a_map(study: xr.Dataset) -> None:
     assert bar.extend == "max"
     rates = mesh(mapped(study, "growth_rate", limits=[-0.2, -0.1])).norm
     assert (rates.vmin, rates.vmax) == (-0.2, -0.1)
-    with refusal(r"limits=.*: is for maps of numbers"):
+    with refusal(r"limits=.*: is for numbers"):
         mapped(study, "status", limits=[0.0, 1.0])
 
 

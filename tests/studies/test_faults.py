@@ -322,15 +322,16 @@ def test_a_run_says_in_the_end_what_has_no_result(
     folder = tmp_path / "results" / "s"
     folder.mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
+    (folder / "s.remarks.txt").touch()
     file = Path("results/s/s.failed.txt")
     assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]
     # a motion that has not settled has its samples all the same
-    (folder / "s.failed.txt").write_text(
-        "Omega = 10: paradox\nOmega = 20: ok: not settled after 80 s: changing at 0.1/s\n"
-    )
+    (folder / "s.failed.txt").write_text("Omega = 10: paradox\n")
+    remarked = Path("results/s/s.remarks.txt")
+    remarked.write_text("Omega = 20: not settled after 80 s: changing at 0.1/s\n")
     assert list(closing_lines(grids)) == [
         f"s: 1 of 4 points have no result, see {file}",
-        f"s: 1 of 4 points have a remark, see {file}",
+        f"s: 1 of 4 points have a remark, see {remarked}",
     ]
 
 
@@ -342,6 +343,7 @@ def test_no_cycle_is_an_answer_and_no_failure(
     grids = parse_study(GRID).grids()[0]
     file = Path("results/s/s.failed.txt")
     file.parent.mkdir(parents=True)
+    file.with_name("s.remarks.txt").touch()
     file.write_text(
         "Omega = 10: no cycle found: The slider moves on\nOmega = 15: no cycle found\n"
         "Omega = 20: steady sliding: it does not stick\nOmega = 25: failed: no cycle found\n"
@@ -358,6 +360,7 @@ def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.M
     grids = parse_study(GRID).grids()[0]
     folder = tmp_path / "results" / "s"
     folder.mkdir(parents=True)
+    (folder / "s.remarks.txt").touch()
     file = folder / "s.failed.txt"
     file.write_text("start = broken: paradox\nstart = smoke: failed: no steps\n")
     [line] = closing_lines(grids)

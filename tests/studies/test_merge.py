@@ -14,6 +14,7 @@ from disc_model.studies.merge import (
     failures,
     merge_batches,
     merge_cases,
+    remarks,
 )
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import coordinates_of, run_batch
@@ -48,8 +49,8 @@ def test_merged_points_are_in_the_order_of_the_grid(
     assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
 
 
-def test_a_point_with_a_result_and_a_message_is_listed() -> None:
-    """Such as one whose motion had not settled."""
+def test_a_remark_on_a_point_with_a_result_is_no_failure() -> None:
+    """It stood in the file of failed points, as of one whose motion had not settled."""
     flags = {"flag_meanings": "ok failed excluded"}
     study = xr.Dataset(
         {
@@ -58,7 +59,8 @@ def test_a_point_with_a_result_and_a_message_is_listed() -> None:
         },
         {"N": [1.0, 2.0, 3.0, 4.0]},
     )
-    assert list(failures(study)) == ["N = 2: ok: not settled", "N = 3: failed: ParameterError: x"]
+    assert list(failures(study)) == ["N = 3: failed: ParameterError: x"]
+    assert list(remarks(study)) == ["N = 2: not settled"]
 
 
 def test_a_study_states_the_starts_of_all_batches_and_its_rules() -> None:

@@ -71,10 +71,12 @@ def check_owner(files, owner):
 
 def stated_of(grid):
     """What a study's file says of its page: units of the first figure that has any, axes of the first one that has
-    two, the variable of the first one that shows one."""
+    two, the variable of the first one that shows one, and values at which figures are drawn."""
     units = {}
+    places = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
+        places.update(getattr(plot, "at", {}))
     maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
     shown = [plot.variable for plot in grid.plots.values() if hasattr(plot, "variable")]
     return {
@@ -84,4 +86,5 @@ def stated_of(grid):
         "has_figures": bool(grid.plots),
         "axes": [*maps[0].values()] if maps else [],
         "variable": shown[0] if shown else "",
+        "at": places,
     }

@@ -25,6 +25,7 @@ rule merge_batches:
     output:
         nc="results/{study}/{study}.nc",
         failed="results/{study}/{study}.failed.txt",
+        remarks="results/{study}/{study}.remarks.txt",
     log:
         "results/{study}/logs/merge_batches.log",
     conda:
@@ -34,5 +35,5 @@ rule merge_batches:
         code=lambda w: code_of("merge_batches", *MERGING, own_file(w.study)),
         folder=lambda w, input: Path(input[0]).parent,
     shell:
-        "job merge_batches {output.nc} {output.failed} {params.folder}"
+        "job merge_batches {output.nc} {output.failed} {output.remarks} {params.folder}"
         " <<< {params.plan:q} > {log} 2>&1"

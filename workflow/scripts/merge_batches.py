@@ -1,4 +1,5 @@
-"""Merge the batches of a grid study into one dataset, and list the points that failed. Standard
+"""Merge the batches of a grid study into one dataset, and list the points that failed, and
+remarks on others. Standard
 input has a `disc_model.studies.batch.MergePlan` as JSON."""
 
 import sys
@@ -9,13 +10,14 @@ import xarray as xr
 from disc_model.data.dataset import load_result, save
 from disc_model.errors import script
 from disc_model.studies.batch import MergePlan
-from disc_model.studies.merge import failures, merge_batches
+from disc_model.studies.merge import failures, merge_batches, remarks
 
 
 @script
-def main(output: str, report: str, folder: str) -> None:
+def main(output: str, failed: str, remarked: str, folder: str) -> None:
     plan = MergePlan.model_validate_json(sys.stdin.read())
     batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
-    Path(report).write_text("".join(f"{line}\n" for line in failures(study)), encoding="utf-8")
+    for path, lines in ((failed, failures(study)), (remarked, remarks(study))):
+        Path(path).write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
     save(xr.DataTree(study), output)

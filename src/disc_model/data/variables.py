@@ -91,6 +91,11 @@ class Variable(NamedTuple):
     truth: bool = False  # whether they are 1 for True, 0 for False, and nan
 
     @property
+    def has_classes(self) -> bool:
+        """Whether its values are words, or true or false, and so have no scale."""
+        return bool(self.flags) or self.truth
+
+    @property
     def attributes(self) -> dict[str, Any]:
         """The variable's CF attributes; without ``units`` if they are "", as for words."""
         attributes: dict[str, Any] = {}

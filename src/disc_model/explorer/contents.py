@@ -8,14 +8,18 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SHOWN, attributes, stated_in
+from disc_model.display import counted
+from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
+from disc_model.explorer.rules import rule_of
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
+from disc_model.figures.reader_units import unit_key
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.truths import as_classes
 from disc_model.figures.words import (
@@ -60,6 +64,7 @@ class Stated(NamedTuple):
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
     variable : the variable of its first figure that shows one, "" without
+    at : values of its figures along dimensions that they do not show, those of earlier ones first
     has_figures : whether there is a figure of it
     """
 
@@ -69,6 +74,7 @@ class Stated(NamedTuple):
     has_figures: bool = True
     axes: Sequence[str] = ()
     variable: str = ""
+    at: Mapping[str, Any] = MappingProxyType({})
 
 
 NOTHING_STATED = Stated()
@@ -120,16 +126,22 @@ def _study_contents(
         "discs": stated_in(study, "discs"),
         "starts": stated_in(study, "starts"),
         "start": _start_of_all(study),
+        "where": rule_of(study),
         "confidence": _confidence(study),
         "has_figures": stated.has_figures,
         "axes": [name for name in stated.axes if name in study.sizes],
         "first": stated.variable,
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
-        "dims": [_dimension(study, str(dim)) for dim, size in study.sizes.items() if size],
+        "dims": [_dimension(study, str(dim), stated.at) for dim in _filled(study)],
         "variables": [_variable(study, x, exact=str(x.name) in exact) for x in drawn],
         "messages": _messages(study),
         "motions": shown_motions,
     }
+
+
+def _filled(study: xr.Dataset) -> list[str]:
+    """The dimensions of a study along which it has any place."""
+    return [str(dim) for dim, size in study.sizes.items() if size]
 
 
 def _with_parameters(study: xr.Dataset) -> xr.Dataset:
@@ -180,7 +192,7 @@ def _fixed(name: str, value: Any) -> dict[str, Any]:
         case str():
             shown = _word(name, value)
         case Mapping():  # a disc, of which the page has the call
-            shown = f"{len(value['omega'])} modes"
+            shown = counted(len(value["omega"]), "mode")
     return {**_named(name, attrs), "value": value, "shown": shown, "usual": usual}
 
 
@@ -276,11 +288,12 @@ def _named(name: str, attrs: Mapping[str, Any]) -> dict[str, Any]:
 def _unit_of(variable: xr.DataArray) -> tuple[str, float]:
     """The unit in which figures show a variable, and the factor from SI to it."""
     usual = named(variable)
-    return UNITS.get().get(known_name(variable), (usual.unit, usual.factor))
+    return UNITS.get().get(unit_key(variable), (usual.unit, usual.factor))
 
 
-def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
-    """Values along a dimension as they are shown, and in SI as parts."""
+def _dimension(study: xr.Dataset, dim: str, at: Mapping[str, Any]) -> dict[str, Any]:
+    """Values along a dimension as they are shown, and in SI as parts, and the place where the study
+    opens."""
     if dim not in study.coords:
         return _zip(study, dim)
     values = study[dim].values.tolist()
@@ -297,8 +310,8 @@ def _dimension(study: xr.Dataset, dim: str) -> dict[str, Any]:
         si_unit = unit_text(str(study[dim].attrs.get("units", "1")))
     if si_unit == names["unit"]:
         si_unit = ""
-    parts = {dim: values}
-    return {**names, "values": scaled, "shown": shown, "parts": parts, "si_unit": si_unit}
+    described = {**names, "values": scaled, "shown": shown, "parts": {dim: values}}
+    return {**described, "si_unit": si_unit, "usual": usual_place(study, dim, at)}
 
 
 def _zip(study: xr.Dataset, dim: str) -> dict[str, Any]:
@@ -325,6 +338,7 @@ def _zip(study: xr.Dataset, dim: str) -> dict[str, Any]:
         "values": words,
         "shown": words,
         "parts": columns,
+        "usual": 0,
     }
 
 

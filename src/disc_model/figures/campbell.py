@@ -11,8 +11,9 @@ from disc_model.figures.campbell_panels import draw_panels
 from disc_model.figures.campbell_peaks import Column, peaks
 from disc_model.figures.drawing import letters, panels
 from disc_model.figures.kinds.motions import Campbell
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import NORM, normalizations, parts_along, titles_of
+from disc_model.figures.selection import NORM, normalizations
 from disc_model.figures.types import Figure
 
 ROOM = 1.06  # highest frequency of the axis over that of the modes
@@ -23,7 +24,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     if NORM in study.dims and (plot.normalization is not None or plot.by != NORM):
         chosen = plot.normalization or normalizations(study)[0]
         study = study.sel({NORM: chosen})
-    parts = parts_along(study, plot.by, plot.names)
+    parts = parts_shown(study, plot.by, plot.names)
     width = plot.inches
     figure, axes = panels(
         width, 5.4, 2, len(parts), height_ratios=[3, 2], sharex=True, sharey="row"
@@ -33,7 +34,7 @@ def draw(plot: Campbell, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) 
     columns = [column_of(part.data.transpose("Omega", ...)) for part in parts]
     highest = plot.highest or highest_of(columns)
     draw_panels(above, below, columns, highest, plot.multiples)
-    letters(axes, titles_of(parts))
+    letters(axes, titles_of_panels(parts, study, plot.by))
     for top, bottom, column in zip(above, below, columns, strict=True):
         name_peaks(top, bottom, column, highest)
     _legend(figure, columns, highest, plot.multiples)

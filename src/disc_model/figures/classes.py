@@ -93,7 +93,7 @@ LOOKS: Mapping[str, Look] = {
     "slip": Look("slip", "#e9c7da"),
     # points that a study's rule or xarray's where leaves out, and those that have no class
     "no_value": NO_VALUE,
-    EXCLUDED: Look("left out", "#ffffff"),
+    EXCLUDED: Look("left out", "#ffffff", 3 * "x"),
     "none": Look("none", "#ffffff"),
     "infinite": Look("infinite", "#ffffff", 2 * "O"),
     "minus_infinite": Look("minus infinite", "#ffffff", 3 * "."),

@@ -31,7 +31,7 @@ from disc_model.figures.selection import (
     shown_words,
     statuses,
 )
-from disc_model.figures.truths import as_classes
+from disc_model.figures.truths import are_of_classes, as_classes
 from disc_model.figures.types import Artist, Axes, FigureBase
 from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
 
@@ -48,8 +48,8 @@ def draw_maps(
     that `ParameterError` is raised where others are asked for."""
     arrays = [as_classes(plane, variable) for plane in planes]
     first = arrays[0]
-    if first.dtype.kind in "UO" or "flag_meanings" in first.attrs:
-        wishes.refuse()
+    if are_of_classes(first):
+        wishes.refuse_of_classes()
         handles = class_panels(axes, arrays, [statuses(plane) for plane in planes])
         has_bar = False
     else:

@@ -35,6 +35,15 @@ class ColourWishes:
         """Whether the colours asked for say nothing of a sign: their middle is not set apart."""
         return self.cmap is not None and not is_diverging(colormaps.get_cmap(self.cmap))
 
+    def refuse_of_classes(self) -> None:
+        """Raise `ParameterError` where words or flags are drawn, which have no scale."""
+        rule = "is for numbers: classes have places and colours of their own"
+        require(
+            (self.cmap is None, "cmap", self.cmap, rule.replace("numbers", "maps of numbers")),
+            (self.limits is None, "limits", self.limits, rule),
+            (not self.log, "log", self.log, rule),
+        )
+
     def refuse(self, *, of_lines: bool = False) -> None:
         """Raise `ParameterError` where there are no colours of numbers to choose; lines have limits all
         the same."""

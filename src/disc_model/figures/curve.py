@@ -10,9 +10,10 @@ from disc_model.figures.drawing import letters, row_of_panels
 from disc_model.figures.error_bars import names_errors
 from disc_model.figures.kinds.base import key_of
 from disc_model.figures.kinds.general import CurvePlot
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.line_names import name_lines
 from disc_model.figures.outside_limits import note_outside
-from disc_model.figures.selection import Part, parts_along, picked, remaining, titles_of
+from disc_model.figures.selection import Part, parts_along, picked, remaining
 from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.truths import as_classes
 from disc_model.figures.types import Figure
@@ -33,7 +34,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     if plot.limits is not None:
         axes[0].set_ylim(plot.limits)
         in_legend = note_outside(axes, plot.limits) or in_legend
-    letters(axes, titles_of(panels))
+    letters(axes, titles_of_panels(panels, study, plot.by if plot.panels == "each" else None))
     name_lines(figure, axes, several=bool(plot.panels), in_legend=in_legend)
     return figure
 
@@ -41,7 +42,7 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
 def panels_of(plot: CurvePlot, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The part of a study in each panel."""
     if plot.panels == "each":
-        return parts_along(study, plot.by, plot.names)
+        return parts_shown(study, plot.by, plot.names)
     if plot.by not in study.dims:  # it has one value
         return [Part("", "", study)]
     chosen = [study.sel({plot.by: [*values]}) for values in plot.panels] or [study]

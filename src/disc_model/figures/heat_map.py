@@ -7,10 +7,12 @@ import xarray as xr
 
 from disc_model.figures.colour_maps import draw_maps
 from disc_model.figures.colour_wishes import ColourWishes
-from disc_model.figures.drawing import COLUMN, letter, panels
+from disc_model.figures.drawing import COLUMN, letters, panels
+from disc_model.figures.kinds.base import NORM
 from disc_model.figures.kinds.general import General, HeatMap
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import Part, parts_along, picked, remaining, titles_of
+from disc_model.figures.selection import Part, picked, remaining
 from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.types import Figure
 
@@ -34,11 +36,9 @@ def draw(plot: HeatMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -
     wishes = ColourWishes(log=plot.log, limits=plot.limits)
     key = draw_maps(figure, axes, planes, plot.variable, wishes)
 
-    titles = titles_of(parts)
-    if len(axes) > 1:
-        for ax, name, title in zip(axes, "abcdef", titles, strict=False):
-            unbroken = title.replace(" = ", "\u00a0=\u00a0")  # a value stays beside its name
-            letter(ax, name, unbroken)
+    titles = titles_of_panels(parts, study, plot.by or NORM)
+    # a value stays beside its name
+    letters(axes, [title.replace(" = ", "\u00a0=\u00a0") for title in titles])
     for ax in axes:
         ax.label_outer()
     for ax in axes[-columns:]:  # below some of them there is none
@@ -52,4 +52,4 @@ def parts_of(plot: General, study: xr.Dataset) -> list[Part[xr.Dataset]]:
     """The parts of a study in the panels of a general figure."""
     chosen = picked(without_zeros(study), plot.at, *plot.axes.values())
     by = remaining(chosen[plot.variable], [*plot.axes.values()])
-    return parts_along(chosen, by, plot.names)
+    return parts_shown(chosen, by, plot.names)

@@ -5,6 +5,7 @@ other heights.
 import numpy as np
 import xarray as xr
 
+from disc_model.errors import require
 from disc_model.figures.colours import (
     ROUNDING,
     decades_through_zero,
@@ -115,6 +116,8 @@ def opens(rates: Array) -> Mask:
 def set_limits(ax: Axes, limits: tuple[float, float]) -> None:
     """End a vertical axis where a reader wants it to; that of growth rates is linear within a decade,
     where its usual scale may have no number."""
+    above = "must lie above 0 on a logarithmic axis"
+    require((ax.get_yscale() != "log" or limits[0] > 0, "limits", limits, above))
     low, high = sorted(map(abs, limits))
     within = limits[0] * limits[1] > 0 and high < 10 * low
     if ax.get_yscale() == "symlog" and (within or high <= 2 * LINEAR):

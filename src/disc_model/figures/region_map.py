@@ -24,8 +24,9 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.growth import growth_panels
 from disc_model.figures.kinds.maps import Mark, RegionMap
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import NORM, Part, alike, normalizations, parts_along, titles_of
+from disc_model.figures.selection import NORM, Part, alike, normalizations
 from disc_model.figures.types import Array, Artist, Axes, Figure, Mask
 
 PAPER_MARKERS = {"quiet": "o", "growing": "^", "separation": "s"}
@@ -43,10 +44,10 @@ LEFT_EDGE = 0.15  # share up to which the second of two names stands above the f
 def draw(plot: RegionMap, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw two panels for each value of the compared dimension; lines are those of the study
     ``curves``, or lie between cells."""
-    parts = parts_along(study, plot.by, plot.names)
+    parts = parts_shown(study, plot.by, plot.names)
     planes = [part.data.transpose(plot.y, plot.x, ...) for part in parts]
     figure, above, below = _panels(plot, len(parts))
-    subjects = dict(zip(above, titles_of(parts), strict=True))
+    subjects = dict(zip(above, titles_of_panels(parts, study, plot.by), strict=True))
     letters(figure.axes, [subjects.get(ax, "") for ax in figure.axes])  # as they are read
 
     # cells and lines

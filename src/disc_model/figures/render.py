@@ -1,6 +1,7 @@
 """Drawing a figure as a study file describes it, below its head."""
 
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import xarray as xr
@@ -13,6 +14,7 @@ from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind
 from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
 from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
+from disc_model.figures.reader_units import key_by_label, with_limits_of_label
 from disc_model.figures.selection import normalizations, of
 from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
@@ -22,11 +24,13 @@ MOST_LINES = 2  # of values above a figure; the caption has all
 
 
 class Drawn(NamedTuple):
-    """A figure, and what stands above it: a title unless the file gives one, and values."""
+    """A figure, and what stands above it: a title unless the file gives one, and values; and what has the
+    unit of an axis, by labels that do not say it."""
 
     figure: Figure
     title: str
     values: str
+    key_by_label: Mapping[str, str] = MappingProxyType({})
 
 
 def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
@@ -41,7 +45,7 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
             drawn = (
                 _of_cases(plot, inputs) if isinstance(plot, CasePlot) else _of_grid(plot, inputs)
             )
-            restate_axes(drawn.figure)
+            restate_axes(drawn.figure, drawn.key_by_label)
             keep_least_span(drawn.figure.axes)
             width = drawn.figure.get_figwidth()
             text = head_text(width, plot.title or drawn.title, drawn.values, MOST_LINES)
@@ -93,5 +97,8 @@ def _of_grid(plot: Any, inputs: Mapping[str, xr.DataTree]) -> Drawn:
         norm = normalizations(study)[0]
         study, *others = (of(dataset, norm) for dataset in (study, *others))
     overlays = dict(zip([*inputs][1:], others, strict=True))
+    if isinstance(plot, General):
+        plot = with_limits_of_label(plot, study)
     figure = drawing_of(plot.kind)(plot, study, overlays)
-    return Drawn(figure, study.attrs.get("title", ""), values_of_study(plot, study))
+    title = study.attrs.get("title", "")
+    return Drawn(figure, title, values_of_study(plot, study), key_by_label(plot, study))

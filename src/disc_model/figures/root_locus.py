@@ -9,8 +9,9 @@ from cmcrameri import cm
 
 from disc_model.figures.drawing import BLACK, GREY, halo, large, letters, mark, row_of_panels, wide
 from disc_model.figures.kinds.motions import RootLocus
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.names import Names, named_modes
-from disc_model.figures.selection import parts_along, titles_of, without_single
+from disc_model.figures.selection import without_single
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import measured
 
@@ -22,13 +23,13 @@ CHARACTER = 0.0136  # of the extent of growth rates, width of a character of a n
 
 def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw the plane of growth rate and frequency, for each value of the compared dimension."""
-    parts = parts_along(study, plot.by, plot.names)
+    parts = parts_shown(study, plot.by, plot.names)
     width = plot.inches
     figure, axes = row_of_panels(width, len(parts), 4.8, 3.4, sharex=True, sharey=True)
     for ax, part in zip(axes, parts, strict=True):
         points = _draw_panel(ax, without_single(part.data, "value", "mode"))
         ax.label_outer()
-    letters(axes, titles_of(parts))
+    letters(axes, titles_of_panels(parts, study, plot.by))
     label = measured(parts[0].data["value"]).label
     figure.colorbar(points, ax=axes, label=label, pad=0.01, aspect=30)
     return figure

@@ -29,9 +29,10 @@ from disc_model.figures.drawing import (
 )
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import SlidingModes
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, name_of, named_modes
-from disc_model.figures.selection import parts_along, stretches, titles_of, without_single
+from disc_model.figures.selection import stretches, without_single
 from disc_model.figures.types import Array, Axes, Figure, Indices
 from disc_model.figures.words import measured
 
@@ -67,7 +68,7 @@ class Line(NamedTuple):
 def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw frequencies above growth rates, a column for each value of the compared dimension; lines
     are thick where a mode grows."""
-    parts = parts_along(study, plot.by, plot.names)
+    parts = parts_shown(study, plot.by, plot.names)
     count = len(parts)
     width = plot.inches
     figure, axes = panels(width, 5.6, 2, count, height_ratios=[5, 4], sharex=True, sharey="row")
@@ -94,7 +95,7 @@ def draw(plot: SlidingModes, study: xr.Dataset, overlays: Mapping[str, xr.Datase
             mark_cut(top, highest)
         _name_decays(bottom, column, greatest)
         _mark_below(bottom, column, lowest)
-    letters(axes, titles_of(parts))
+    letters(axes, titles_of_panels(parts, study, plot.by))
     _legend(figure, columns, lowest, highest)
     return figure
 

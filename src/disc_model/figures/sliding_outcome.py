@@ -5,14 +5,15 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import axis_of, flag_names, stated_in
+from disc_model.data.variables import EXCLUDED, axis_of, flag_names, stated_in
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS, STABLE, Look
 from disc_model.figures.drawing import letters, row_of_panels
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.maps import SlidingOutcome
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.selection import alike, common_points, parts_along, titles_of
+from disc_model.figures.selection import alike, common_points
 from disc_model.figures.types import Figure, Words
 
 AGREEMENTS: Mapping[str, Look] = {
@@ -29,6 +30,7 @@ AGREEMENTS: Mapping[str, Look] = {
     ),
     "unstable_separates": LOOKS["separation"]._replace(label="unstable, and the motion separates"),
     "unknown": LOOKS["undecided"]._replace(label="undecided, or no steady sliding"),
+    EXCLUDED: LOOKS[EXCLUDED],
 }
 """What linear analysis of steady sliding says (dots: stable), and what the motion from the start
 does."""
@@ -37,7 +39,7 @@ does."""
 def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw a panel for each value of the compared dimension; the legend has the shares of all
     classes."""
-    parts = parts_along(study, plot.by, plot.names)
+    parts = parts_shown(study, plot.by, plot.names)
     width = plot.inches
     figure, axes = row_of_panels(width, len(parts), 3.4, 3.0, sharex=True, sharey=True)
     each: list[Words] = []
@@ -53,7 +55,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
         ax.set_xlabel(axis_of(plot.x)[0])
         ax.set_ylabel(axis_of(plot.y)[0])
         ax.label_outer()
-    letters(axes, titles_of(parts))
+    letters(axes, titles_of_panels(parts, study, plot.by))
     horizon = stated_in(study, "options")["horizon"]
     looks = {word: _with_shares(word, look, each) for word, look in AGREEMENTS.items()}
     figure_legend(
@@ -93,4 +95,5 @@ def agreement(growth_rate: np.ndarray, outcome: np.ndarray) -> Words:
     motion = np.select([outcome == "separation", grows, quiet], ["separates", "grows", "quiet"], "")
     linear = np.where(growth_rate > ROUNDING, "unstable_", "stable_")
     known = np.isfinite(growth_rate) & (motion != "")
-    return np.where(known, np.char.add(linear, motion), "unknown")
+    words = np.where(known, np.char.add(linear, motion), "unknown")
+    return np.where(outcome == EXCLUDED, EXCLUDED, words)

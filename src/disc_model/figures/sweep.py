@@ -47,6 +47,7 @@ from disc_model.figures.sweep_lines import (
 )
 from disc_model.figures.sweep_options import options_of, set_options
 from disc_model.figures.sweep_parts import parts_beside
+from disc_model.figures.truths import are_of_classes, as_classes
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import are_counts, label_in, label_of, measured
 
@@ -140,6 +141,8 @@ def _draw(
         refuse_beside_areas(page.axes, "bars")
         page.explain(_draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
+        if are_of_classes(as_classes(study, drawn.variable)):
+            wishes.refuse_of_classes()
         wishes.refuse(of_lines=True)
         lines = _new_lines(study, drawn, name, selected)
         _draw_lines(page, study, drawn, wishes.log, lines)

@@ -23,6 +23,11 @@ def as_classes(study: xr.Dataset, variable: str) -> xr.DataArray:
     return array.copy(data=words)
 
 
+def are_of_classes(array: xr.DataArray) -> bool:
+    """Whether values, as `as_classes` gives them, are words or flags, so that they have no scale."""
+    return array.dtype.kind in "UO" or "flag_meanings" in array.attrs
+
+
 def _are_truths(array: xr.DataArray) -> bool:
     """Whether values are True or False, but where xarray's where has masked them."""
     known = array.values[array.notnull().values]

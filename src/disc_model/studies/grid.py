@@ -24,6 +24,7 @@ from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
+from disc_model.studies.unused_units import unused_units
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
 
 if TYPE_CHECKING:
@@ -438,10 +439,12 @@ class GridStudy:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings about implausible corners of the grid, one by each rule."""
+        """Warnings about implausible corners of the grid, one by each rule, and about units of what
+        figures do not show."""
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
         cases = map(self._case_at, corners)
         yield from ChainMap(*map(doubts, cases)).values()
+        yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says
 
@@ -666,6 +669,9 @@ class GridStudy:
         """What keeps a figure of any variable from showing the quantity's, with these values along
         the grid's dimensions."""
         quantity = self.options
+        varied_itself = [*self._axes_of_quantity(plot)]
+        if varied_itself:
+            return varied_itself
         values = dict(along)
         variables: dict[str, tuple[str, ...]] = {}
         for name, column in quantity.COLUMNS.items():
@@ -676,7 +682,19 @@ class GridStudy:
         for coordinates in (quantity.COORDINATES, quantity.SUMMARY_COORDINATES):
             for name, coordinate in coordinates.items():
                 values[name] = [*coordinate.values(quantity)]
-        return plot.faults_among(values, variables)
+        columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
+        classes = [name for name, column in columns.items() if column.has_classes]
+        return plot.faults_among(values, variables, classes)
+
+    def _axes_of_quantity(self, plot: General) -> Iterator[Fault]:
+        """Axes that name a parameter which the quantity varies by itself, along a dimension of another
+        name."""
+        for axis, name in plot.axes.items():
+            for dim, coordinate in self.options.COORDINATES.items():
+                is_scanned = dim in (f"scan_{name}", f"sweep_{name}")
+                if is_scanned or coordinate.long_name.format(self.options) == name:
+                    rule = f"varies along the dimension {dim} of this study: write {axis}: {dim}"
+                    yield Fault.of((axis,), name, rule)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
         """A figure of the grid, whose caption states the values that differ from Table 1 and do not

@@ -7,13 +7,15 @@ from collections.abc import Callable, Mapping, Sequence
 from difflib import SequenceMatcher
 from typing import Any
 
-from disc_model.errors import Fault, ParameterError, as_text
+from disc_model.errors import OTHER_NAMES, Fault, ParameterError, as_text
 
 ROUNDS = 10  # greatest number of times that the rest is checked
 MEANT = re.compile(r"did you mean ([^?]+)\?")
 ANY = 1.0  # value of a required number,
 ANY_NAMES = {"study": "study"}  # and required texts
 REQUIRED = "is required"  # what a value that was left out leaves behind,
+SAME_VALUES = ("name", "parameter", "count", "exponents")
+"""Options that take what arguments of another name do."""
 EMPTY = "must not be empty"  # and what the only one does
 
 
@@ -76,23 +78,41 @@ def _mend_value(parent: dict[str, Any], name: str, fault: Fault) -> bool:
             parent[name] = rest
             return True
     meant = _meant(fault)
+    if isinstance(value, dict):
+        return _mend_key(value, fault)
     if isinstance(value, str) and _likeness(meant, value) > _likeness(meant, name):
         parent[name] = meant
         return True
     return False
 
 
+def _mend_key(value: dict[Any, Any], fault: Fault) -> bool:
+    """Give a key of a mapping the name that is meant, or leave it out; returns whether the fault is of
+    one."""
+    wrong = [key for key in value if as_text(key) == fault.value]
+    if not wrong:
+        return False
+    part = value.pop(wrong[0])
+    meant = _meant(fault)
+    if meant:
+        value.setdefault(meant, part)
+    return True
+
+
 def _rename(parent: dict[str, Any], name: str, fault: Fault) -> bool:
     """Give a value the name that is meant; returns whether there is one."""
     meant = _meant(fault)
-    if not meant or meant in parent:
+    differs = meant in OTHER_NAMES.get(name, ()) and name not in SAME_VALUES
+    if not meant or meant in parent or differs:
         return False
     parent[meant] = parent.pop(name)
     return True
 
 
 def _meant(fault: Fault) -> str:
-    """What a fault supposes to be meant; "" if it does not."""
+    """What a fault supposes to be meant for a name or word; "" if it does not, or supposes a unit."""
+    if fault.rule.startswith("must be a number"):
+        return ""
     found = MEANT.search(fault.rule)
     return found[1] if found else ""
 

@@ -145,17 +145,27 @@ def _fixed(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) ->
 
 
 def failures(study: xr.Dataset) -> Iterator[str]:
-    """Yield one line for each point without a result, or with a message: its parameters, status
-    and message."""
+    """Yield one line for each point without a result: its parameters, status and message."""
     status = flag_names(study["status"])
-    varied = [name for name in study.coords if set(study[name].dims) <= set(study["status"].dims)]
-    remarkable = (status != "ok") | (study["message"].values != "")
-    for index in np.argwhere(remarkable & (status != EXCLUDED)):
-        place = dict(zip(study["status"].dims, index, strict=True))
-        point = study.isel(place)
-        values = {str(name): point[name].item() for name in varied}
-        word = str(status[tuple(index)])
-        yield f"{_point_text(values)}: {_status_text(word, str(point['message'].item()))}"
+    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED)):
+        word = str(flag_names(point["status"]))
+        yield f"{place}: {_status_text(word, str(point['message'].item()))}"
+
+
+def remarks(study: xr.Dataset) -> Iterator[str]:
+    """Yield one line for each point with a result and a message: its parameters and the message."""
+    status = flag_names(study["status"])
+    for place, point in _points_at(study, (status == "ok") & (study["message"].values != "")):
+        yield f"{place}: {point['message'].item()}"
+
+
+def _points_at(study: xr.Dataset, mask: np.ndarray) -> Iterator[tuple[str, xr.Dataset]]:
+    """Yield some points of a study, each with its parameters as a text."""
+    dims = study["status"].dims
+    varied = [str(name) for name in study.coords if {*study[name].dims} <= {*dims}]
+    for index in np.argwhere(mask):
+        point = study.isel(dict(zip(dims, index, strict=True)))
+        yield _point_text({name: point[name].item() for name in varied}), point
 
 
 def _point_text(values: Mapping[str, Any]) -> str:

@@ -666,18 +666,18 @@ def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
     result, and where these are listed."""
     for name, grid in grids.items():
         file = Path(f"results/{name}/{name}.failed.txt")
+        remarks = file.with_name(f"{name}.remarks.txt")
         lines = file.read_text(encoding="utf-8").splitlines()
-        remarks = sum(": ok: " in line for line in lines)
         answers = Counter(filter(None, map(_answer_in, lines)))
         said = ", ".join(f"{count} {word}" for word, count in answers.most_common())
         told = (
-            (len(lines) - remarks - answers.total(), "no result"),
-            (answers.total(), f"no stick-slip cycle ({said})"),
-            (remarks, "a remark"),
+            (len(lines) - answers.total(), "no result", file),
+            (answers.total(), f"no stick-slip cycle ({said})", file),
+            (len(remarks.read_text(encoding="utf-8").splitlines()), "a remark", remarks),
         )
-        for count, have in told:
+        for count, have, listed in told:
             if count:
-                yield f"{name}: {count} of {grid.n_points} points have {have}, see {file}"
+                yield f"{name}: {count} of {grid.n_points} points have {have}, see {listed}"
 
 
 def _answer_in(line: str) -> str:

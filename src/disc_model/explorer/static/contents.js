@@ -76,6 +76,18 @@ function gapAt(study, variable, place) {
   return code ? variable.gaps.looks[code - 1] : null;
 }
 
+const EXCLUDED = "excluded"; // the status of a point that the rule of its study leaves out
+
+/** Whether the rule of a study leaves a point out. */
+const isLeftOut = (study, place) =>
+  Boolean(study.status) && study.status.flags[value(study, study.status, place)] === EXCLUDED;
+
+/** Whether a variable has a value at a point: a variable of several points together is not left out with one of them. */
+function isValued(study, variable, place) {
+  const ofPoint = study.status?.dims.every((name) => variable.dims.includes(name));
+  return !gapAt(study, variable, place) && !(ofPoint && isLeftOut(study, place));
+}
+
 /** What figures say of the value of a point that may be another one: that it is at a bound, or of what it is not shown. */
 const doubtsAt = (study, variable, place) => variable.doubts.filter((one) => value(study, one, place));
 

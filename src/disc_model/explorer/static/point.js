@@ -188,6 +188,7 @@ function computation(study, place, variable) {
 
 /** The call in Python for a point: its case, the start of its motion, and what computes the value that is shown. */
 function call(study, place, variable) {
+  if (isLeftOut(study, place)) return "";
   const written = caseOf(study, place, variable);
   const start = startOf(study, place);
   const known = computation(study, place, variable);
@@ -195,12 +196,16 @@ function call(study, place, variable) {
   const lines = [`case = ${written}`];
   if (start) lines.push(`start = dm.initial_state(case, ${start})`);
   if (known) lines.push(`found = ${known.found}`);
-  if (known && !gapAt(study, variable, place)) lines.push(known.number);
+  if (known) lines.push(known.number);
   return lines.join("\n");
 }
 
+/** Why a point is left out, in words. */
+const ruleOf = (study) => (study.where ? `by the study's rule “${study.where}”` : "by the study's rule");
+
 /** What the call for a point gives, in words. */
 function saidOfPoint(study, place, variable) {
+  if (isLeftOut(study, place)) return `This point is left out ${ruleOf(study)}: it is not computed, and there is no call of it.`;
   const known = computation(study, place, variable);
   const scanned = scannedAt(study, place, variable);
   const waiting = Object.keys(study.call.begins).filter((name) => !(name in scanned));
@@ -226,6 +231,7 @@ function simulatedFor(study, place) {
 
 /** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
 function simulation(study, place, variable) {
+  if (isLeftOut(study, place)) return "";
   const scanned = scannedAt(study, place, variable);
   if (Object.keys(study.call.begins).some((name) => !(name in scanned))) return "";
   const time = simulatedFor(study, place);
@@ -279,7 +285,7 @@ function showPoint() {
   element("point").textContent = `${where(place, own)}. ${variable.label}: ${shown(study, variable, place)}`;
   element("call-says").textContent = saidOfPoint(study, place, variable);
   element("call").textContent = call(study, place, variable);
-  const message = messageAt(study, place);
+  const message = isLeftOut(study, place) ? ruleOf(study) : messageAt(study, place);
   const status = study.status ? shown(study, study.status, place) : "ok";
   element("message").textContent = status === "ok" ? message : `${status}: ${message}`;
   const sampled = Object.entries(sampledAt(study, place)).map(([name, one]) => [{ name, title: "value of the sample, SI units" }, number(one)]);

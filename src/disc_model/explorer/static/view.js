@@ -48,6 +48,19 @@ function usualAxes(study, axes) {
   return [across, others.sort((a, b) => b.values.length - a.values.length)[0]];
 }
 
+/** The words at which the study before is looked at, by dimension: a reader has chosen them. */
+function wordsChosen() {
+  const worded = (view.study?.dims ?? []).filter((dim) => dim.words);
+  return Object.fromEntries(worded.map((dim) => [dim.name, dim.values[view.place[dim.name]]]));
+}
+
+/** The place along a dimension at which a study opens: that of the word in the study before, or else that of a figure or of the
+ * usual case, or the first one. */
+function beginningAlong(dim, word) {
+  const known = dim.words ? dim.values.indexOf(word) : -1;
+  return known >= 0 ? known : dim.usual;
+}
+
 async function chooseStudy(name) {
   const study = contents.studies.find((one) => one.name === name);
   await unpack(study);
@@ -58,11 +71,9 @@ async function chooseStudy(name) {
   const ofFigure = figure.length === 2 && figure.every((dim) => axes.includes(dim));
   const [across, second] = ofFigure ? figure : usualAxes(study, axes);
   const up = first && !ofFigure && manyOf(study, first) ? null : second; // all points above one axis
-  const kept = view.place;
+  const kept = wordsChosen();
   Object.assign(view, { study, x: across.name, y: up ? up.name : NONE, variable: first, mark: NONE });
-  view.place = Object.fromEntries(
-    study.dims.map((dim) => [dim.name, dim.words ? Math.min(kept[dim.name] ?? 0, dim.values.length - 1) : 0]),
-  );
+  view.place = Object.fromEntries(study.dims.map((dim) => [dim.name, beginningAlong(dim, kept[dim.name])]));
   for (const dim of [across, ...(up ? [up] : [])]) view.place[dim.name] = Math.floor((dim.values.length - 1) / 2);
   chooseAxes();
   if (!hasValues(view.variable)) chooseValued();
@@ -116,12 +127,12 @@ function chooseValued() {
 function slice() {
   const { study, variable } = view;
   const neutral = variable.marks.find((mark) => mark.is_neutral);
-  const says = (place) => !gapAt(study, variable, place) && !(neutral && value(study, neutral, place));
+  const says = (place) => isValued(study, variable, place) && !(neutral && value(study, neutral, place));
   const chosen = view.place;
   const each = (some, dim) => some.flatMap((place) => dim.values.map((_, i) => ({ ...place, [dim.name]: i })));
   const candidates = [chosen, ...selectors().reduce(each, [chosen])];
-  const isValued = (place) => places(place).some((cell) => says(cell.place));
-  return candidates.find(isValued) ?? chosen;
+  const saysAnything = (place) => places(place).some((cell) => says(cell.place));
+  return candidates.find(saysAnything) ?? chosen;
 }
 
 /** The point at which a study opens: nearest the middle of its map one that has a value and whose own motion is stored, or
@@ -129,7 +140,7 @@ function slice() {
 function opening() {
   const { study, variable, x, place } = view;
   const y = second();
-  const valued = places().filter((cell) => !gapAt(study, variable, cell.place));
+  const valued = places().filter((cell) => isValued(study, variable, cell.place));
   const stored = valued.filter((cell) => motionsAt(cell.place).length);
   const middle = (name) => (name === NONE ? 0 : (study.sizes[name] - 1) / 2);
   const apart = ({ i, j }) => Math.hypot((i - middle(x)) / study.sizes[x], (j - middle(y)) / (study.sizes[y] ?? 1));

@@ -41,7 +41,9 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
         if name in known:
             in_si(f"1 {unit}", si_unit(name), faults, (name,))
         else:
-            rule = f"no parameter or variable with a unit{suggestion(name, known)}"
+            base = name.removesuffix("_min").removesuffix("_max")
+            meant = f", did you mean {base}?" if base in known else suggestion(name, known)
+            rule = f"no parameter or variable with a unit{meant}"
             faults.append(Fault.of((name,), unit, rule))
     raise_faults(faults)
     return units

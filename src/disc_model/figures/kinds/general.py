@@ -1,7 +1,7 @@
 """Kinds that show any variable of any quantity: heat maps and curves."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import chain
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -15,6 +15,16 @@ Dims = Mapping[str, Sequence[Any]]
 """Values along the dimensions of one variable."""
 
 
+Limits = tuple[Finite, Finite]
+"""Ends of the scale of a variable, in the unit of its label."""
+
+
+def _wrong_limits(limits: Limits | None) -> Iterator[Fault]:
+    """The fault of limits that do not ascend."""
+    if limits is not None and not limits[0] < limits[1]:
+        yield Fault.of(("limits",), limits, "must be two ascending values")
+
+
 class General(Plot):
     """Any variable of any quantity over dimensions of the study, those of the quantity's own
     included.
@@ -24,6 +34,7 @@ class General(Plot):
     log : whether the scale of the variable is logarithmic, on both sides of zero if some values are
         negative or zero
     names : words for values of `by`
+    limits : ends of the scale of the variable
     """
 
     several = True
@@ -36,20 +47,36 @@ class General(Plot):
     by: str | None = None
     log: bool = False
     names: Names = Field({})
+    limits: Limits | None = None
 
-    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
+    def faults_among(
+        self, dims: Values, variables: Mapping[str, Sequence[str]], classes: Collection[str] = ()
+    ) -> Iterator[Fault]:
         """Faults by the values along each dimension (tuples for a zip, none if it has faults), and
-        each variable's dimensions."""
+        each variable's dimensions.
+
+        classes : variables that are words, or true or false, and so have no scale
+        """
         yield from self.wrong_overlays()
         if self.variable not in variables:
             rule = f"unknown variable{suggestion(self.variable, variables)}"
             yield Fault.of(("variable",), self.variable, rule)
             return
         own = {name: dims[name] for name in variables[self.variable] if name in dims}
-        yield from self.wrong_axes(own, self.variable)
-        yield from self._wrong_by(own)
-        yield from self._wrong_places(own)
+        wrong = [*self.wrong_axes(own, self.variable), *self._wrong_by(own)]
+        yield from wrong or self._wrong_places(own)  # these rest on what is on axes
         yield from unknown("names", self.names, "by", dims.get(self.by or "", ()))
+        if self.variable in classes:
+            yield from self._wrong_scales()
+        else:
+            yield from _wrong_limits(self.limits)
+
+    def _wrong_scales(self) -> Iterator[Fault]:
+        """Faults of the scale of a variable that has none."""
+        for key in ("log", "limits"):
+            value = getattr(self, key)
+            if value:
+                yield Fault.of((key,), value, f"is for numbers: {self.variable} has classes")
 
     def _wrong_by(self, own: Dims) -> Iterator[Fault]:
         """Faults of the dimension of panels or lines."""
@@ -87,16 +114,6 @@ def _same(value: Any, other: Any) -> bool:
     return key_of(value) == key_of(other)
 
 
-Limits = tuple[Finite, Finite]
-"""Ends of the scale of a variable, in the unit of its label."""
-
-
-def _wrong_limits(limits: Limits | None) -> Iterator[Fault]:
-    """The fault of limits that do not ascend."""
-    if limits is not None and not limits[0] < limits[1]:
-        yield Fault.of(("limits",), limits, "must be two ascending values")
-
-
 class HeatMap(General):
     """A variable in colour over two dimensions; a panel for each value of a third, if wanted.
 
@@ -107,11 +124,6 @@ class HeatMap(General):
     is_map = True
     kind: Literal["heat_map"] = "heat_map"
     y: str
-    limits: Limits | None = None
-
-    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
-        yield from super().faults_among(dims, variables)
-        yield from _wrong_limits(self.limits)
 
 
 class CurvePlot(General):
@@ -125,12 +137,12 @@ class CurvePlot(General):
 
     room = 12
     kind: Literal["curve"] = "curve"
-    limits: Limits | None = None
     panels: Literal["each"] | tuple[tuple[Finite | str, ...], ...] = ()
     legend: bool = False
 
-    def faults_among(self, dims: Values, variables: Mapping[str, Sequence[str]]) -> Iterator[Fault]:
-        yield from super().faults_among(dims, variables)
-        yield from _wrong_limits(self.limits)
+    def faults_among(
+        self, dims: Values, variables: Mapping[str, Sequence[str]], classes: Collection[str] = ()
+    ) -> Iterator[Fault]:
+        yield from super().faults_among(dims, variables, classes)
         if self.panels != "each":
             yield from unknown("panels", chain(*self.panels), "by", dims.get(self.by or "", ()))

@@ -1,0 +1,192 @@
+"""What is meant by names, units and numbers that a study file or a call has wrongly."""
+
+from typing import Any
+
+import pytest
+import yaml
+
+import disc_model as dm
+from disc_model.studies.study import parse_study
+from tests.refusals import refusal
+from tests.studies.refused import faults_of
+
+CASE = dm.Parameters(N=300, Omega=12)
+GRID: dict[str, Any] = {
+    "study": "s",
+    "quantity": "outcome",
+    "options": {"horizon": 2},
+    "base": {"N": 200},
+    "axes": {"Omega": [10, 20], "k": [4e4, 5e4]},
+}
+MAP = {"kind": "heat_map", "variable": "outcome", "x": "Omega", "y": "k"}
+RANGE = {"start": 1, "stop": 2, "count": 2}
+DISC = {"diameters": [2], "circles": [0], "omega": [3000.0], "amplitude": [0.5]}
+
+
+def faults(**changes: Any) -> list[str]:
+    """The faults of a study with some parts changed."""
+    return faults_of(lambda: parse_study({**GRID, **changes}).grids())
+
+
+def faults_of_figure(**keys: Any) -> list[str]:
+    """The faults of a study with a figure."""
+    return faults(figures={"f": {**MAP, **keys}})
+
+
+# ---- Numbers and units
+
+
+@pytest.mark.parametrize(
+    "axis", ["{start: 200 rpm, stop: 600, count: 3}", "{start: 9, stop: 600 rpm, step: 1 rpm}"]
+)
+def test_a_number_without_a_unit_beside_one_with_it_is_refused(axis: str) -> None:
+    """A range from 200 rpm to 600 ended at 600 rad/s."""
+    [fault] = faults(axes={"Omega": yaml.safe_load(axis)})
+    assert "has no unit beside" in fault
+
+
+def test_zero_needs_no_unit_beside_others() -> None:
+    axis = {"start": 0, "stop": "600 rpm", "count": 3}
+    assert parse_study({**GRID, "axes": {"Omega": axis}}).grids()
+
+
+@pytest.mark.parametrize("axis", ["{start: 8,5 kN, stop: 9 kN, count: 3}", "['8,5 kN']"])
+def test_a_decimal_comma_is_told(axis: str) -> None:
+    """YAML ends a number at it, and the rest was an unknown key."""
+    found = faults(base={}, axes={"Omega": [10, 20], "N": yaml.safe_load(axis)})
+    assert any("decimals have a point" in fault for fault in found)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "meant"),
+    [("N", "8 KN", "kN"), ("k", "5 kn/m", "kN/m"), ("E", "150 gpa", "GPa"), ("m", "20 G", "g")],
+)
+def test_a_unit_with_other_capitals_is_meant(name: str, text: str, meant: str) -> None:
+    [fault] = faults(base={"N": 200, name: text}, axes={"Omega": [10, 20]})
+    assert fault.endswith(f"did you mean {meant}?")
+
+
+def test_a_unit_of_another_kind_has_an_example() -> None:
+    [fault] = faults(base={"N": "8 kg"})
+    assert fault.endswith("with a unit of its kind, such as kN")
+
+
+# ---- Figures
+
+
+@pytest.mark.parametrize("key", [{"log": True}, {"limits": [0, 1]}])
+def test_a_map_of_classes_has_no_scale(key: dict[str, Any]) -> None:
+    """The study was computed, and its figure failed then."""
+    [fault] = faults_of_figure(**key)
+    [name] = key
+    assert fault.startswith(f"figures.f.{name}=")
+    assert "outcome has classes" in fault
+
+
+@pytest.mark.parametrize(("key", "word"), [("x", "omega"), ("y", "kk")])
+def test_a_wrong_axis_makes_no_other_fault(key: str, word: str) -> None:
+    [fault] = faults_of_figure(**{key: word})
+    assert fault.startswith(f"figures.f.{key}='{word}'")
+
+
+def test_wrong_names_of_discs_make_no_other_fault() -> None:
+    """A third one said that their mapping was an unknown key."""
+    figure = {"kind": "curve", "variable": "P_max", "x": "Omega", "by": "disc"}
+    found = faults(
+        base={"N": 200, "r_0": 0.1},
+        discs={"steel": DISC, "paper": DISC},
+        axes={"Omega": [10, 20], "disc": ["steel", "paper"]},
+        figures={"f": {**figure, "names": {"steel.csv": "A", "cast": "B"}}},
+    )
+    assert len(found) == 2
+    assert all(fault.startswith("figures.f.names=") for fault in found)
+
+
+@pytest.mark.parametrize(
+    ("quantity", "options", "figure", "written"),
+    [
+        (
+            "sliding",
+            {"parameter": "m", "scan": RANGE},
+            {"variable": "largest_growth_rate", "x": "m"},
+            "x: value",
+        ),
+        (
+            "hysteresis",
+            {"scan": RANGE, "dwell": 10},
+            {"variable": "separation_rate", "x": "Omega"},
+            "x: sweep_Omega",
+        ),
+    ],
+)
+def test_a_parameter_that_the_quantity_varies_has_its_dimension(
+    quantity: str, options: dict[str, Any], figure: dict[str, Any], written: str
+) -> None:
+    [fault] = faults(
+        quantity=quantity,
+        options=options,
+        base={"Omega": 12} if quantity == "sliding" else {},
+        axes={"N": [200, 300]},
+        figures={"f": {"kind": "curve", "by": "N", **figure}},
+    )
+    assert fault.endswith(f"write {written}")
+
+
+def test_units_that_no_figure_shows_are_told() -> None:
+    figures = {
+        "f": {**MAP, "variable": "P_max", "units": {"Omega": "rpm", "P": "kN", "c_p": "N s/mm"}}
+    }
+    [grids, _] = parse_study({**GRID, "figures": figures}).grids()
+    told = [doubt for doubt in grids["s"].doubts if "unit" in doubt]
+    assert told == ["figures.f.units.c_p='N s/mm': no figure shows anything in this unit"]
+
+
+# ---- Names of options and arguments
+
+
+@pytest.mark.parametrize(
+    ("quantity", "options", "wrong", "meant"),
+    [
+        ("critical_speed", {"bounds": [1, 2], "horizons": [5]}, "bounds", "scan"),
+        ("critical_speed", {"scan": RANGE, "horizon": 5}, "horizon", "horizons"),
+        ("hysteresis", {"step": 1, "dwell": 10}, "step", "scan"),
+        ("lyapunov", {"transient": 1, "duration": 5, "count": 3}, "count", "exponents"),
+        ("branches", {"name": "k", "scan": RANGE, "dwell": 10}, "name", "parameter"),
+    ],
+)
+def test_an_option_has_the_name_of_an_argument(
+    quantity: str, options: dict[str, Any], wrong: str, meant: str
+) -> None:
+    found = faults(quantity=quantity, options=options)
+    [told] = [fault for fault in found if fault.startswith(f"options.{wrong}=")]
+    assert f"did you mean {meant}?" in told
+
+
+CALLS = [
+    (dm.critical, {"parameter": "Omega", "bounds": (1, 2)}, "name"),
+    (dm.critical, {"name": "Omega", "scan": RANGE}, "bounds"),
+    (dm.continue_cycle, {"parameter": "Omega", "bounds": (1, 2)}, "name"),
+    (dm.lyapunov_exponents, {"duration": 1, "exponents": 3}, "count"),
+    (dm.critical_speed, {"bounds": (1, 2), "horizons": [5]}, "horizon"),
+]
+
+
+@pytest.mark.parametrize(("function", "arguments", "meant"), CALLS)
+def test_an_argument_has_the_name_of_an_option(
+    function: Any, arguments: dict[str, Any], meant: str
+) -> None:
+    with refusal(f"did you mean {meant}"):
+        function(CASE, **arguments)
+
+
+@pytest.mark.parametrize(("function", "arguments", "meant"), CALLS)
+def test_an_argument_of_a_sweep_has_the_name_of_an_option(
+    function: Any, arguments: dict[str, Any], meant: str
+) -> None:
+    with refusal(f"did you mean {meant}"):
+        dm.sweep(function, CASE, N=[200, 300], **arguments)
+
+
+def test_one_mode_is_counted_as_one() -> None:
+    case = dm.Parameters(N=300, Omega=12, r_0=0.1, disc=dm.Disc(**DISC))
+    assert "1 mode<" in case._repr_html_()
