@@ -124,6 +124,7 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
     known |= {
         "figures.f.overlays.growth unknown",
         "figures.f.at.k required by",
+        "figures.f.at.Omega is required",
     }  # of that kind, and variable
     assert {words for raw, words in wrong if CHECK.is_valid(raw)} == known
 
