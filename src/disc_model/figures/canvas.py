@@ -11,7 +11,7 @@ from matplotlib.text import Text
 from disc_model.figures.case_titles import title_text
 from disc_model.figures.drawing import large
 from disc_model.figures.labels import break_labels, set_upright
-from disc_model.figures.legends import keep_height
+from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, restate
 from disc_model.figures.pages import Page as Page  # a page is asked for with wishes
@@ -61,8 +61,7 @@ def page_for(
             write_legend(page, wishes)
             break_labels(figure)
             page.remember()
-            if page.is_map:
-                keep_height(figure, page.axes)
+            keep_height(figure, page.axes, LEAST_MAP if page.is_map else LEAST_CURVE)
             set_upright(figure.findobj(Text))
         except BaseException:
             pyplot.close(figure)  # a notebook would show it, half drawn

@@ -65,7 +65,13 @@ def allow_small_rows(axes: Sequence[Axes]) -> None:
 
 
 def rows_above(ax: Axes) -> list[Rows]:
-    """The rows above a panel from which they were not removed, as by ``ax.clear()``."""
+    """The rows that are seen above a panel."""
+    return [each for each in _kept_above(ax) if each.strip.get_visible()]
+
+
+def _kept_above(ax: Axes) -> list[Rows]:
+    """The rows above a panel from which they were not removed, as by ``ax.clear()``, also those that
+    are not seen because others have the same marks."""
     return [each for each in _ROWS.get(ax, {}).values() if each.words in ax.texts]
 
 
@@ -74,7 +80,7 @@ def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **lo
     all lines, also of those on axes on the same place, such as those of ``ax.twinx()``; or once for
     all lines of a sweep, by its number, if others have rows of the same looks."""
     ax = _host_of(ax)
-    if not rows_above(ax):
+    if not _kept_above(ax):
         _ROWS[ax] = {}
         _SMALL.discard(ax)
     reasons = _ROWS[ax]
@@ -125,11 +131,33 @@ def silence_rows(ax: Axes) -> None:
 def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
     """Add the names of sweeps, by their numbers, to the words of rows that are those of one sweep."""
     host = _host_of(ax)
-    for each in rows_above(host):
+    by_reason: dict[str, list[Rows]] = {}
+    for each in _kept_above(host):
         if each.sweep is not None and each.sweep in names:
             each.said = f"{each.reason}, {names[each.sweep]}"
             each.words.set_text(each.said)
+        by_reason.setdefault(each.reason, []).append(each)
+    for alike in by_reason.values():
+        _show_once(alike)
     stack_rows(host)
+
+
+def _show_once(found: Sequence[Rows]) -> None:
+    """Show rows of one reason, or the first of them alone, without a name, where all have the same
+    marks."""
+    first, *others = found
+    same = all(_marks_of(each) == _marks_of(first) for each in others)
+    for each in others:
+        for artist in (each.words, each.strip, *each.rows):
+            artist.set_visible(not same)
+    if others and same:
+        first.said = first.reason
+        first.words.set_text(first.said)
+
+
+def _marks_of(found: Rows) -> list[tuple[Any, ...]]:
+    """Places and looks of the marks of rows."""
+    return [(*row.get_xdata(), str(row.get_marker()), str(row.get_color())) for row in found.rows]
 
 
 def _host_of(ax: Axes) -> Axes:

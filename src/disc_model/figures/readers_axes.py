@@ -9,6 +9,7 @@ from matplotlib.text import Text
 
 from disc_model.figures.gap_rows import allow_small_rows
 from disc_model.figures.labels import break_labels, set_upright
+from disc_model.figures.legends import LEAST_CURVE, keep_height
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
 from disc_model.figures.placing import check_room, stack_narrow
@@ -47,6 +48,7 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
         page.remember()
         clear_repeated(page.axes)
         if figure.get_gid() == OWN:
+            keep_height(figure, page.axes, LEAST_CURVE)
             set_upright(figure.findobj(Text))
         else:
             set_own_upright(figure)
