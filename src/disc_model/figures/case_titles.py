@@ -7,7 +7,8 @@ from weakref import WeakKeyDictionary
 from matplotlib.text import Text
 
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import in_a_row, titles_of
+from disc_model.figures.labels import titles_of
+from disc_model.figures.symbols import in_a_row
 from disc_model.figures.types import Axes
 from disc_model.figures.words import CHARACTER, head_text
 

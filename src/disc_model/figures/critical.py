@@ -9,10 +9,11 @@ import numpy as np
 from disc_model.data.variables import axis_of, presentation_of
 from disc_model.figures.branch_lines import Look, above_floor, draw_at_floor, set_margins
 from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, INDIGO, SEPARATED, mark, sample, wide
 from disc_model.figures.family import Member
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
+from disc_model.figures.overlay import Case, draw_case, limits_of, name_of_case
 from disc_model.figures.rate_scale import scale_rates
 from disc_model.figures.runs import stated, stated_values
 from disc_model.figures.types import Artist, Axes

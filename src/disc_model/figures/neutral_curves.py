@@ -12,10 +12,11 @@ from disc_model.data.variables import axis_of, typeset
 from disc_model.errors import require
 from disc_model.figures.branch_lines import STABLE, THIN, Look, between, draw_branch
 from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.case_lines import Limits, Lines, Style
 from disc_model.figures.drawing import BLACK, COLUMN, GREY, SEPARATED, halo, large, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.overlay import Limits, Lines, Style, case_of_result, draw_case, name_of_case
+from disc_model.figures.overlay import case_of_result, draw_case, name_of_case
 from disc_model.figures.types import Array, Artist, Axes
 
 if TYPE_CHECKING:

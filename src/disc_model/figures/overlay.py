@@ -7,96 +7,26 @@ marks, in a look of its own: phases, first separations and frequencies beside pe
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import WeakKeyDictionary, ref
 
 import numpy as np
 
-from disc_model.figures.branch_lines import Look
+from disc_model.figures.case_lines import Lines, Style
 from disc_model.figures.common_stretch import stretch_shown
-from disc_model.figures.drawing import mark, wide
-from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
-from disc_model.figures.labels import in_a_row
+from disc_model.figures.family import Member, name_in, names_of, retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.symbols import in_a_row
 from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
 from disc_model.figures.types import Array, Artist, Axes
 from disc_model.parameters import Parameters
 
 NAME = "case"
 """The label by which a reader names a case."""
-MARKERS = "osD^vP"
 OF_ONE_COLOUR = ("run", "spectrum")
 """Kinds of pictures in which a case alone has one line in a colour of its variable."""
-THIN = 0.6
-"""Width of the first of whole lines that lie on each other, points."""
-WIDEST = 3.8
-"""And of the last one, if its edge shows beside the others then."""
-EDGES = (0.7, 1.2)
-"""Least and greatest difference of the widths of one such line and the next, points."""
-Limits = tuple[tuple[float, float], tuple[float, float]]
-"""Of the horizontal and of the vertical axis."""
-
-
-class Style(NamedTuple):
-    """What sets a case apart from others, by its place in their order: colour and dashes of a line, or
-    colour and shape of marks.
-
-    cases : how many there are
-    from_end : whether time is counted from the end of each, and is negative
-    """
-
-    place: int
-    cases: int = 1
-    from_end: bool = False
-
-    @property
-    def look(self) -> Look:
-        """Colour and dashes."""
-        return LOOKS[self.place % len(LOOKS)]
-
-    @property
-    def edge(self) -> float:
-        """By how much each whole line is wider than the one before, points."""
-        least, greatest = EDGES
-        alike = (WIDEST - THIN) / max(self.cases - 1, 1)
-        return max(least, min(greatest, alike))
-
-    def layered(self) -> dict[str, Any]:
-        """Options of a whole line that is wider than the one before, and below it: dashes of lines
-        that go to and fro, or around, would fill their own gaps."""
-        return {
-            "color": self.look.colour,
-            "linewidth": wide(THIN + self.place * self.edge),
-            "zorder": 2 - 0.01 * self.place,
-            "solid_capstyle": "butt",  # a wide sample of a legend would reach its name
-        }
-
-    def marks(self, points: float) -> dict[str, Any]:
-        """Options of open marks of a size in points: those below others show."""
-        return {
-            "linestyle": "",
-            "marker": MARKERS[self.place % len(MARKERS)],
-            "color": self.look.colour,
-            "markerfacecolor": "none",
-            "markersize": mark(points),
-        }
-
-
-class Lines(NamedTuple):
-    """How a case is drawn beside others in one panel.
-
-    draw : draws it on axes in a style; returns its entry of a legend, which has no label yet
-    limits : of the axes that show it
-    what : the name of what is drawn, if axes can show several in one unit
-    stretch : begin and end of the samples in time, s; None of what is not sampled over time, or whole
-    """
-
-    draw: Callable[[Axes, Style], Artist]
-    limits: Limits
-    what: str = ""
-    stretch: tuple[float, float] | None = None
 
 
 @dataclass

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.display import counted
-from disc_model.figures.bifurcation import MARKS, UNDECIDED, rings_of
+from disc_model.figures.bifurcation_samples import MARKS, UNDECIDED, rings_of
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import NOT_CONVERGED
 from disc_model.figures.curve_lines import DOT

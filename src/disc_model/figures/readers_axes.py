@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.text import Text
 
 from disc_model.figures.gap_rows import allow_small_rows
-from disc_model.figures.labels import break_labels, set_upright
+from disc_model.figures.labels import break_labels
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
 from disc_model.figures.placing import check_room, stack_narrow
@@ -16,6 +16,7 @@ from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.small_panels import remember_sides, warn_of_small_panels
 from disc_model.figures.style import readers_style
+from disc_model.figures.symbols import set_upright
 
 
 @contextmanager

@@ -11,10 +11,11 @@ from disc_model.figures.drawing import COLUMN, panels
 from disc_model.figures.drawings import drawing_of
 from disc_model.figures.heads import values_of_case, values_of_study
 from disc_model.figures.kinds import NORM, CasePlot, Compared, General, Kind
-from disc_model.figures.labels import COLOUR_BAR, break_labels, restate_axes
+from disc_model.figures.labels import COLOUR_BAR, break_labels
 from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
 from disc_model.figures.reader_units import key_by_label, with_limits_of_label
+from disc_model.figures.restated_axes import restate_axes
 from disc_model.figures.selection import normalizations, of
 from disc_model.figures.style import styled
 from disc_model.figures.types import Figure

@@ -7,15 +7,10 @@ from weakref import WeakSet
 
 from matplotlib.text import Text
 
+from disc_model.figures.axis_numbers import part_numbers, spare_heights, spare_numbers
 from disc_model.figures.case_titles import case_above
 from disc_model.figures.colours import bars_of
-from disc_model.figures.labels import (
-    break_labels,
-    part_numbers,
-    set_upright,
-    spare_heights,
-    spare_numbers,
-)
+from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import (
     finds_room_below,
     finds_room_beside,
@@ -27,6 +22,7 @@ from disc_model.figures.page_legends import PLACED, write_legend
 from disc_model.figures.pages import Page, Wishes
 from disc_model.figures.places import set_places
 from disc_model.figures.placing import fit_to_page, restore_margins
+from disc_model.figures.symbols import set_upright
 from disc_model.figures.types import Axes, Legend
 
 ROUNDS = 4  # in which legends find their places after axes have got other sizes

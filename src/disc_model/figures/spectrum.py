@@ -8,10 +8,11 @@ from disc_model.data.dataset import Missing
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.figures.amplitudes import Amplitudes, amplitudes
 from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style
 from disc_model.figures.drawing import COLUMN, sample, wide
 from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, is_beside, name_of_case
+from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
 from disc_model.figures.peak_names import name_lines
 from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
 from disc_model.figures.types import Artist, Axes
