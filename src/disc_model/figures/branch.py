@@ -26,7 +26,7 @@ from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
 from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import scale_rates
-from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.stated_case import stated, stated_values
 from disc_model.figures.types import Axes
 
 if TYPE_CHECKING:

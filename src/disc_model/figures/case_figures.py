@@ -17,9 +17,9 @@ from disc_model.figures.kinds.cases import History, PoincareSections, Portrait, 
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.poincare import STACKED, draw_sections
 from disc_model.figures.portrait import draw_portrait
-from disc_model.figures.runs import ramps_of
 from disc_model.figures.shades import shade_ramps
 from disc_model.figures.spectrum import draw_spectrum
+from disc_model.figures.stated_case import ramps_of
 from disc_model.figures.types import Figure
 
 

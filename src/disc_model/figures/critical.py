@@ -15,7 +15,7 @@ from disc_model.figures.family import Member
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, limits_of, name_of_case
 from disc_model.figures.rate_scale import scale_rates
-from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.stated_case import stated, stated_values
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import BELOW_ANY
 

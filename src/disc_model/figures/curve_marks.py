@@ -13,6 +13,7 @@ from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import FILLED_MARK, UNSETTLED, name_of
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
+from disc_model.figures.missing_texts import missing_text, text_below_lowest, texts_without_border
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.selection import (
     Part,
@@ -27,15 +28,7 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.settled_motions import calm_points
 from disc_model.figures.types import Array, Axes, Mask
-from disc_model.figures.words import (
-    NO_VALUE,
-    WORDS,
-    Measured,
-    measured,
-    missing_text,
-    text_below_lowest,
-    texts_without_border,
-)
+from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured
 
 MARKS = "os^Dv<>"
 """Marks of the lines; they are open, so that lines on top of each other show."""

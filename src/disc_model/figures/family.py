@@ -26,9 +26,10 @@ from disc_model.figures.drawing import (
     SKY,
     large,
 )
+from disc_model.figures.head_texts import what_case
 from disc_model.figures.pages import OWN, Page
 from disc_model.figures.symbols import without_font
-from disc_model.figures.words import stated_value, what_case
+from disc_model.figures.value_texts import stated_value
 from disc_model.parameters import RATIOS
 
 LOOKS = (

@@ -9,9 +9,10 @@ from disc_model.figures.cells import MARKED, edges_of, entries, lay_over, paint
 from disc_model.figures.classes import AT_BOUND, DOUBTS, LOOKS
 from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.colours import colours_of, draw_bar
+from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.selection import at_lower_bound, classes_of_gaps, doubts, has_values
 from disc_model.figures.types import Artist, Axes, FigureBase
-from disc_model.figures.words import NO_VALUE, label_in, label_of, measured, missing_text
+from disc_model.figures.words import NO_VALUE, label_in, label_of, measured
 
 
 def number_panels(

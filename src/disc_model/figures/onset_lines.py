@@ -6,9 +6,9 @@ import xarray as xr
 from disc_model.figures.drawing import BLACK, halo, mark
 from disc_model.figures.durations import duration_of
 from disc_model.figures.gap_rows import add_column
+from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.onsets import branches, speeds_of
 from disc_model.figures.types import Axes
-from disc_model.figures.words import missing_text
 
 
 def draw_without_onset(ax: Axes, study: xr.Dataset, horizon: float) -> None:

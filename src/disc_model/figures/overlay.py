@@ -17,7 +17,7 @@ from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.family import Member, name_in, names_of, retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
-from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.stated_case import stated, stated_values
 from disc_model.figures.symbols import in_a_row
 from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
 from disc_model.figures.types import Array, Artist, Axes

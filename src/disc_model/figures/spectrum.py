@@ -14,7 +14,8 @@ from disc_model.figures.labels import words_of
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
 from disc_model.figures.peak_names import name_lines
-from disc_model.figures.runs import sampled, span_of, stated, told_apart, window_of
+from disc_model.figures.runs import sampled, span_of, window_of
+from disc_model.figures.stated_case import stated, told_apart
 from disc_model.figures.types import Artist, Axes
 from disc_model.units import is_number
 

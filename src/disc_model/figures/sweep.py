@@ -27,14 +27,7 @@ from disc_model.figures.separating_share import (
     interval_of,
     share_of_starts,
 )
-from disc_model.figures.sweep_choice import (
-    SHARES,
-    Drawn,
-    choose_drawn,
-    said_of,
-    title_of,
-    values_of,
-)
+from disc_model.figures.sweep_choice import SHARES, Drawn, choose_drawn
 from disc_model.figures.sweep_drawn import draw_each
 from disc_model.figures.sweep_lines import (
     Lines,
@@ -47,6 +40,7 @@ from disc_model.figures.sweep_lines import (
 )
 from disc_model.figures.sweep_options import options_of, set_options
 from disc_model.figures.sweep_parts import parts_beside
+from disc_model.figures.sweep_titles import said_of, title_of, values_of
 from disc_model.figures.truths import are_of_classes, as_classes
 from disc_model.figures.types import Artist, Axes
 from disc_model.figures.words import are_counts, label_in, label_of, measured

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.family import LOOKS
 from disc_model.figures.selection import without_single
-from disc_model.figures.sweep_choice import only_counts
+from disc_model.figures.sweep_dimensions import only_counts
 
 
 def parts_beside(study: xr.Dataset, variable: Any, x: str, lines: Any) -> list[xr.Dataset]:

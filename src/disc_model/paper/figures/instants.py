@@ -12,8 +12,9 @@ from disc_model.disc.plate import modes_at_point
 from disc_model.figures.disc import Motion, draw_circle, draw_disc, scale_of
 from disc_model.figures.drawing import BLACK, PAGE, SEPARATED, SLIDER, new_figure, sample
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.runs import parameters_of, show_thickness
+from disc_model.figures.runs import show_thickness
 from disc_model.figures.selection import stretches
+from disc_model.figures.stated_case import parameters_of
 from disc_model.figures.types import Array, Axes, ComplexArray, Figure, Indices
 from disc_model.paper.figures.kinds import Instants
 from disc_model.simulation.case import Ramp, angle_of_drive, pieces

@@ -8,12 +8,13 @@ from disc_model.errors import violations, with_known_names
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.arguments import read_values
-from disc_model.stability.continuation.branch import CHANGES, LABELS, Branch
+from disc_model.stability.continuation.branch import Branch
 from disc_model.stability.continuation.course import Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
 from disc_model.stability.continuation.found import branch_of
 from disc_model.stability.continuation.problem import parameter_scale, stretch_of
+from disc_model.stability.continuation.special_point import CHANGES, LABELS
 from disc_model.stability.cycle import STICK_SLIP, guess_faults
 from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
