@@ -1,12 +1,14 @@
 """How a case is drawn beside others in one panel: the look that sets it apart, and its lines."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
+
+import numpy as np
 
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import mark, wide
 from disc_model.figures.family import LOOKS
-from disc_model.figures.types import Artist, Axes
+from disc_model.figures.types import Array, Artist, Axes
 
 MARKERS = "osD^vP"
 THIN = 0.6
@@ -77,3 +79,17 @@ class Lines(NamedTuple):
     limits: Limits
     what: str = ""
     stretch: tuple[float, float] | None = None
+
+
+def limits_of(values: Array, share: float) -> tuple[float, float]:
+    """Limits that leave a share of the values' range free on both sides."""
+    low = float(np.nanmin(values))
+    high = float(np.nanmax(values))
+    room = share * (high - low) or 1e-6 * max(abs(high), 1e-6)
+    return low - room, high + room
+
+
+def limits_around(several: Sequence[Limits]) -> Limits:
+    """Limits of both axes that hold all of several."""
+    across, up = np.array(several).transpose(1, 0, 2)
+    return (across.min(), across.max()), (up.min(), up.max())

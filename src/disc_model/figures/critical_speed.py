@@ -129,6 +129,3 @@ def _paper_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
         zorder=5,
         clip_on=False,
     )
-
-
-# ---- Onsets

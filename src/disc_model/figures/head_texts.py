@@ -20,13 +20,13 @@ IN_WORDS = {
 }
 """What heads of figures say for parameters without a symbol."""
 OF_FRICTION = ("mu_s", "mu_k", "mu_k_over_mu_s", "friction_decay", "viscous_friction")
-"""Parameters of the law of friction,"""
+"""Parameters of the law of friction."""
 OF_DAMPING = ("D_star", "damping_ratio", "c", "c_p", "c_p_over_c")
 OF_CONTACT = ("friction_offset", "contact_arc", "contact_compliance")
 IDENTIFYING = ("disc", "E", "h", "h_over_b", "m", "k")
-"""what tells a disc and a slider from others first,"""
+"""What tells a disc and a slider from others first."""
 OF_DISC = ("nu", "rho", "a", "b", "r_0", "a_over_b", "r_0_over_b")
-"""the rest of the material and of the size of the disc,"""
+"""The rest of the material and of the size of the disc."""
 ORDERED = ("N", "Omega", *OF_FRICTION, *IDENTIFYING, *OF_DAMPING, *OF_CONTACT, *OF_DISC, *OF_MODES)
 """Parameters that have a place of their own in a title."""
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head

@@ -1,4 +1,4 @@
-"""Labels and titles of axes: no longer than these, and in the units of the reader."""
+"""Labels and titles of axes: in lines that are no longer than these."""
 
 import math
 import re
@@ -196,12 +196,3 @@ def _filled(words: Sequence[str], length: int) -> list[str]:
             lines.append(word)
             taken = seen(word)
     return lines
-
-
-# ---- Symbols
-
-
-# ---- Numbers along axes
-
-
-# ---- Units of the reader

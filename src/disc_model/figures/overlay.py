@@ -10,17 +10,16 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 from weakref import WeakKeyDictionary, ref
 
-import numpy as np
-
-from disc_model.figures.case_lines import Lines, Style
+from disc_model.figures.case_lines import Lines, Style, limits_around
 from disc_model.figures.common_stretch import stretch_shown
-from disc_model.figures.family import Member, name_in, names_of, retitle
+from disc_model.figures.family import Member, name_in, names_of
+from disc_model.figures.family_titles import retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.stated_case import stated, stated_values
 from disc_model.figures.symbols import in_a_row
 from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
-from disc_model.figures.types import Array, Artist, Axes
+from disc_model.figures.types import Artist, Axes
 from disc_model.parameters import Parameters
 
 NAME = "case"
@@ -66,14 +65,6 @@ class Panel:
 
 _PANELS: WeakKeyDictionary[Axes, list[Panel]] = WeakKeyDictionary()
 """The cases that axes show."""
-
-
-def limits_of(values: Array, share: float) -> tuple[float, float]:
-    """Limits that leave a share of the values' range free on both sides."""
-    low = float(np.nanmin(values))
-    high = float(np.nanmax(values))
-    room = share * (high - low) or 1e-6 * max(abs(high), 1e-6)
-    return low - room, high + room
 
 
 def case_of_result(
@@ -180,10 +171,9 @@ def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
         before = {id(artist) for artist in ax.get_children()}
         handles.append(panel.lines.draw(ax, Style(panel.case.place, count, shown.from_end)))
         panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
-    ends = np.array(limits)
-    across = shown.limits or (ends[:, 0].min(), ends[:, 0].max())
-    ax.set_xlim(across)
-    ax.set_ylim(ends[:, 1].min(), ends[:, 1].max())
+    across, up = limits_around(limits)
+    ax.set_xlim(shown.limits or across)
+    ax.set_ylim(up)
     return handles
 
 

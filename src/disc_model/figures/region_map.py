@@ -115,9 +115,3 @@ def _curves(ax: Axes, plane: xr.Dataset, curves: xr.Dataset) -> list[Artist]:
 
 def _between(values: Array, points: Array) -> Mask:
     return (values >= points.min()) & (values <= points.max())
-
-
-# ---- The paper's cases
-
-
-# ---- Scales

@@ -54,9 +54,3 @@ def _write_title(plot: Kind, figure: Figure, text: str) -> None:
         figure.legends[0].set_title(text)
     else:
         figure.suptitle(text, fontsize=8)
-
-
-# ---- Figures of cases
-
-
-# ---- Figures of grid studies

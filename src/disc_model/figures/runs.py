@@ -1,4 +1,4 @@
-"""What pictures of a run have in common: its stated case, its windows and phases, and how a sampled
+"""What pictures of a run have in common: its windows and phases, and how a sampled
 variable is drawn.
 """
 
@@ -23,7 +23,7 @@ TIME = "Time (s)"
 ABOVE = 1.04  # height of a bar above a panel, as a share of it,
 RIGHT = 1.02  # and place of one beside it
 
-# ---- The case, and its windows
+# ---- Windows
 
 
 def window_of(

@@ -29,9 +29,9 @@ from disc_model.figures.separating_share import (
 )
 from disc_model.figures.sweep_choice import SHARES, Drawn, choose_drawn
 from disc_model.figures.sweep_drawn import draw_each
+from disc_model.figures.sweep_family import join_lines
 from disc_model.figures.sweep_lines import (
     Lines,
-    join_lines,
     lines_beside,
     lines_of,
     lines_on,

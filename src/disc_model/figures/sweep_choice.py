@@ -1,4 +1,4 @@
-"""What a picture of a sweep shows: which variable, over which of its dimensions, and of what case."""
+"""What a picture of a sweep shows: which variable, over which of its dimensions."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace

@@ -23,7 +23,7 @@ OF_FUNCTIONS = {
     "plate_modes": "omega",
     "simulate": "n_separations",
 }
-"""Variables that are drawn before those, of sweeps of a function or of studies of a quantity."""
+"""Variables that are drawn first, of sweeps of a function or of studies of a quantity."""
 FIRST_OF_SEVERAL = {
     "exponent": "largest Lyapunov exponent",
     "exponents": "largest Lyapunov exponent",

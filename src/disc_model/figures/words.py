@@ -1,5 +1,4 @@
-"""Words of figures: labels of variables, names of values, and what a figure's head says. Nothing here
-draws."""
+"""Words of figures: labels, units and values of variables. Nothing here draws."""
 
 import re
 from collections.abc import Iterable, Mapping
@@ -40,7 +39,7 @@ WORDS = {
 }
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
 OF_MODES = ("n_diameters", "n_circles")
-"""and how many modes there are."""
+"""Parameters that say how many modes there are."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
@@ -106,8 +105,6 @@ class Measured(NamedTuple):
     label: str
     values: np.ndarray
 
-
-# ---- Labels of variables
 
 SPEED, _ = axis_of("Omega")
 LOAD, _ = axis_of("N")
@@ -307,9 +304,6 @@ def as_numbers(variable: xr.DataArray) -> tuple[list[str], xr.DataArray]:
     return [name_of(word) for word in words if word != EXCLUDED], variable
 
 
-# ---- Names of values
-
-
 def is_truth(variable: xr.DataArray) -> bool:
     """Whether the numbers or words of a variable stand for True and False."""
     return variable.attrs.get("comment") == TRUTH["comment"]
@@ -319,6 +313,3 @@ def are_counts(variable: xr.DataArray) -> bool:
     """Whether a variable or coordinate counts something, also where some points have no value."""
     whole = variable.dtype.kind in "iu" or variable.name in OF_MODES
     return whole or named(variable).name.startswith("Number of ")
-
-
-# ---- Heads of figures

@@ -5,7 +5,8 @@ import pytest
 
 from disc_model.parameters import Parameters
 from disc_model.stability.continuation.branch import Branch
-from disc_model.stability.continuation.special_point import LABELS, SpecialPoint
+from disc_model.stability.continuation.special_kinds import LABELS
+from disc_model.stability.continuation.special_point import SpecialPoint
 from tests.refusals import refusal
 
 P = Parameters(N=385, Omega=15)

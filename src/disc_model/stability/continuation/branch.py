@@ -16,11 +16,8 @@ from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.continuation.problem import unit_text
-from disc_model.stability.continuation.special_point import (
-    CHANGES,
-    SpecialPoint,
-    stored_special_points,
-)
+from disc_model.stability.continuation.special_kinds import CHANGES
+from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
 from disc_model.units import in_si

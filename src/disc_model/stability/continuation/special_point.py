@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 from disc_model.arrays import Array
 from disc_model.data.variables import values_text
@@ -13,27 +12,10 @@ from disc_model.display import Summarised, number_text
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.data import StoredBranch
+from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.segments import range_of_cycle
 
-if TYPE_CHECKING:
-    pass
-
-LABELS: dict[str, str] = {
-    "fold": "LP",
-    "period_doubling": "PD",
-    "neimark_sacker": "TR",
-    "branch_point": "BP",
-    "grazing": "GR",
-    "hopf": "HB",
-    "end": "EP",
-    "max_points": "EP",
-    "lost": "EP",
-}
-"""Kinds of special points, and their labels in AUTO and COCO."""
-CHANGES = ("fold", "period_doubling", "neimark_sacker")
-"""Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
-circle."""
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 
 
