@@ -1,5 +1,5 @@
-"""Several cases on the same axes, such as branches or runs: their looks, their names in the legend, and
-what the title says of all.
+"""Several cases on the same axes, such as branches or runs: their looks, and their names in the
+legend.
 """
 
 import math

@@ -1,5 +1,4 @@
-"""Several cases in pictures of one kind on the same axes: their looks, limits, and what the legend calls
-them.
+"""Several cases in pictures of one kind on the same axes: their limits, and what the legend calls them.
 
 A case alone has the colours and marks of its picture. Beside others it is one line, or one kind of
 marks, in a look of its own: phases, first separations and frequencies beside peaks are not shown.

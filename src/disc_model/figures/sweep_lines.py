@@ -1,5 +1,5 @@
-"""Lines of several sweeps, or of several variables of one, on the same axes: their looks, and what axis
-and legend call them."""
+"""Lines of several sweeps, or of several variables of one, on the same axes, and what the axis
+calls them."""
 
 from __future__ import annotations
 

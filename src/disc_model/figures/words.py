@@ -80,7 +80,6 @@ MISSING = "missing"  # what stands for a value that there is not
 ANSWERS = ("no", "yes")  # words for False and True, in their order
 STAYS = "stays"  # key of words for the time at each value of a sweep
 
-
 IN_THOUSANDTHS = {"period": "ms", "interval": "ms", "range": "mm"}
 """Units of numbers of cycles in all pictures, by the last word of their names, such as `sweep_range`."""
 IN_THOUSANDTH = "in thousandths"
