@@ -270,18 +270,28 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
     if not unit or type(value) is float:
         return value
     if isinstance(value, dict):
-        units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-        if isinstance(unit, str):
-            faults += _mixed_units([value[key] for key in ENDS if key in value], unit, path)
-        return {
-            x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()
-        }
+        return _parts_in_si(value, unit, faults, path)
     if type(value) in (list, tuple):
         return type(value)(
             in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
         )
     if not isinstance(unit, str):
         return value
+    return _single_in_si(value, unit, faults, path)
+
+
+def _parts_in_si(
+    value: dict[Any, Any], unit: Units, faults: list[Fault], path: tuple[str, ...]
+) -> Any:
+    """The values of a dict in SI units, all in one unit or each in its own."""
+    units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
+    if isinstance(unit, str):
+        faults += _mixed_units([value[key] for key in ENDS if key in value], unit, path)
+    return {x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()}
+
+
+def _single_in_si(value: Any, unit: str, faults: list[Fault], path: tuple[str, ...]) -> Any:
+    """A text, a quantity or a number of xarray in a unit; as it is if it has no unit."""
     text = ""
     try:
         if isinstance(value, str):

@@ -14,7 +14,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
-from disc_model.figures.labels import without_font
+from disc_model.figures.symbols import without_font
 
 UREG = pint.UnitRegistry()
 PLAIN = {"²": "**2", "³": "**3", "μ": "u", "µ": "u", "10⁻⁵ ": "1e-5 * "}

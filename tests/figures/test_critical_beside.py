@@ -7,7 +7,8 @@ import pytest
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.critical import MISSING, UNSTABLE
+from disc_model.figures.critical_beside import UNSTABLE
+from disc_model.figures.critical_curve import MISSING
 from disc_model.stability.critical_values import Critical
 from tests.figures.test_wishes import legend_texts
 from tests.refusals import refusal

@@ -8,7 +8,8 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.words import label_in, missing_text
+from disc_model.figures.missing_texts import missing_text
+from disc_model.figures.words import label_in
 from tests.figures.reading import as_map
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)

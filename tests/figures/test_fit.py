@@ -9,8 +9,8 @@ import pytest
 from matplotlib import pyplot
 
 from disc_model.figures.fit import plot_fit
-from disc_model.figures.labels import without_font
 from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.figures.symbols import without_font
 from disc_model.fitting.result import Combined, Fitted
 
 FRICTION = Fitted(0.419988, 0.00055, 0.4189, 0.4211)

@@ -6,11 +6,12 @@ from matplotlib import pyplot
 from matplotlib.text import Text
 
 import disc_model as dm
-from disc_model.figures.labels import break_labels, in_lines, part_numbers
+from disc_model.figures.axis_numbers import part_numbers
+from disc_model.figures.head_texts import head_text, what_case
+from disc_model.figures.labels import break_labels, in_lines
 from disc_model.figures.peak_names import name_lines
-from disc_model.figures.runs import stated
 from disc_model.figures.sizes import COLUMN
-from disc_model.figures.words import head_text, what_case
+from disc_model.figures.stated_case import stated
 from tests.figures.reading import assert_numbers_are_apart
 
 

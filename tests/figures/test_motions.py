@@ -12,11 +12,11 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.text import Annotation, Text
 
-from disc_model.figures import bifurcation
+from disc_model.figures import bifurcation_exponents, bifurcation_samples
 from disc_model.figures import campbell as campbell_diagram
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
-from disc_model.figures.bifurcation import MARKS
+from disc_model.figures.bifurcation_samples import MARKS
 from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
 from disc_model.figures.branches import LOWEST, Sweep
@@ -112,19 +112,21 @@ def test_rings_of_motions_that_have_not_settled_do_not_merge() -> None:
     values = np.array([np.linspace(20.0, 30.0, 200), np.linspace(20.0, 70.0, 200)])
     chosen = np.ones(values.shape, dtype=bool)
     chosen[1] = False
-    rings = bifurcation.apart(values, chosen)
+    rings = bifurcation_samples.apart(values, chosen)
     assert not rings[1].any()
     heights = values[0, rings[0]]
     assert heights[0] == 20.0
-    assert np.diff(heights).min() >= bifurcation.RINGS_APART * 50.0
-    assert heights[-1] > 30.0 - 2 * bifurcation.RINGS_APART * 50.0
+    assert np.diff(heights).min() >= bifurcation_samples.RINGS_APART * 50.0
+    assert heights[-1] > 30.0 - 2 * bifurcation_samples.RINGS_APART * 50.0
 
 
 def test_places_between_samples_belong_to_no_side_of_a_change() -> None:
     samples, _ = made_up_samples()
     samples["period_events"][:] = [1, 1, 2]
     along = np.array([1.0, 2.0, 3.0])
-    changes = bifurcation.motion_changes(samples, along, np.array([1.0, 2 - 1e-12, 2.5, 2.6, 3]))
+    changes = bifurcation_exponents.motion_changes(
+        samples, along, np.array([1.0, 2 - 1e-12, 2.5, 2.6, 3])
+    )
     assert changes.tolist() == [False, True, True, True]
 
 

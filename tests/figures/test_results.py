@@ -15,8 +15,8 @@ from PIL import Image
 
 import disc_model as dm
 from disc_model.figures.amplitudes import amplitudes
-from disc_model.figures.spectrum import draw_spectrum
-from disc_model.figures.sweep_choice import OF_FUNCTIONS
+from disc_model.figures.spectrum_lines import draw_spectrum
+from disc_model.figures.sweep_study import OF_FUNCTIONS
 from tests.figures.reading import as_map, labels
 from tests.refusals import refusal
 

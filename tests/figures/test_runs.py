@@ -8,7 +8,8 @@ import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES
-from disc_model.figures.runs import _course, ramps_of, spans_between, spans_in
+from disc_model.figures.runs import spans_between, spans_in
+from disc_model.figures.stated_case import _course, ramps_of
 from disc_model.parameters import Parameters
 
 TIMES = [0.0, 1.0, 2.0, 2.5, 4.0]  # s

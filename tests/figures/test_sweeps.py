@@ -16,7 +16,7 @@ import disc_model as dm
 from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import GROWING, UNKNOWN_STARTS, name_of
-from disc_model.figures.curve_marks import MARKS
+from disc_model.figures.curve_looks import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN

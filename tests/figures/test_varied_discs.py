@@ -2,9 +2,9 @@
 
 import disc_model as dm
 from disc_model.data.variables import axis_of
-from disc_model.figures.runs import stated
-from disc_model.figures.sweep_choice import values_of
-from disc_model.figures.words import head_text, what_case
+from disc_model.figures.head_texts import head_text, what_case
+from disc_model.figures.stated_case import stated
+from disc_model.figures.sweep_titles import values_of
 
 DISC = dm.Disc.from_csv("config/discs/brake_3_modes.csv")
 PAD = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "m": 0.5}

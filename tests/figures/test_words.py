@@ -5,9 +5,11 @@ import pytest
 import xarray as xr
 
 from disc_model.figures.durations import horizon_text
+from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.multipliers import period_text
 from disc_model.figures.names import name_of, named_modes
-from disc_model.figures.words import missing_text, named, named_value, value_text
+from disc_model.figures.value_texts import named_value, value_text
+from disc_model.figures.words import named
 from disc_model.studies.registry import quantity_names, quantity_of
 
 

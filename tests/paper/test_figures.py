@@ -13,7 +13,7 @@ from disc_model.data.variables import flag_names
 from disc_model.figures.kinds import CasePlot
 from disc_model.figures.render import render
 from disc_model.figures.sizes import COLUMN, PAGE
-from disc_model.paper.figures.instants import motion_of
+from disc_model.paper.figures.motion_around import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.figures.reading import assert_fit_for_print, labels

@@ -12,8 +12,8 @@ from disc_model.data.variables import flag_names
 from disc_model.disc.modes import plate_modes
 from disc_model.figures.kinds import kinds_in
 from disc_model.figures.render import render
-from disc_model.paper.figures.instants import motion_of
 from disc_model.paper.figures.kinds import STRETCH
+from disc_model.paper.figures.motion_around import motion_of
 from disc_model.parameters import Parameters
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.test_cases import simulated

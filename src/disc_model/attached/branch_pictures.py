@@ -96,7 +96,7 @@ def _varying(swept: xr.Dataset) -> list[str]:
 
 def _name_of(point: xr.Dataset, swept: xr.Dataset) -> str:
     """What sets a point apart from others, in words."""
-    from disc_model.figures.words import stated_value
+    from disc_model.figures.value_texts import stated_value
 
     return ", ".join(stated_value(name, point[name].item()) for name in _varying(swept))
 

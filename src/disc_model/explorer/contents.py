@@ -19,21 +19,20 @@ from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
+from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.reader_units import unit_key
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.truths import as_classes
+from disc_model.figures.value_texts import BY_SIZE, value_text
 from disc_model.figures.words import (
-    BY_SIZE,
     NO_VALUE,
     UNITS,
     WORDS,
     factors_of,
     known_name,
     lowered,
-    missing_text,
     named,
     unit_text,
-    value_text,
 )
 from disc_model.parameters import RATIOS, Parameters
 

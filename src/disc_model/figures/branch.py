@@ -5,11 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from disc_model.data.variables import axis_of, presentation_of
-from disc_model.errors import require
 from disc_model.figures.branch_family import NAME, NO_FURTHER, SPECIAL_MARKS, join_family, next_look
+from disc_model.figures.branch_heights import axis_upward, refined_upward, upward_of
 from disc_model.figures.branch_lines import (
     FLOOR,
     NARROW,
@@ -27,12 +26,11 @@ from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
 from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import scale_rates
-from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.stated_case import stated, stated_values
 from disc_model.figures.types import Axes
-from disc_model.figures.words import label_of
 
 if TYPE_CHECKING:
-    from disc_model.stability.continuation import Branch, SpecialPoint
+    from disc_model.stability.continuation import Branch
 
 WIDE = 30.0  # largest over least range from which the axis is logarithmic
 
@@ -51,8 +49,8 @@ def plot_branch(
     first, *second = branch.parameters
     across, factor = axis_of(first)
     x = branch.values[:, 0] * factor
-    label, upward = _axis_upward(branch, y)
-    values = _upward(branch, branch, y) * upward
+    label, upward = axis_upward(branch, y)
+    values = upward_of(branch, branch, y) * upward
     case = stated(branch.case, *branch.parameters)
     name, labels = name_in(labels, NAME)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
@@ -62,7 +60,7 @@ def plot_branch(
         # the stability changes at special points, which lie between the others
         stable = stable_segments(branch.refined_growth_rate())
         refined_x = branch.refined("values")[:, 0] * factor
-        refined_values = _refined_upward(branch, y) * upward
+        refined_values = refined_upward(branch, y) * upward
         thin = NARROW if y == "growth_rate" and not second else THIN
         draw_branch(axes, refined_x, above_floor(refined_values), stable, look, thin=thin)
         # what lies between is not computed
@@ -91,29 +89,6 @@ def plot_branch(
     return page.ax
 
 
-def _axis_upward(branch: Branch, y: str) -> tuple[str, float]:
-    """The label of what is drawn upward, and the factor from SI to the label's unit."""
-    if len(branch.parameters) > 1:
-        return axis_of(branch.parameters[1])
-    known = isinstance(y, str) and y in branch.variables
-    require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
-    return label_of(xr.DataArray(name=y, attrs=branch.variables[y].attributes))
-
-
-def _upward(of: Branch | SpecialPoint, branch: Branch, y: str) -> np.ndarray:
-    """What is drawn upward, of all cycles of a branch or of a special point, in SI units."""
-    if len(branch.parameters) > 1:
-        return np.asarray(of.values[..., 1])
-    return np.asarray(getattr(of, y))
-
-
-def _refined_upward(branch: Branch, y: str) -> np.ndarray:
-    """As `_upward` of all cycles, with those of the special points at which stability may change."""
-    if len(branch.parameters) > 1:
-        return branch.refined("values")[:, 1]
-    return branch.refined(y)
-
-
 def _mark_special_points(
     ax: Axes, branch: Branch, y: str, factors: tuple[float, float]
 ) -> list[Any]:
@@ -128,7 +103,7 @@ def _mark_special_points(
         if not special:
             continue
         places = np.array([each.values[0] for each in special]) * across
-        heights = np.array([_upward(each, branch, y) * upward for each in special], float)
+        heights = np.array([upward_of(each, branch, y) * upward for each in special], float)
         text = f"{len(special)} {name}s"
         if name.startswith(NO_FURTHER):
             text = name

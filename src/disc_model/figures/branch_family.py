@@ -6,7 +6,8 @@ from weakref import WeakKeyDictionary
 
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, sample
-from disc_model.figures.family import LOOKS, Member, names_of, retitle
+from disc_model.figures.family import LOOKS, Member, names_of
+from disc_model.figures.family_titles import retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes

@@ -13,9 +13,10 @@ from disc_model.figures.campbell_names import name_peaks
 from disc_model.figures.campbell_panels import FREQUENCY, RATE, draw_panels
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import COLUMN
+from disc_model.figures.head_texts import what_case
 from disc_model.figures.named_axes import Quantities, check_free
-from disc_model.figures.sweep_choice import values_of
-from disc_model.figures.words import SPEED, what_case
+from disc_model.figures.sweep_titles import values_of
+from disc_model.figures.words import SPEED
 
 HEIGHT = 5.4  # inch, with its legend
 

@@ -10,7 +10,7 @@ from matplotlib.text import Text
 
 from disc_model.figures.case_titles import title_text
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import break_labels, set_upright
+from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, restate
@@ -18,6 +18,7 @@ from disc_model.figures.pages import Page as Page  # a page is asked for with wi
 from disc_model.figures.pages import Wishes as Wishes
 from disc_model.figures.readers_axes import page_on_axes
 from disc_model.figures.style import readers_style
+from disc_model.figures.symbols import set_upright
 
 
 @contextmanager

@@ -7,9 +7,10 @@ from weakref import WeakKeyDictionary
 from matplotlib.text import Text
 
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import in_a_row, titles_of
+from disc_model.figures.head_texts import CHARACTER, head_text
+from disc_model.figures.labels import titles_of
+from disc_model.figures.symbols import in_a_row
 from disc_model.figures.types import Axes
-from disc_model.figures.words import CHARACTER, head_text
 
 MOST_LINES = 3  # of values of a case above a picture
 SIZE = 8.0  # points

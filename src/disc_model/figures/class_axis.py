@@ -11,7 +11,8 @@ from matplotlib.lines import Line2D
 
 from disc_model.figures.drawing import is_in_data
 from disc_model.figures.types import Array, Axes
-from disc_model.figures.words import in_lines, in_order
+from disc_model.figures.value_texts import in_lines
+from disc_model.figures.words import in_order
 
 _NAMES: WeakKeyDictionary[Any, list[str]] = WeakKeyDictionary()
 """The names of classes along axes, by the locators of their ticks."""

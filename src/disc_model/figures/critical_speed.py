@@ -9,16 +9,14 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.figures.borders import curves_of, draw_curves, parts_of, passes
 from disc_model.figures.cells import edges_of, entries, paint
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.drawing import BLACK, PAPER, halo, letters, mark, mark_failed, row_of_panels
-from disc_model.figures.durations import duration_of
-from disc_model.figures.gap_rows import add_column
+from disc_model.figures.drawing import BLACK, PAPER, halo, letters, mark_failed, row_of_panels
 from disc_model.figures.kinds.maps import CriticalSpeed
 from disc_model.figures.legends import figure_legend
-from disc_model.figures.onsets import branches, speeds_of
+from disc_model.figures.onset_lines import draw_onsets, draw_without_onset
 from disc_model.figures.selection import failed
 from disc_model.figures.swept_speeds import draw_sweeps
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import LOAD, SPEED, missing_text
+from disc_model.figures.words import LOAD, SPEED
 
 CONTACT = LOOKS["growing"]._replace(
     label="oscillations grow, or another\ncycle is reached, in contact"
@@ -52,14 +50,14 @@ def draw(plot: CriticalSpeed, study: xr.Dataset, overlays: Mapping[str, xr.Datas
     if "curves" in overlays:
         handles += _curves(axes[0], overlays["curves"], cycle)
     horizon = float(study["horizon"].max())
-    _onsets(axes[0], study, horizon, f"separation begins, within {horizon:g} s")
-    _without_onset(axes[0], study, horizon)
+    draw_onsets(axes[0], study, horizon, f"separation begins, within {horizon:g} s")
+    draw_without_onset(axes[0], study, horizon)
     _paper_points(axes[0], plot.paper_points)
 
     # in sweeps
     titles = ["from the static start"]
     if sweep is not None:
-        _onsets(axes[1], study, horizon, "_nolegend_")
+        draw_onsets(axes[1], study, horizon, "_nolegend_")
         titles.append(draw_sweeps(axes[1], sweep, cycle, overlays.get("basins")))
 
     letters(axes, titles, pad=12)
@@ -130,51 +128,4 @@ def _paper_points(ax: Axes, points: Mapping[str, tuple[float, float]]) -> None:
         path_effects=halo(2.1, BLACK),
         zorder=5,
         clip_on=False,
-    )
-
-
-# ---- Onsets
-
-
-def _without_onset(ax: Axes, study: xr.Dataset, horizon: float) -> None:
-    """Mark loads at which no speed of the scan separates, beside the panel."""
-    found = speeds_of(study, horizon)
-    without = np.array([row.size == 0 for row in found], dtype=bool)
-    if not without.any():
-        return
-    reason = missing_text(study, "critical_speed").replace(" in steps", "\nin steps")
-    if not duration_of(study, "critical_speed"):
-        reason += f" within {horizon:g} s"
-    look = {"marker": "o", "ms": mark(2.4), "mec": BLACK, "mew": 0.5, "c": "white"}
-    add_column(ax, study["N"].values[without], label=reason, **look)
-
-
-def _onsets(ax: Axes, study: xr.Dataset, horizon: float, label: str) -> None:
-    """Draw onsets of separation, joined along their branches, seen on any area by black edges and
-    below the curves."""
-    loads = study["N"].values
-    speeds = speeds_of(study, horizon)
-    ends = speeds_of(study, horizon, "ends")
-    points: list[tuple[float, float]] = []
-    gap = (np.nan, np.nan)
-    for link in branches(speeds, ends):
-        points += [(link.speed, loads[link.load]), (link.ahead, loads[link.load + 1]), gap]
-    for load, row in zip(loads, speeds, strict=True):
-        for speed in row:
-            points += [(speed, load), gap]
-    outline = halo(1.3, BLACK)
-    across, up = np.reshape(points, (-1, 2)).T
-    low, high = ax.get_xlim()
-    ax.plot(
-        across,
-        up,
-        clip_on=bool(np.any((across < low) | (across > high))),  # marks at the edge stay whole
-        path_effects=outline,
-        zorder=1.9,
-        label=label,
-        c="white",
-        marker="o",
-        ms=mark(2.4),
-        mec=BLACK,
-        mew=0.5,
     )

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import xarray as xr
 
 from disc_model.figures.curve_lines import draw_lines
-from disc_model.figures.curve_marks import choose_marks
+from disc_model.figures.curve_looks import choose_marks
 from disc_model.figures.drawing import letters, row_of_panels
 from disc_model.figures.error_bars import names_errors
 from disc_model.figures.kinds.base import key_of

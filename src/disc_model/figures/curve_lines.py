@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.figures.branch_lines import THIN, Look
+from disc_model.figures.branch_lines import Look
 from disc_model.figures.class_axis import join_classes
 from disc_model.figures.curve_heights import heights_of
+from disc_model.figures.curve_looks import CROWDED, PLAIN, dashes_of, draw_dots, few_marks, looks_of
 from disc_model.figures.curve_marks import (
     fill_doubtful,
-    looks_of,
     mark_gaps,
     mark_open_steps,
     measured_along,
@@ -20,7 +20,6 @@ from disc_model.figures.curve_marks import (
     reason_of_open_steps,
 )
 from disc_model.figures.curve_scales import set_scales
-from disc_model.figures.drawing import BLACK, mark
 from disc_model.figures.error_bars import draw_errors
 from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens
 from disc_model.figures.selection import (
@@ -34,12 +33,6 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.separating_share import draw_intervals_of_lines
 from disc_model.figures.types import Array, Axes, Mask
-
-PLAIN = Look(BLACK)
-"""Look of a single line."""
-CROWDED = 30  # points of a line beyond which a mark for each would be a band of rings
-DOT = 1.5  # points, size of a mark of one of them
-MARKED = 12  # points of such a line that have a mark, about
 
 
 def draw_lines(  # noqa: PLR0913
@@ -88,7 +81,7 @@ def draw_lines(  # noqa: PLR0913
         if steps:
             pieces = opened(along, heights, steps[part.name])
         if heights.size > CROWDED:
-            look |= _few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
+            look |= few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
         [first, *_] = ax.plot(*pieces, **look)
@@ -105,11 +98,6 @@ def draw_lines(  # noqa: PLR0913
     mark_gaps(ax, study, array, x, looks)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
-
-
-def dashes_of(look: Look) -> Any:
-    """The dashes of a look; a line without gaps if it has none."""
-    return look.line(THIN).get("linestyle", "-")
 
 
 def _at_bound_by_part(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
@@ -153,20 +141,3 @@ def open_steps(
     for part, apart in of_lines:
         found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
     return found
-
-
-def _few_marks(heights: np.ndarray, *, joined: bool, alone: bool) -> dict[str, Any]:
-    """The look of the marks of many points: a line has some, and that of its greatest value; one that
-    is alone has none."""
-    if alone:
-        return {"marker": ""}
-    if not joined:
-        return {"markersize": mark(DOT)}
-    every = heights.size // MARKED
-    greatest = int(np.argmax(np.where(np.isfinite(heights), heights, -np.inf)))
-    return {"markevery": sorted({*range(0, heights.size, every), greatest})}
-
-
-def draw_dots(ax: Axes, along: np.ndarray, heights: np.ndarray, colour: Any) -> None:
-    """Draw each of many points as a dot, so that those by themselves stay visible."""
-    ax.plot(along, heights, ".", color=colour, markersize=mark(DOT))

@@ -1,18 +1,18 @@
-"""Marks of curves: their looks; those of points whose value is in doubt or at a bound, of points without a
+"""Marks of curves: those of points whose value is in doubt or at a bound, of points without a
 value, and of steps at which a line is open."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import xarray as xr
-from cmcrameri import cm
 
 from disc_model.figures.arrows import draw_arrows, has_arrows
-from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import FILLED_MARK, UNSETTLED, name_of
+from disc_model.figures.curve_looks import MARK, Looks
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
+from disc_model.figures.missing_texts import missing_text, text_below_lowest, texts_without_border
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.selection import (
     Part,
@@ -27,80 +27,12 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.settled_motions import calm_points
 from disc_model.figures.types import Array, Axes, Mask
-from disc_model.figures.words import (
-    NO_VALUE,
-    WORDS,
-    Measured,
-    measured,
-    missing_text,
-    text_below_lowest,
-    texts_without_border,
-)
+from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured
 
-MARKS = "os^Dv<>"
-"""Marks of the lines; they are open, so that lines on top of each other show."""
-MARK = 3.0  # points, size of the marks of lines,
-WIDER = 2.5  # by so much larger for each line that others cover,
-WIDEST = 8.0  # but not beyond this
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 FILLED = 1.9  # order of filled marks, just below that of lines
 MARGIN = 0.03  # share of the panel beside values
 ROOM = 0.12  # share of the panel beside its values that has room for them
-
-
-class Looks(NamedTuple):
-    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes; and the
-    number of their sweep, if other sweeps have the same looks."""
-
-    marks: Mapping[str, str]
-    colours: Mapping[str, Any]
-    sizes: Mapping[str, float]
-    sweep: int | None = None
-
-    def of(self, name: str) -> dict[str, Any]:
-        """The look of the marks of a line."""
-        shape = {"marker": self.marks[name], "markersize": self.sizes[name]}
-        return {**shape, "color": self.colours[name]}
-
-
-def looks_of(parts: Sequence[Part[xr.DataArray]], marks: dict[str, str], single: Look) -> Looks:
-    """Looks of lines, whose marks are added to those of all panels."""
-    choose_marks(marks, parts)
-    names = [part.name for part in parts]
-    colours = dict(zip(names, _colours(parts, marks, single), strict=True))
-    return Looks(marks, colours, _sizes(parts))
-
-
-def _sizes(parts: Sequence[Part[xr.DataArray]]) -> dict[str, float]:
-    """Sizes of the marks of lines: larger ones where others that are drawn later have the same values,
-    and would hide them."""
-    sizes = {}
-    covering = 0
-    for i, part in reversed([*enumerate(parts)]):
-        later = [other.data.values for other in parts[i + 1 :]]
-        if any(_coincide(part.data.values, values) for values in later):
-            covering += 1
-        sizes[part.name] = mark(min(MARK + WIDER * covering, WIDEST))
-    return sizes
-
-
-def _coincide(heights: Array, others: Array) -> bool:
-    """Whether two lines have equal values at a point."""
-    return bool(np.isclose(heights.astype(float), others.astype(float), rtol=1e-6).any())
-
-
-def choose_marks(marks: dict[str, str], parts: Sequence[Part[Any]]) -> None:
-    """Give lines that have none a mark."""
-    for part in parts:
-        marks.setdefault(part.name, MARKS[len(marks) % len(MARKS)])
-
-
-def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look) -> list[Any]:
-    """Colours of lines by the order of all that have marks; a single one has its own."""
-    if len(parts) == 1:
-        return [single.colour]
-    order = [*marks]
-    return [cm.batlow(order.index(part.name) / len(order)) for part in parts]
 
 
 def measured_along(coordinate: xr.DataArray) -> Measured:

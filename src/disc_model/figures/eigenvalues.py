@@ -8,6 +8,7 @@ import numpy as np
 
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style, limits_of
 from disc_model.figures.drawing import (
     BLACK,
     BLUE,
@@ -19,18 +20,11 @@ from disc_model.figures.drawing import (
     sample,
     wide,
 )
+from disc_model.figures.head_texts import head_text
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.names import Names
-from disc_model.figures.overlay import (
-    Lines,
-    Style,
-    case_of_result,
-    draw_case,
-    limits_of,
-    name_of_case,
-)
+from disc_model.figures.overlay import case_of_result, draw_case, name_of_case
 from disc_model.figures.types import Array, Artist, Axes, ComplexArray, Mask
-from disc_model.figures.words import head_text
 
 if TYPE_CHECKING:
     from disc_model.stability.sliding import SteadySliding

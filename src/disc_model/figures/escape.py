@@ -26,7 +26,7 @@ from disc_model.figures.kinds.motions import EscapeShares
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import failed
 from disc_model.figures.types import Array, Artist, Axes, Figure
-from disc_model.figures.words import named_value
+from disc_model.figures.value_texts import named_value
 
 COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
 STYLES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))

@@ -1,5 +1,5 @@
-"""Several cases on the same axes, such as branches or runs: their looks, their names in the legend, and
-what the title says of all.
+"""Several cases on the same axes, such as branches or runs: their looks, and their names in the
+legend.
 """
 
 import math
@@ -11,7 +11,6 @@ from disc_model.data.variables import typeset
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.figures.branch_lines import Look
-from disc_model.figures.case_titles import rewrite_case, title_text
 from disc_model.figures.disc_names import disc_name, same_disc, without_plates
 from disc_model.figures.drawing import (
     BLACK,
@@ -24,11 +23,8 @@ from disc_model.figures.drawing import (
     PURPLE,
     ROSE,
     SKY,
-    large,
 )
-from disc_model.figures.labels import without_font
-from disc_model.figures.pages import OWN, Page
-from disc_model.figures.words import stated_value, what_case
+from disc_model.figures.value_texts import stated_value
 from disc_model.parameters import RATIOS
 
 LOOKS = (
@@ -109,7 +105,7 @@ def _given_name(member: Member, family: Sequence[Member]) -> str:
 def _what_differs(member: Member, family: Sequence[Member]) -> str:
     """What sets a member apart from others on its axes: values of its case, and how many releases
     a period of its cycles has; "" if nothing does."""
-    common = _common_values(family)
+    common = common_values(family)
     said = []
     values = _without_ratios(member, family)
     for name in sorted(
@@ -134,31 +130,7 @@ def _discs_of(family: Sequence[Member]) -> list[Any]:
     return [each.values.get(DISC) for each in family]
 
 
-def retitle(page: Page, family: Sequence[Member], first: str = "") -> None:
-    """Let the title say what all members have in common, unless the reader has given another.
-
-    first : what it says of the first alone, if this is more than its values
-    """
-    page.case = _said_of_all(family)
-    rewrite_case(page.ax, page.case)
-    figure = page.figure
-    width = float(figure.get_size_inches()[0])
-    before = family[:-1]
-    said = _said_of_all(before)
-    if first and len(before) == 1:
-        said = first
-    former = title_text(width, said)
-    if figure.get_gid() == OWN and without_font(figure.get_suptitle()) == former:
-        said = title_text(width, page.case)
-        figure.suptitle(said, fontsize=large(8))
-
-
-def _said_of_all(family: Sequence[Member]) -> str:
-    """What a title says of all members."""
-    return what_case(_common_values(family), family[0].selected)
-
-
-def _common_values(family: Sequence[Member]) -> dict[str, Any]:
+def common_values(family: Sequence[Member]) -> dict[str, Any]:
     """The values that the cases of all members have in common."""
     first, *others = (_without_ratios(each, family) for each in family)
     common = {}

@@ -23,7 +23,7 @@ from disc_model.figures.drawing import (
 from disc_model.figures.fitted_values import fitted_text
 from disc_model.figures.named_axes import Quantities, check_free
 from disc_model.figures.types import Axes
-from disc_model.figures.words import stated_value
+from disc_model.figures.value_texts import stated_value
 
 if TYPE_CHECKING:
     from disc_model.fitting.result import Fit

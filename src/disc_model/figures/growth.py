@@ -13,9 +13,10 @@ from disc_model.figures.cells import are_ordered, edges_of, entries, lay_over, p
 from disc_model.figures.classes import DOUBTS, LOOKS, STABLE, UNRESOLVED, Look
 from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.colours import ROUNDING, draw_bar, growth_colours, growth_norm
+from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.selection import classes_of_gaps, doubts, has_values, statuses_like
 from disc_model.figures.types import Artist, Axes, FigureBase, Mask, Words
-from disc_model.figures.words import NO_VALUE, label_of, missing_text
+from disc_model.figures.words import NO_VALUE, label_of
 
 NEGATIVE = "negative"
 NEUTRAL = "neutral"

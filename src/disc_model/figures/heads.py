@@ -4,11 +4,13 @@ import json
 
 import xarray as xr
 
+from disc_model.figures.head_texts import what_case
 from disc_model.figures.kinds import NORM, General, Plot
-from disc_model.figures.runs import with_ramps
 from disc_model.figures.selection import normalizations, picked
+from disc_model.figures.stated_case import with_ramps
+from disc_model.figures.value_texts import named_value
 from disc_model.figures.varied_discs import varied_numbers, with_frequencies
-from disc_model.figures.words import MODES, named_value, what_case
+from disc_model.figures.words import MODES
 
 
 def values_of_case(case: xr.DataTree) -> str:

@@ -9,29 +9,13 @@ import xarray as xr
 
 from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style, limits_of
 from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import (
-    Case,
-    Lines,
-    Style,
-    draw_case,
-    is_beside,
-    limits_of,
-    name_of_case,
-)
-from disc_model.figures.runs import (
-    TIME,
-    end_of_ranges,
-    ramps_of,
-    sampled,
-    show,
-    spans_in,
-    stated,
-    told_apart,
-    window_of,
-)
+from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
+from disc_model.figures.runs import TIME, end_of_ranges, sampled, show, spans_in, window_of
 from disc_model.figures.shades import shade_phases, shade_ramps
+from disc_model.figures.stated_case import ramps_of, stated, told_apart
 from disc_model.figures.types import Artist, Axes
 
 LINE = 0.8  # points, width of the lines of several runs,

@@ -12,10 +12,10 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 
 from disc_model.figures.covered import covers, other_legends, twins_of
+from disc_model.figures.head_texts import CHARACTER
 from disc_model.figures.legend_samples import draw_legend
 from disc_model.figures.places import set_places
 from disc_model.figures.types import Artist, Axes, FigureBase, Legend
-from disc_model.figures.words import CHARACTER
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
 NARROWEST = 12  # characters to which a name is broken at most

@@ -7,10 +7,10 @@ import numpy as np
 
 from disc_model.figures.classes import AT_BOUND, DOUBTS, FILLED_MARK
 from disc_model.figures.drawing import BLACK, large, say_beside
+from disc_model.figures.head_texts import CHARACTER
 from disc_model.figures.legends import figure_legend, keep_share, small
 from disc_model.figures.separating_share import names_interval
 from disc_model.figures.types import Artist, Axes, Figure
-from disc_model.figures.words import CHARACTER
 
 MOST_BESIDE = 4  # names of lines from which the legend stands beside the panel
 MANY = 8  # names of lines in a legend beyond which their text is smaller

@@ -7,16 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.figures.canvas import Page, Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style, limits_of
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, SEPARATED, mark, sample, wide
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import (
-    Lines,
-    Style,
-    case_of_result,
-    draw_case,
-    limits_of,
-    name_of_case,
-)
+from disc_model.figures.overlay import case_of_result, draw_case, name_of_case
 from disc_model.figures.types import Artist, Axes, ComplexArray
 
 if TYPE_CHECKING:

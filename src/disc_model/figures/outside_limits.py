@@ -8,7 +8,7 @@ from matplotlib.lines import Line2D
 
 from disc_model.figures.drawing import is_in_data
 from disc_model.figures.types import Axes
-from disc_model.figures.words import LONGEST_NAME
+from disc_model.figures.value_texts import LONGEST_NAME
 
 ALL = "all values"  # of a single line, which has no name
 NOTE = "outside the limits"

@@ -1,5 +1,4 @@
-"""Several cases in pictures of one kind on the same axes: their looks, limits, and what the legend calls
-them.
+"""Several cases in pictures of one kind on the same axes: their limits, and what the legend calls them.
 
 A case alone has the colours and marks of its picture. Beside others it is one line, or one kind of
 marks, in a look of its own: phases, first separations and frequencies beside peaks are not shown.
@@ -7,96 +6,25 @@ marks, in a look of its own: phases, first separations and frequencies beside pe
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import WeakKeyDictionary, ref
 
-import numpy as np
-
-from disc_model.figures.branch_lines import Look
+from disc_model.figures.case_lines import Lines, Style, limits_around
 from disc_model.figures.common_stretch import stretch_shown
-from disc_model.figures.drawing import mark, wide
-from disc_model.figures.family import LOOKS, Member, name_in, names_of, retitle
-from disc_model.figures.labels import in_a_row
+from disc_model.figures.family import Member, name_in, names_of
+from disc_model.figures.family_titles import retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
-from disc_model.figures.runs import stated, stated_values
+from disc_model.figures.stated_case import stated, stated_values
+from disc_model.figures.symbols import in_a_row
 from disc_model.figures.twin_colours import shown_beside, tell_axes_apart
-from disc_model.figures.types import Array, Artist, Axes
+from disc_model.figures.types import Artist, Axes
 from disc_model.parameters import Parameters
 
 NAME = "case"
 """The label by which a reader names a case."""
-MARKERS = "osD^vP"
 OF_ONE_COLOUR = ("run", "spectrum")
 """Kinds of pictures in which a case alone has one line in a colour of its variable."""
-THIN = 0.6
-"""Width of the first of whole lines that lie on each other, points."""
-WIDEST = 3.8
-"""And of the last one, if its edge shows beside the others then."""
-EDGES = (0.7, 1.2)
-"""Least and greatest difference of the widths of one such line and the next, points."""
-Limits = tuple[tuple[float, float], tuple[float, float]]
-"""Of the horizontal and of the vertical axis."""
-
-
-class Style(NamedTuple):
-    """What sets a case apart from others, by its place in their order: colour and dashes of a line, or
-    colour and shape of marks.
-
-    cases : how many there are
-    from_end : whether time is counted from the end of each, and is negative
-    """
-
-    place: int
-    cases: int = 1
-    from_end: bool = False
-
-    @property
-    def look(self) -> Look:
-        """Colour and dashes."""
-        return LOOKS[self.place % len(LOOKS)]
-
-    @property
-    def edge(self) -> float:
-        """By how much each whole line is wider than the one before, points."""
-        least, greatest = EDGES
-        alike = (WIDEST - THIN) / max(self.cases - 1, 1)
-        return max(least, min(greatest, alike))
-
-    def layered(self) -> dict[str, Any]:
-        """Options of a whole line that is wider than the one before, and below it: dashes of lines
-        that go to and fro, or around, would fill their own gaps."""
-        return {
-            "color": self.look.colour,
-            "linewidth": wide(THIN + self.place * self.edge),
-            "zorder": 2 - 0.01 * self.place,
-            "solid_capstyle": "butt",  # a wide sample of a legend would reach its name
-        }
-
-    def marks(self, points: float) -> dict[str, Any]:
-        """Options of open marks of a size in points: those below others show."""
-        return {
-            "linestyle": "",
-            "marker": MARKERS[self.place % len(MARKERS)],
-            "color": self.look.colour,
-            "markerfacecolor": "none",
-            "markersize": mark(points),
-        }
-
-
-class Lines(NamedTuple):
-    """How a case is drawn beside others in one panel.
-
-    draw : draws it on axes in a style; returns its entry of a legend, which has no label yet
-    limits : of the axes that show it
-    what : the name of what is drawn, if axes can show several in one unit
-    stretch : begin and end of the samples in time, s; None of what is not sampled over time, or whole
-    """
-
-    draw: Callable[[Axes, Style], Artist]
-    limits: Limits
-    what: str = ""
-    stretch: tuple[float, float] | None = None
 
 
 @dataclass
@@ -136,14 +64,6 @@ class Panel:
 
 _PANELS: WeakKeyDictionary[Axes, list[Panel]] = WeakKeyDictionary()
 """The cases that axes show."""
-
-
-def limits_of(values: Array, share: float) -> tuple[float, float]:
-    """Limits that leave a share of the values' range free on both sides."""
-    low = float(np.nanmin(values))
-    high = float(np.nanmax(values))
-    room = share * (high - low) or 1e-6 * max(abs(high), 1e-6)
-    return low - room, high + room
 
 
 def case_of_result(
@@ -250,10 +170,9 @@ def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
         before = {id(artist) for artist in ax.get_children()}
         handles.append(panel.lines.draw(ax, Style(panel.case.place, count, shown.from_end)))
         panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
-    ends = np.array(limits)
-    across = shown.limits or (ends[:, 0].min(), ends[:, 0].max())
-    ax.set_xlim(across)
-    ax.set_ylim(ends[:, 1].min(), ends[:, 1].max())
+    across, up = limits_around(limits)
+    ax.set_xlim(shown.limits or across)
+    ax.set_ylim(up)
     return handles
 
 

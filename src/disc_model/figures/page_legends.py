@@ -7,7 +7,7 @@ from typing import Any
 from disc_model.errors import Fault, ParameterError
 from disc_model.figures.covered import twins_of
 from disc_model.figures.entries import keep_entries
-from disc_model.figures.labels import is_square, without_font
+from disc_model.figures.labels import is_square
 from disc_model.figures.legends import (
     figure_legend,
     keep_share,
@@ -17,6 +17,7 @@ from disc_model.figures.legends import (
     small,
 )
 from disc_model.figures.pages import OWN, Page, Wishes
+from disc_model.figures.symbols import without_font
 from disc_model.figures.types import Artist, Axes
 
 MANY = 8  # entries of a legend of a new figure beyond which their text is smaller

@@ -11,9 +11,9 @@ from matplotlib.legend import Legend
 from disc_model.errors import require, suggestion
 from disc_model.figures.case_titles import write_case
 from disc_model.figures.drawing import large
-from disc_model.figures.labels import without_font
 from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
+from disc_model.figures.symbols import without_font
 from disc_model.figures.types import Artist, Axes
 
 Place = Literal["inside", "beside", "below"]

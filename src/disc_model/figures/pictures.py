@@ -37,26 +37,15 @@ def plot_sweep(  # noqa: PLR0913
 
     Where one of two dimensions has three values or fewer, each of these has a line. Where a variable has
     several values at each point, such as the samples of `bifurcation` or an array that a function of
-    your own returns, all are points over what varies, as in a bifurcation diagram. Rings there are of
-    motions that had not settled, grey or in the colour of their sweep. Lyapunov exponents have bars of their
-    standard errors.
+    your own returns, all are points over what varies, as in a bifurcation diagram. Values that vary together,
+    such as paired samples, are points over one of their columns, which may be that of their names. A second
+    dimension of words or of discs, such as the direction of a sweep, gives a line for each. What starts come to
+    is drawn as bars of their shares, at each energy or along a parameter. An axis is logarithmic if three or more
+    positive values span a decade or more and have equal ratios within 1e-6, as those of `numpy.geomspace`.
 
-    Values that vary together, such as paired samples, are points over one of their columns, which may be that
-    of their names. A second dimension of words or of discs, such as the direction of a sweep, gives a line for
-    each. What starts come to is drawn as bars of their shares, at each energy or along a parameter. A hatched
-    cell is "unresolved": its value is right, but the grid misses what lies between. In a map of growth rates,
-    all neighbours differ from it by a tenth of the scale or more; in one of outcomes, its neighbours at the
-    left and right or above and below have one other outcome, or none of the eight around it has its own. An
-    undecided cell is never hatched. A line of growth rates of cycles is open, which marks above the panel say,
-    between neighbours that differ by 0.09/s or more if both are small, or by a factor of 2.4 if both are large,
-    or where it goes back further than it has come on either side: the next point may be of another cycle, or
-    the rate is steep. A line that is not open may join different cycles as well; finer steps show them. Marks
-    on a grey strip above the panel are of points without a value; no line leads to a value that is the lower
-    bound of its search. Filled marks, and hatched cells of a map, are of a sweep of the speed whose motion had
-    not settled, of a range or share of `outcome` late in a motion that still grows or is undecided, of an
-    exponent that has not converged, or of an unstable cycle where the motion from the static start is not near,
-    as the legend says. An axis is logarithmic if three or more positive values span a decade or more and have
-    equal ratios within 1e-6, as those of `numpy.geomspace`.
+    Rings, filled marks and hatched cells are of values in doubt. A line of growth rates of cycles is open where
+    the next point may be of another cycle. Marks on a grey strip above the panel are of points without a value.
+    "What marks say" in the page "Compute many cases at once" of the documentation has the rules.
 
     Parameters
     ----------

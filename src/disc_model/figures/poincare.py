@@ -9,11 +9,13 @@ from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style
 from disc_model.figures.drawing import BLACK, GREY, PAGE, SEPARATED, SKY, sample
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, name_of_case
-from disc_model.figures.runs import sampled, show_thickness, stated, told_apart
+from disc_model.figures.overlay import Case, draw_case, name_of_case
+from disc_model.figures.runs import sampled, show_thickness
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
+from disc_model.figures.stated_case import stated, told_apart
 from disc_model.figures.types import Array, Artist, Axes, Mask
 
 HOLLOW = {"s": 8, "linewidths": 0.5}

@@ -7,11 +7,10 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.display import counted
-from disc_model.figures.bifurcation import MARKS, UNDECIDED, rings_of
+from disc_model.figures.bifurcation_samples import MARKS, UNDECIDED, rings_of
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import NOT_CONVERGED
-from disc_model.figures.curve_lines import DOT
-from disc_model.figures.curve_marks import MARK
+from disc_model.figures.curve_looks import DOT, MARK
 from disc_model.figures.drawing import BLACK, mark
 from disc_model.figures.sections import names_of_events
 from disc_model.figures.selection import not_converged

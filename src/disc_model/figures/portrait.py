@@ -7,10 +7,12 @@ import xarray as xr
 
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.case_lines import Lines, Style, limits_of
 from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, sample, wide
 from disc_model.figures.named_axes import Quantities
-from disc_model.figures.overlay import Case, Lines, Style, draw_case, limits_of, name_of_case
-from disc_model.figures.runs import sampled, stated, told_apart, window_of
+from disc_model.figures.overlay import Case, draw_case, name_of_case
+from disc_model.figures.runs import sampled, window_of
+from disc_model.figures.stated_case import stated, told_apart
 from disc_model.figures.types import Artist, Axes
 
 LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}

@@ -5,15 +5,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from typing import Any
 
-from matplotlib.text import Text
-
 from disc_model.figures.gap_rows import allow_small_rows
-from disc_model.figures.labels import break_labels, set_upright
+from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import LEAST_CURVE, keep_height
+from disc_model.figures.own_symbols import set_symbols
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
 from disc_model.figures.placing import check_room, stack_narrow
-from disc_model.figures.room import make_room, set_own_upright
+from disc_model.figures.room import make_room
 from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.small_panels import remember_sides, warn_of_small_panels
 from disc_model.figures.style import readers_style
@@ -49,9 +48,7 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
         clear_repeated(page.axes)
         if figure.get_gid() == OWN:
             keep_height(figure, page.axes, LEAST_CURVE)
-            set_upright(figure.findobj(Text))
-        else:
-            set_own_upright(figure)
+        set_symbols(figure)
     warn_of_small_panels(figure)
 
 

@@ -6,7 +6,8 @@ import xarray as xr
 
 from disc_model.figures.sweep_options import COMPARED, option_text
 from disc_model.figures.swept_lists import name_of_list
-from disc_model.figures.words import known_name, label_in, named_value, symbol_of, value_text
+from disc_model.figures.value_texts import named_value, symbol_of, value_text
+from disc_model.figures.words import known_name, label_in
 from disc_model.parameters import RATIOS, Parameters
 
 DIRECTIONS = {"up": "on the way up", "down": "on the way down"}

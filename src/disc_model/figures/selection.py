@@ -21,16 +21,8 @@ from disc_model.figures.classes import (
 from disc_model.figures.kinds.base import NORM, key_of
 from disc_model.figures.types import Array, Mask, Words
 from disc_model.figures.unknown_starts import class_of_starts, rest_on_unknown
-from disc_model.figures.words import (
-    INFINITE,
-    MINUS_INFINITE,
-    NO_VALUE,
-    VANISHING,
-    WORDS,
-    named_value,
-    rank_of,
-    value_text,
-)
+from disc_model.figures.value_texts import named_value, rank_of, value_text
+from disc_model.figures.words import INFINITE, MINUS_INFINITE, NO_VALUE, VANISHING, WORDS
 
 WITHOUT_CYCLE = (
     "no_cycle",

@@ -19,7 +19,7 @@ from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, row_of_panels, s
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
 from disc_model.figures.types import Array, Axes, Figure
-from disc_model.figures.words import named_value
+from disc_model.figures.value_texts import named_value
 
 BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distribution
 ASIDE = 0.12  # of a row, by which both ends of a parameter lie above and below it

@@ -8,7 +8,7 @@ from matplotlib.patches import Patch
 
 from disc_model.data.variables import PHASES, SHOWN
 from disc_model.figures.drawing import GREY, PHASE_COLOURS, wide
-from disc_model.figures.runs import Course
+from disc_model.figures.stated_case import Course
 from disc_model.figures.types import Artist, Axes
 
 MOST_SHADED = 60

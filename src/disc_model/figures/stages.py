@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis.classify import FEWEST, first_settled, settling, stages
-from disc_model.figures.runs import parameters_of
+from disc_model.figures.stated_case import parameters_of
 from disc_model.figures.types import Array, Mask
 
 STAGES = ("early", "later", "separated")

@@ -8,37 +8,23 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.colour_maps import draw_maps
 from disc_model.figures.colour_wishes import ColourWishes, are_limits, is_colormap
 from disc_model.figures.covered import twins_of
 from disc_model.figures.curve_scales import number_whole
 from disc_model.figures.drawing import COLUMN
-from disc_model.figures.durations import horizon_text
 from disc_model.figures.gap_rows import name_rows
 from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.outside_limits import note_outside, remove_note, words_of_note
 from disc_model.figures.rate_scale import set_limits
 from disc_model.figures.selected import selected_of
-from disc_model.figures.separating_share import (
-    draw_interval,
-    entries_of_interval,
-    interval_of,
-    share_of_starts,
-)
-from disc_model.figures.sweep_choice import (
-    SHARES,
-    Drawn,
-    choose_drawn,
-    said_of,
-    title_of,
-    values_of,
-)
+from disc_model.figures.sweep_bars import draw_bars
+from disc_model.figures.sweep_choice import SHARES, Drawn, choose_drawn
 from disc_model.figures.sweep_drawn import draw_each
+from disc_model.figures.sweep_family import join_lines
 from disc_model.figures.sweep_lines import (
     Lines,
-    join_lines,
     lines_beside,
     lines_of,
     lines_on,
@@ -47,15 +33,14 @@ from disc_model.figures.sweep_lines import (
 )
 from disc_model.figures.sweep_options import options_of, set_options
 from disc_model.figures.sweep_parts import parts_beside
+from disc_model.figures.sweep_titles import said_of, title_of, values_of
 from disc_model.figures.truths import are_of_classes, as_classes
-from disc_model.figures.types import Artist, Axes
-from disc_model.figures.words import are_counts, label_in, label_of, measured
+from disc_model.figures.types import Axes
+from disc_model.figures.words import are_counts, label_in, label_of
 
 OUTCOMES = "Outcome of starts"  # what the colours of bars show
 ALONE = "must be left out beside lines, or the colours of a map"
 MOST_CLASSES = 20  # different words that the colours and patterns of a map tell apart
-UNEVEN = 3.0  # ratio of steps between bars beyond which they stand equally far apart
-MOST_ENERGIES = 5  # of kicks that an axis names each
 
 
 def plot_sweep(  # noqa: PLR0913
@@ -74,19 +59,15 @@ def plot_sweep(  # noqa: PLR0913
     title: str | bool | None = None,
 ) -> Axes:
     """Draw a sweep or a grid study, as `disc_model.plot_sweep` describes."""
-    variables: list[Any] = [variable]
-    if isinstance(variable, list | tuple) and variable:
-        variables = [*variable]
-    names = all(isinstance(each, str | None) for each in variables)
-    beside = lines is False or (isinstance(lines, str) and lines != "") or cmap is not None
-    is_named = lines is False or isinstance(lines, str | None)
+    variables = _listed(variable)
+    is_named = lines is False or _are_names([lines])
     require(
         (isinstance(study, xr.Dataset), "study", study, "must be an xarray.Dataset"),
-        (names, "variable", variable, "must be a name, or a list of names"),
-        (isinstance(x, str | None), "x", x, "must be a name"),
+        (_are_names(variables), "variable", variable, "must be a name, or a list of names"),
+        (_are_names([x]), "x", x, "must be a name"),
         (is_named, "lines", lines, "must be a name, or False for a map"),
         (isinstance(points, bool), "points", points, "must be True or False"),
-        (points is not True or not beside, "points", points, ALONE),
+        (points is not True or not _asks_for_lines_or_map(lines, cmap), "points", points, ALONE),
         (isinstance(log, bool | None), "log", log, "must be True or False"),
         (is_colormap(cmap), "cmap", cmap, "must be a colour map of matplotlib, or its name"),
         (are_limits(limits), "limits", limits, "must be two ascending numbers"),
@@ -94,9 +75,8 @@ def plot_sweep(  # noqa: PLR0913
     if parts := parts_beside(study, variable, x, lines):  # type: ignore[arg-type]  # checked
         looks = {"log": log, "limits": limits, "legend": legend, "labels": labels, "title": title}
         return _plot_parts(parts, variable, x, ax, cmap=cmap, **looks)
-    asked = lines or ""
-    as_map = lines is False or (cmap is not None and not lines)  # lines have no map of colours
-    varying, drawn = choose_drawn(study, variables, x, None if as_map else asked, points=points)  # type: ignore[arg-type]  # checked
+    asked = None if _asks_for_map(lines, cmap) else lines or ""
+    varying, drawn = choose_drawn(study, variables, x, asked, points=points)  # type: ignore[arg-type]  # checked
     for each in drawn:
         require((lines is not False or each.mapped, "lines", lines, _rule_of_maps(each)))
     called, labels = names_asked(labels, [each.variable for each in drawn])
@@ -108,6 +88,29 @@ def plot_sweep(  # noqa: PLR0913
             _draw(page, varying, each, colours, called.get(each.variable, ""), selected)
             page.remember()  # the next variable joins this one
     return page.ax
+
+
+def _listed(variable: Any) -> list[Any]:
+    """The variables that are asked for, one or several, as a list."""
+    if isinstance(variable, list | tuple) and variable:
+        return [*variable]
+    return [variable]
+
+
+def _are_names(values: Sequence[Any]) -> bool:
+    """Whether all of these are names, or None for the usual ones."""
+    return all(isinstance(value, str | None) for value in values)
+
+
+def _asks_for_map(lines: Any, cmap: Any) -> bool:
+    """Whether a map is asked for: lines have no map of colours."""
+    return lines is False or (cmap is not None and not lines)
+
+
+def _asks_for_lines_or_map(lines: Any, cmap: Any) -> bool:
+    """Whether a dimension of lines is asked for, or a map."""
+    by_name = isinstance(lines, str) and lines != ""
+    return by_name or lines is False or cmap is not None
 
 
 def _plot_parts(parts: Sequence[xr.Dataset], variable: Any, x: str, ax: Any, **looks: Any) -> Axes:
@@ -139,7 +142,7 @@ def _draw(
         wishes.refuse()
         page.show(Quantities(across, label_of(study[drawn.variable])[0], OUTCOMES))
         refuse_beside_areas(page.axes, "bars")
-        page.explain(_draw_bars(page.ax, study, drawn), beside="below")
+        page.explain(draw_bars(page.ax, study, drawn), beside="below")
     elif not drawn.mapped:
         if are_of_classes(as_classes(study, drawn.variable)):
             wishes.refuse_of_classes()
@@ -206,43 +209,3 @@ def _say_what_is_outside(page: Page, limits: tuple[float, float]) -> None:
     page.replaced = [*page.replaced, *words_of_note(page.ax)]  # a legend is written more than once
     axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
     page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
-
-
-def _energies_of(study: xr.Dataset, drawn: Drawn) -> str:
-    """With what energies all starts of a share were kicked, in words; "" if the bars tell it."""
-    if "energy" not in study.coords or drawn.across == "energy":
-        return ""
-    energies = [f"{energy:g}" for energy in np.atleast_1d(study["energy"].values)]
-    if len(energies) > MOST_ENERGIES:
-        energies = [energies[0], "...", energies[-1]]
-    return f",\nkicked with {', '.join(energies)} J"
-
-
-def are_apart(values: Any, across: str) -> bool:
-    """Whether bars stand equally far apart, as those of energies, of which one may be 0, of words, and of
-    numbers at which true distances would make bars hairlines."""
-    if across == "energy" or values.dtype.kind in "UO":
-        return True
-    steps = np.diff(values)
-    return bool(steps.max(initial=0.0) > UNEVEN * steps.min(initial=np.inf))
-
-
-def _draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
-    """Draw the shares of starts as bars; returns entries of a legend."""
-    shares = shares_of(study, drawn.variable)
-    classes = outcomes_in(shares)
-    across = measured(study[drawn.across])
-    places = across.values
-    if are_apart(places, drawn.across):
-        places = np.arange(places.size)
-    draw_shares(ax, shares, classes, places)
-    draw_interval(ax, interval_of(study, drawn.variable), classes, places)
-    if places is not across.values:
-        texts = [each if isinstance(each, str) else f"{each:g}" for each in across.values]
-        ax.set_xticks(places, texts)
-    ax.set_xlabel(across.label)
-    ax.set_ylabel(share_of_starts(study, drawn.variable) + _energies_of(study, drawn))
-    ax.set_xmargin(0.04)
-    within = horizon_text(study) or "the horizon"
-    handles = entries_of(classes, f"undecided within {within}: raise horizon")
-    return handles + entries_of_interval(study, drawn.variable, classes)

@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_lines import draw_lines
-from disc_model.figures.curve_marks import MARKS
+from disc_model.figures.curve_looks import MARKS
 from disc_model.figures.curve_points import draw_points
 from disc_model.figures.curve_samples import MOST_NAMED, draw_samples
 from disc_model.figures.family import LOOKS

@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.family import LOOKS
 from disc_model.figures.selection import without_single
-from disc_model.figures.sweep_choice import only_counts
+from disc_model.figures.sweep_dimensions import only_counts
 
 
 def parts_beside(study: xr.Dataset, variable: Any, x: str, lines: Any) -> list[xr.Dataset]:
@@ -23,8 +23,19 @@ def parts_beside(study: xr.Dataset, variable: Any, x: str, lines: Any) -> list[x
     points = [dim for dim in dims if not only_counts(study, dim)]
     if len(dims) != 3 or len(points) != 2:
         return []
-    fewer = min(points, key=lambda dim: study.sizes[dim])
-    by = lines or next((dim for dim in points if x in points and dim != x), fewer)
-    if by not in points or by == x or study.sizes[by] > len(LOOKS):
+    by = _dimension_of_parts(study, points, x, lines)
+    if not by:
         return []
     return [study.isel({by: place}) for place in range(study.sizes[by])]
+
+
+def _dimension_of_parts(study: xr.Dataset, points: list[str], x: str, lines: Any) -> str:
+    """The one of two dimensions along which the parts lie: the one asked for, or else the one that is
+    not `x`, or that of fewer values; "" if it is not one of these, or has more values than there are
+    looks."""
+    by = lines or min(points, key=lambda dim: study.sizes[dim])
+    if not lines and x in points:
+        [by] = [dim for dim in points if dim != x]
+    if by not in points or by == x or study.sizes[by] > len(LOOKS):
+        return ""
+    return str(by)

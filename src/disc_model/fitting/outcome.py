@@ -1,7 +1,7 @@
 """What the search of a fit has come to, and the fit that follows from it."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -32,6 +32,17 @@ class Outcome(NamedTuple):
     least: float = math.inf
 
 
+class Intervals(NamedTuple):
+    """Lower and upper ends of the intervals of parameters, (n,), nan where they are not known; and of
+    each parameter that has some, the ends at which a measured quantity does not exist, and those at
+    which there is no case."""
+
+    low: Array
+    high: Array
+    unpredicted: dict[str, tuple[float, ...]]
+    outside: dict[str, tuple[float, ...]]
+
+
 def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
     """Return the fit at the end of a search."""
     from scipy import stats
@@ -45,33 +56,15 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
     fitted = end.x * problem.scale
     deviation = np.sqrt(np.diag(covariance))
     reach = float(stats.norm.ppf((1 + confidence) / 2)) * deviation
-    low = fitted - reach
-    high = fitted + reach
     at_bounds, passed, reached = bounds_within(problem, fitted, deviation, reach, limits)
     if at_bounds:  # what holds one of them moves the others
         indistinct = ()
         determined = {}
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
-    unpredicted: dict[str, tuple[float, ...]] = {}
-    outside: dict[str, tuple[float, ...]] = {}
-    for i, name in enumerate(names):
-        if name in indistinct or name in at_bounds:
-            deviation[i] = low[i] = high[i] = np.nan
-            continue
-        for bound in passed.get(name, ()):
-            beyond = low if bound < fitted[i] else high
-            beyond[i] = np.nan
-        # the others change with it as the covariance says
-        move = reach[i] * covariance[:, i] / covariance[i, i]
-        gone, beyond_cases = _lost_ends(problem, fitted, move, [float(low[i]), float(high[i])])
-        if gone:
-            unpredicted[name] = gone
-        if beyond_cases:
-            outside[name] = beyond_cases
-        lost = [*gone, *beyond_cases]
-        low[i] = np.nan if low[i] in lost else low[i]
-        high[i] = np.nan if high[i] in lost else high[i]
-    rows = np.stack([fitted, deviation, low, high], axis=1).tolist()
+    unknown = {*indistinct, *at_bounds}
+    intervals = _intervals_of(problem, fitted, reach, covariance, unknown, passed)
+    deviation[[name in unknown for name in names]] = np.nan
+    rows = np.stack([fitted, deviation, intervals.low, intervals.high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
     case = problem.case.replace(**{name: each.value for name, each in parameters.items()})
     computed = problem.predictions(fitted)
@@ -90,8 +83,8 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
         message=_why_ended(outcome),
         indistinct=indistinct,
         determined=determined,
-        unpredicted=unpredicted,
-        outside=outside,
+        unpredicted=intervals.unpredicted,
+        outside=intervals.outside,
         at_bounds=at_bounds,
         reached=reached,
         passed_bounds=passed,
@@ -99,6 +92,43 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
         unstable=unstable,
         elsewhere=problem.elsewhere(fitted, unstable),
     )
+
+
+def _intervals_of(
+    problem: Problem,
+    fitted: Array,
+    reach: Array,
+    covariance: Array,
+    unknown: Collection[str],
+    passed: Mapping[str, Sequence[float]],
+) -> Intervals:
+    """Return the intervals of the parameters.
+
+    reach : from a value to the ends of its interval, (n,)
+    unknown : parameters without an interval
+    passed : bounds beyond which an interval would go, by its parameter
+    """
+    ends = Intervals(fitted - reach, fitted + reach, {}, {})
+    for i, name in enumerate(problem.names):
+        if name in unknown:
+            ends.low[i] = np.nan
+            ends.high[i] = np.nan
+            continue
+        for bound in passed.get(name, ()):
+            beyond = ends.low if bound < fitted[i] else ends.high
+            beyond[i] = np.nan
+        # the others change with it as the covariance says
+        move = reach[i] * covariance[:, i] / covariance[i, i]
+        own = [float(ends.low[i]), float(ends.high[i])]
+        gone, beyond_cases = _lost_ends(problem, fitted, move, own)
+        if gone:
+            ends.unpredicted[name] = gone
+        if beyond_cases:
+            ends.outside[name] = beyond_cases
+        for end in (ends.low, ends.high):
+            if end[i] in (*gone, *beyond_cases):
+                end[i] = np.nan
+    return ends
 
 
 def _lost_ends(

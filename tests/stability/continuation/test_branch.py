@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation.branch import LABELS, Branch, SpecialPoint
+from disc_model.stability.continuation.branch import Branch
+from disc_model.stability.continuation.special_kinds import LABELS
+from disc_model.stability.continuation.special_point import SpecialPoint
 from tests.refusals import refusal
 
 P = Parameters(N=385, Omega=15)

@@ -11,9 +11,10 @@ from disc_model.data import dataset
 from disc_model.disc.modes import plate_modes
 from disc_model.figures.drawing import BLACK, PAGE, SKY, letter, mark_printed, new_figure, say, wide
 from disc_model.figures.kinds.base import HIGHEST
-from disc_model.figures.runs import parameters_of, sampled, show, show_thickness
+from disc_model.figures.runs import sampled, show, show_thickness
 from disc_model.figures.selection import history
 from disc_model.figures.spectrogram import draw_power, draw_scale, span_of, spectrum_of
+from disc_model.figures.stated_case import parameters_of
 from disc_model.figures.types import Axes, Figure
 from disc_model.paper.figures.kinds import LOOK, Response
 

@@ -16,11 +16,12 @@ it is asked, and `found` makes a `Branch` of the result.
 
 from disc_model.stability.continuation.arguments import free_faults, interval_in_si
 from disc_model.stability.continuation.borders import BORDER, Kind, continue_border
-from disc_model.stability.continuation.branch import Branch, SpecialPoint
+from disc_model.stability.continuation.branch import Branch
 from disc_model.stability.continuation.course import UNLOCATED
 from disc_model.stability.continuation.curve import StepControl
 from disc_model.stability.continuation.cycles import continue_cycle
 from disc_model.stability.continuation.problem import CycleProblem
+from disc_model.stability.continuation.special_point import SpecialPoint
 
 __all__ = [
     "BORDER",

@@ -1,4 +1,5 @@
-"""What is asked of a continuation: the free parameters, their bounds and values, in SI units."""
+"""What is asked of a continuation: the free parameters, their bounds and values, in SI units, and where
+to stop."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -9,10 +10,13 @@ from disc_model.errors import Fault, raise_faults, require, suggestion, violatio
 from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
+from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
 from disc_model.units import in_si, is_number, is_quantity, number
 
 UNSET = ("damping_ratio",)  # numbers that are None in a case without them
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
+STOPS = f"must be None, or one or several of {', '.join(CHANGES)}, or of their labels"
+"""The rule of the special points at which a branch shall stop."""
 
 
 def free_faults(p: Parameters, names: Sequence[Any]) -> list[str]:
@@ -123,3 +127,17 @@ def _check_within(
         (least <= start <= greatest, name, start, f"{rule}, to start from there"),
         (not outside, "values", next(iter(outside), None), rule),
     )
+
+
+def stop_kinds(stop_at: object) -> frozenset[str] | None:
+    """The kinds of special points, given by kinds or labels, at which a branch shall stop; None if
+    there is another one among them, or none."""
+    if stop_at is None:
+        return frozenset()
+    known = {kind: kind for kind in CHANGES} | {LABELS[kind]: kind for kind in CHANGES}
+    given = [stop_at] if isinstance(stop_at, str) else stop_at
+    if not isinstance(given, Sequence) or not all(isinstance(x, str) for x in given):
+        return None
+    if not given or not known.keys() >= set(given):
+        return None
+    return frozenset(known[x] for x in given)

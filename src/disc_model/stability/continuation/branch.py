@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -10,14 +9,15 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
-from disc_model.data.variables import values_text
-from disc_model.display import Summarised, counted, draw, html_table, number_text
+from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
 from disc_model.stability.continuation.problem import unit_text
+from disc_model.stability.continuation.special_kinds import CHANGES
+from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
 from disc_model.stability.segments import range_of_cycle
 from disc_model.units import in_si
@@ -25,97 +25,6 @@ from disc_model.units import in_si
 if TYPE_CHECKING:
     import pandas as pd
     import xarray as xr
-
-LABELS: dict[str, str] = {
-    "fold": "LP",
-    "period_doubling": "PD",
-    "neimark_sacker": "TR",
-    "branch_point": "BP",
-    "grazing": "GR",
-    "hopf": "HB",
-    "end": "EP",
-    "max_points": "EP",
-    "lost": "EP",
-}
-"""Kinds of special points, and their labels in AUTO and COCO."""
-CHANGES = ("fold", "period_doubling", "neimark_sacker")
-"""Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
-circle."""
-NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class SpecialPoint(Summarised):
-    """A point of a branch at which the number or the stability of cycles changes, or its end.
-
-    Attributes
-    ----------
-    kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
-        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
-        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
-        "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
-    values : shape (n_parameters,), SI units
-    period : s; stick_fraction; growth_rate : 1/s
-    multiplier : the one that is critical; at a grazing and at an end, the leading one
-    after : number of the point of the branch before it, or at it
-    case : with the values of this point
-    modal : (n,), modal coordinates on the section, in SI units
-    make_map : makes the return map to that section
-    """
-
-    kind: str
-    values: Array
-    period: float
-    stick_fraction: float
-    growth_rate: float
-    multiplier: complex
-    after: int
-    case: Parameters
-    modal: Array = field(repr=False)
-    make_map: MapFactory = ReturnMap
-
-    @property
-    def label(self) -> str:
-        """Label of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR."""
-        return LABELS[self.kind]
-
-    @property
-    def changes_stability(self) -> bool:
-        """Whether the cycle gains or loses stability here: no multiplier but the critical one is
-        on the unit circle or beyond it."""
-        neutral = abs(self.growth_rate * self.period) <= NEUTRAL
-        return self.kind in CHANGES and neutral
-
-    @cached_property
-    def point(self) -> Array:
-        """The cycle's point of the section, (n,), in the coordinates of its own return map."""
-        return self.modal * self.make_map(self.case).scale
-
-    @cached_property
-    def state(self) -> State:
-        """The cycle's state on the section, at the end of stick or, without stick, where the spring
-        is longest, at time 0."""
-        return self.make_map(self.case).state(self.point)
-
-    @cached_property
-    def range(self) -> float:
-        """Range of the slider's height over a period of the cycle, m; simulated when it is asked
-        for."""
-        return range_of_cycle(self.case, self.state, self.period)
-
-    def __repr__(self) -> str:
-        values = ", ".join(f"{value:.9g}" for value in self.values)
-        return f"SpecialPoint({self.kind} at {values}, period {self.period:.6g} s)"
-
-    def _summary(self) -> Iterator[tuple[str, object]]:
-        yield "kind", f"{self.kind} ({self.label})"
-        yield "values", ", ".join(f"{value:.9g}" for value in self.values)
-        yield "case", values_text(dict(self.case))
-        yield "period", number_text(self.period, "s", 9)
-        yield "growth rate", number_text(self.growth_rate, "1/s")
-        yield "share of stick", number_text(self.stick_fraction, "", 3)
-        yield "multiplier", f"{self.multiplier:.6g}, modulus {abs(self.multiplier):.9g}"
-        yield "stability", "changes" if self.changes_stability else ""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -286,7 +195,7 @@ class Branch:
         """
         stored = StoredBranch(data)
         data = stored.data
-        special = _stored_special_points(stored)
+        special = stored_special_points(stored)
         folds = [each.values for each in special if each.kind == "fold"]
         branch = cls(
             parameters=stored.parameters,
@@ -458,26 +367,3 @@ class Branch:
         'Period of the cycle (ms)'
         """
         return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)
-
-
-def _stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
-    """The special points of a branch's dataset."""
-    data = stored.data
-    points = []
-    modal = stored.modal("special_")
-    for i, values in enumerate(stored.values("special_")):
-        point = SpecialPoint(
-            kind=str(data["special_kind"].values[i]),
-            values=values,
-            period=float(data["special_period"].values[i]),
-            stick_fraction=float(data["special_stick_fraction"].values[i]),
-            growth_rate=float(data["special_growth_rate"].values[i]),
-            multiplier=complex(data["special_multiplier"].values[i]),
-            after=int(data["special_after"].values[i]),
-            case=stored.case_at(values),
-            modal=modal[i],
-            make_map=stored.make_map,
-        )
-        vars(point)["range"] = float(data["special_range"].values[i])
-        points.append(point)
-    return tuple(points)

@@ -7,8 +7,8 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import violations, with_known_names
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.arguments import read_values
-from disc_model.stability.continuation.branch import CHANGES, LABELS, Branch
+from disc_model.stability.continuation.arguments import STOPS, read_values, stop_kinds
+from disc_model.stability.continuation.branch import Branch
 from disc_model.stability.continuation.course import Search
 from disc_model.stability.continuation.curve import CurvePoint, StepControl
 from disc_model.stability.continuation.first_cycle import first_cycle
@@ -87,12 +87,11 @@ def continue_cycle(  # noqa: PLR0913
     [-0.1055, 0.5751]
     """
     ways = is_number(direction) and direction in (-1, 0, 1)
-    stops = _kinds_of(stop_at)
-    rule = f"must be None, or one or several of {', '.join(CHANGES)}, or of their labels"
+    stops = stop_kinds(stop_at)
     wrong = violations(
         (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
         (ways, "direction", direction, "must be -1, 0 or 1"),
-        (stops is not None, "stop_at", stop_at, rule),
+        (stops is not None, "stop_at", stop_at, STOPS),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
@@ -112,20 +111,6 @@ def continue_cycle(  # noqa: PLR0913
         course = search.follow_cycle(cycle, int(direction))
         course = search.with_values(course, wanted)
     return branch_of(problem, course, (*span, start), wanted)
-
-
-def _kinds_of(stop_at: object) -> frozenset[str] | None:
-    """The kinds of special points, given by kinds or labels, at which a branch shall stop; None if
-    there is another one among them, or none."""
-    if stop_at is None:
-        return frozenset()
-    known = {kind: kind for kind in CHANGES} | {LABELS[kind]: kind for kind in CHANGES}
-    given = [stop_at] if isinstance(stop_at, str) else stop_at
-    if not isinstance(given, Sequence) or not all(isinstance(x, str) for x in given):
-        return None
-    if not given or not known.keys() >= set(given):
-        return None
-    return frozenset(known[x] for x in given)
 
 
 def _scaled(

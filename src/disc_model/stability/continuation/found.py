@@ -6,10 +6,11 @@ import numpy as np
 
 from disc_model.stability.continuation import ends, special
 from disc_model.stability.continuation.arguments import ROUNDING
-from disc_model.stability.continuation.branch import Branch, SpecialPoint
+from disc_model.stability.continuation.branch import Branch
 from disc_model.stability.continuation.course import SAME_VALUE, Course
 from disc_model.stability.continuation.curve import CurvePoint
 from disc_model.stability.continuation.problem import CycleProblem, growth_rate
+from disc_model.stability.continuation.special_point import SpecialPoint
 from disc_model.stability.cycle import multipliers
 
 SHOWN_ENDS = (ends.GRAZED, ends.HOPF, ends.DOUBLED, ends.MOST_POINTS, ends.LOST)

@@ -1,0 +1,122 @@
+"""Names of values along the dimensions of a study."""
+
+import re
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import SHOWN, typeset
+from disc_model.figures.words import MISSING, UNITS, WORDS, is_truth, named
+
+KINDS = {
+    "stick_slip": "stick-slip cycle",
+    "slipping": "cycle that never sticks",
+    "sliding": "steady sliding",
+}
+"""What options and a dimension of them call kinds of motions."""
+MODELS = {
+    "normal": WORDS["normal"],
+    "exponential": WORDS["exponential"],
+    "residual": "residual flexibility",
+    "surface": "friction on the surface",
+    "bilateral": "bilateral contact",
+    "bonded": "bilateral contact",  # its name in older files of results
+}
+AT_ZERO = {
+    "contact_compliance": "rigid contact",
+    "contact_arc": "contact at a point",
+    "friction_offset": "friction in the middle plane",
+}
+"""What parameters mean that are zero: they name themselves."""
+NUMBER_OR_WORD = ("contact_compliance", "friction_offset")
+"""Parameters that are a number or a word, and texts along a dimension that has both."""
+BY_SIZE = {"exponent_number": "exponent {}"}
+"""Names of the values along a dimension of descending numbers, but for the first, the largest."""
+ROUNDING = 1e-9  # relative, of a number in another unit
+LONGEST_NAME = 22  # characters of a line of the name of a class beside the panel
+
+
+def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False) -> str:
+    """A value along a dimension with its unit, or its word; a short one has four digits if six do not give
+    it exactly, as that of a sample."""
+    value = data[by].item()
+    if isinstance(value, str) and by in NUMBER_OR_WORD:
+        value = _number_or_name(value)
+    if isinstance(value, str):
+        words = KINDS if by == "kind" else WORDS
+        return words.get(value, value)
+    if isinstance(value, float) and np.isnan(value):
+        return MISSING
+    if by in AT_ZERO and not value:
+        return AT_ZERO[by]
+    if by in BY_SIZE:
+        return BY_SIZE[by].format(value + 1) if value else f"largest {by.partition('_')[0]}"
+    if by == "contact_compliance":
+        return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
+    if by == "contact_arc":
+        return f"a pad over {value:g} rad"
+    if by == "friction_offset":
+        return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
+    _, unit, factor = named(data[by])
+    unit, factor = UNITS.get().get(by, (unit, factor))
+    number = _short_number(value * factor) if short else f"{value * factor:g}"
+    return f"{number} {unit}".strip()
+
+
+def _number_or_name(text: str) -> float | str:
+    """The number in a text along a dimension that has words as well; a word has its name."""
+    try:
+        return float(text)
+    except ValueError:
+        return MODELS.get(text, text)
+
+
+def _short_number(value: float) -> str:
+    """A number with up to six digits, or with four if six do not give it exactly."""
+    text = f"{value:g}"
+    short = f"{value:.4g}"
+    is_exact = np.isclose(float(text), value, rtol=ROUNDING, atol=0)
+    return text if is_exact or "e" in short else short
+
+
+def named_value(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False) -> str:
+    """The name of a dimension, and a value along it; a word stands for itself."""
+    text = value_text(data, by, short=short)
+    value = data[by].item()
+    if by in AT_ZERO or by in BY_SIZE or (isinstance(value, str) and not is_truth(data[by])):
+        return text
+    return f"{typeset(named(data[by]).name)} = {text}"
+
+
+def symbol_of(name: str) -> str:
+    """The symbol of a parameter; any other number has its name."""
+    return SHOWN[name].symbol if name in SHOWN else name
+
+
+def stated_value(name: str, value: Any) -> str:
+    """The value of a parameter by its symbol, whether it is that of Table 1 or not."""
+    text = value_text(xr.Dataset(coords={name: value}), name)
+    if name == "contact":
+        return f"{text} contact"
+    if isinstance(value, str) or name in AT_ZERO:
+        return text
+    return f"{symbol_of(name)} = {text}"
+
+
+def rank_of(value: Any) -> Any:
+    """Place of a value in an order: words as in `WORDS`, or by the number that they begin with."""
+    if not isinstance(value, str):
+        return value
+    known = {word: place for place, word in enumerate(WORDS)}
+    leading = re.match(r"\d+", value)
+    number = np.inf
+    if leading:
+        number = float(leading[0])
+    return known.get(value, 0), number
+
+
+def in_lines(name: str) -> str:
+    """The name of a class beside a panel, or words in it, in lines that leave this its room."""
+    return fill(name, LONGEST_NAME)
