@@ -11,6 +11,7 @@ from disc_model.figures.gap_rows import allow_small_rows
 from disc_model.figures.labels import break_labels, set_upright
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
+from disc_model.figures.places import ticks_once
 from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room, set_own_upright
 from disc_model.figures.shared_labels import clear_repeated
@@ -59,10 +60,12 @@ def _finish(page: Page, wishes: Wishes) -> None:
     restate(page, wishes)
     shown = [*page.axes, *page.bars]
     break_labels(figure, shown)  # long ones would leave the legend no room
-    write_legend(page, wishes)
-    break_labels(figure, shown)  # of axes that may be lower or narrower now
-    if page.beside == "below":  # also below labels that have more lines now
+    with ticks_once(figure):
         write_legend(page, wishes)
+        if figure.get_layout_engine() is not None:  # which makes axes lower or narrower
+            break_labels(figure, shown)
+            if page.beside == "below":  # also below labels that have more lines now
+                write_legend(page, wishes)
     make_room(page, wishes)
     if page.bars:
         check_room(page.axes)

@@ -1,6 +1,6 @@
 """Room for the labels and legends of pictures on a reader's figure."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import Any
 from weakref import WeakSet
@@ -25,7 +25,7 @@ from disc_model.figures.legends import (
 from disc_model.figures.named_axes import own_labels, shown_on
 from disc_model.figures.page_legends import PLACED, write_legend
 from disc_model.figures.pages import Page, Wishes
-from disc_model.figures.places import set_places
+from disc_model.figures.places import set_places, ticks_once
 from disc_model.figures.placing import fit_to_page, restore_margins
 from disc_model.figures.types import Axes, Legend
 
@@ -45,6 +45,19 @@ def make_room(page: Page, wishes: Wishes) -> None:
     for ax in page.axes:
         part_numbers(ax)
 
+    with ticks_once(figure):
+        _find_places(page, panels)
+    for ax, bars in panels.items():
+        part_numbers(ax)
+        spare_heights(ax)
+        for bar in bars:
+            spare_numbers(bar)
+    _move_legends(figure)
+
+
+def _find_places(page: Page, panels: Mapping[Axes, Sequence[Axes]]) -> None:
+    """Give panels, with the bars of colours beside them, and legends their places."""
+    figure: Any = page.ax.get_figure(root=True)
     plain = figure.get_layout_engine() is None
     if plain:
         restore_margins(figure)
@@ -64,12 +77,6 @@ def make_room(page: Page, wishes: Wishes) -> None:
             _remember(former, asked)
     if plain:
         fit_to_page(figure, panels)
-    for ax, bars in panels.items():
-        part_numbers(ax)
-        spare_heights(ax)
-        for bar in bars:
-            spare_numbers(bar)
-    _move_legends(figure)
 
 
 def _below_axes(figure: Any) -> dict[Legend, tuple[Page, Wishes]]:
