@@ -60,12 +60,20 @@ def _finish(page: Page, wishes: Wishes) -> None:
     restate(page, wishes)
     shown = [*page.axes, *page.bars]
     break_labels(figure, shown)  # long ones would leave the legend no room
+    former = _legends_in_layout(figure)
     with ticks_once(figure):
         write_legend(page, wishes)
-        if figure.get_layout_engine() is not None:  # which makes axes lower or narrower
+        others = _legends_in_layout(figure) != former or page.beside != "inside"
+        if figure.get_layout_engine() is not None and others:  # which makes axes smaller
             break_labels(figure, shown)
             if page.beside == "below":  # also below labels that have more lines now
                 write_legend(page, wishes)
     make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
+
+
+def _legends_in_layout(figure: Any) -> list[Any]:
+    """The legends of a figure and of its axes for which a layout makes room."""
+    legends = [*figure.legends, *(ax.get_legend() for ax in figure.axes)]
+    return [legend for legend in legends if legend is not None and legend.get_in_layout()]
