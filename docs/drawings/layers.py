@@ -31,6 +31,7 @@ WHAT = {
     "disc": "modes by theory, tables or finite elements; flexibility",
     "parameters": "one case of disc and slider",
     "modal_disc": "a disc by its modes, instead of the plate",
+    "mode_units": "numbers of single modes, with units",
     "units": "kinds of numbers, units, strict bases",
     "engine": "equations, series, roots, events: numbers and arrays only",
     "errors": "statuses, exceptions and their messages",

@@ -36,6 +36,7 @@ PHYSICS = (
     "mode_choice.py",
     "mode_measures.py",
     "mode_request.py",
+    "mode_units.py",
     "parameters.py",
     "simulation",
     "stability",

@@ -246,15 +246,21 @@ def _other_letters(text: str, unit: str) -> list[str]:
     return [meant]
 
 
-def _mixed_units(values: list[Any], path: tuple[str, ...]) -> list[Fault]:
-    """The fault of a number without a unit beside such as have one, of which it may have the unit or that
-    of SI; zero is zero in any."""
-    with_unit = [x for x in values if isinstance(x, str) and _WITH_UNIT.fullmatch(x)]
+def _mixed_units(values: list[Any], unit: str, path: tuple[str, ...]) -> list[Fault]:
+    """The fault of a number without a unit beside such as have another one than that of SI, of which it
+    may have either; zero is zero in any."""
+    with_unit = [x for x in values if isinstance(x, str) and _in_another_unit(x, unit)]
     without = [x for x in values if is_number(x) and x != 0]
     if not (with_unit and without):
         return []
     rule = f"has no unit beside {with_unit[0]!r}: give it one; decimals have a point in place of a comma"
     return [Fault.of(path, without[0], rule)]
+
+
+def _in_another_unit(text: str, unit: str) -> bool:
+    """Whether a text is a number in another unit than a given one."""
+    match = _WITH_UNIT.fullmatch(text)
+    return match is not None and match[2].strip() != unit
 
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
@@ -266,7 +272,7 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
     if isinstance(value, dict):
         units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
         if isinstance(unit, str):
-            faults += _mixed_units([value[key] for key in ENDS if key in value], path)
+            faults += _mixed_units([value[key] for key in ENDS if key in value], unit, path)
         return {
             x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()
         }

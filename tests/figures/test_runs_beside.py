@@ -71,5 +71,5 @@ def test_words_of_a_title_are_broken_within_a_narrow_panel() -> None:
     right = axes[0, 1]
     right.figure.canvas.draw()
     title = right.get_title(loc="left")
-    assert "bilateral\ncontact" in title
+    assert "\nbilateral contact" in title
     assert right._left_title.get_window_extent().x1 <= right.figure.bbox.x1

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 
 import disc_model as dm
-from disc_model.figures.classes import GROWING
+from disc_model.figures.classes import FILLED_MARK, GROWING
 from tests.figures.reading import labels
 
 CASE = dm.Parameters(N=385, Omega=14)
@@ -116,7 +116,7 @@ OUTCOMES = [["quiet", "quiet"], ["growing", "separation"], ["undecided", "growin
 def test_values_of_motions_that_still_grow_are_filled() -> None:
     """They looked as those of motions that had come to something."""
     ax = dm.plot_sweep(late_forces(OUTCOMES), "P_max", x="Omega", lines="horizon", ax=small_axes())
-    assert GROWING.label in labels(ax)
+    assert FILLED_MARK.format(GROWING.label) in labels(ax)
     unnamed = [line for line in ax.lines if line.get_label() == "_nolegend_"]
     filled = [line for line in unnamed if line.get_markerfacecolor() != "none"]
     speeds = [line.get_xdata().tolist() for line in filled]
@@ -138,7 +138,7 @@ def test_other_values_are_not_marked(variable: str) -> None:
         study = late_forces([["growing"], ["growing"]]).isel(horizon=0)
         study[variable] = ("Omega", [1.0, 2.0], {"units": "s", "long_name": "time"})
     ax = dm.plot_sweep(study, variable, ax=small_axes())
-    assert GROWING.label not in ax.get_legend_handles_labels()[1]
+    assert GROWING.label not in " ".join(ax.get_legend_handles_labels()[1])
     clear = to_rgba("none")
     assert all(to_rgba(line.get_markerfacecolor()) == clear for line in ax.lines)
 

@@ -279,7 +279,7 @@ def test_the_values_of_a_case_take_three_lines_at_most() -> None:
     said = one(dm.steady_sliding(other).plot()).figure.get_suptitle()
     assert said.count("\n") == 2
     assert said.startswith("N = 3000 N")
-    assert said.endswith(" more")
+    assert said.endswith(" and 5 further parameters")
 
 
 @pytest.mark.parametrize("wish", WRONG)

@@ -45,8 +45,9 @@ def test_a_number_without_a_unit_beside_one_with_it_is_refused(axis: str) -> Non
     assert "has no unit beside" in fault
 
 
-def test_zero_needs_no_unit_beside_others() -> None:
-    axis = {"start": 0, "stop": "600 rpm", "count": 3}
+@pytest.mark.parametrize("ends", [(0, "600 rpm"), (20, "60 rad/s")])
+def test_zero_and_numbers_beside_the_unit_of_si_need_none(ends: tuple[Any, Any]) -> None:
+    axis = {"start": ends[0], "stop": ends[1], "count": 3}
     assert parse_study({**GRID, "axes": {"Omega": axis}}).grids()
 
 

@@ -218,7 +218,7 @@ def test_all_that_a_sweep_gathers_has_a_unit_and_a_name(name: str) -> None:
     assert swept["status"].item() != "failed", swept["message"].item()
     for key, variable in swept.variables.items():
         assert variable.attrs.get("long_name"), key
-        assert variable.dtype.kind in "UO" or variable.attrs.get("units"), key
+        assert variable.dtype.kind in "UOb" or variable.attrs.get("units"), key
         missing = variable.dtype.kind in "fc" and np.isnan(variable.values).any()
         assert not missing or "nan" in variable.attrs["long_name"], key
 

@@ -94,7 +94,7 @@ LOOKS: Mapping[str, Look] = {
     # points that a study's rule or xarray's where leaves out, and those that have no class
     "no_value": NO_VALUE,
     EXCLUDED: Look("left out", "#ffffff", 3 * "x"),
-    "none": Look("none", "#ffffff"),
+    "none": Look("none", "#ffffff", 2 * "-"),
     "infinite": Look("infinite", "#ffffff", 2 * "O"),
     "minus_infinite": Look("minus infinite", "#ffffff", 3 * "."),
     "vanishing": Look("growth rate −∞", "#ffffff", 3 * "."),

@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.classes import NOT_NEAR
+from disc_model.figures.classes import FILLED_MARK, NOT_NEAR
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import computed
 
@@ -41,7 +41,7 @@ def test_figures_of_a_study_mark_such_points(study: xr.Dataset, variable: str, w
     """They looked like any other."""
     wishes = {"variable": variable, "x": "Omega", "width": width}
     assert NOT_NEAR.label in labels(draw("heat_map", study, y="N", **wishes))
-    assert NOT_NEAR.label in labels(draw("curve", study, **wishes))
+    assert FILLED_MARK.format(NOT_NEAR.label) in labels(draw("curve", study, **wishes))
     without = study.sel(N=[370])
-    assert NOT_NEAR.label not in labels(draw("curve", without, **wishes))
+    assert NOT_NEAR.label not in " ".join(labels(draw("curve", without, **wishes)))
     pyplot.close("all")
