@@ -56,7 +56,14 @@ def speeds() -> xr.Dataset:
     )
 
 
-@pytest.mark.parametrize("name", DRAWN)
+TELLING = ("run", "multipliers", "branch", "line", "map", "words")
+"""Pictures of each kind of axes; the others are tried by slow tests."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name if name in TELLING else pytest.param(name, marks=pytest.mark.slow) for name in DRAWN],
+)
 def test_a_picture_of_something_else_is_refused_and_leaves_axes_as_they_are(name: str) -> None:
     """The label of the second picture stood beside the values of the first."""
     figure, ax = pyplot.subplots(layout="constrained")

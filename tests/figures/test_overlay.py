@@ -76,8 +76,15 @@ def alone(name: str) -> Alone:
     return Alone(len(pictures[0]), across, upwards)
 
 
-@pytest.mark.parametrize("own", [True, False])
-@pytest.mark.parametrize("name", DRAWN)
+QUICK = ("run", "sections", "multipliers", "exponents")
+"""Pictures that are also drawn quickly on figures of this package, which the others share."""
+
+
+@pytest.mark.parametrize(
+    ("name", "own"),
+    [(name, False) for name in DRAWN]
+    + [pytest.param(name, True, marks=[] if name in QUICK else pytest.mark.slow) for name in DRAWN],
+)
 def test_cases_have_looks_names_and_common_limits(name: str, own: bool) -> None:
     """The second was cut off, in the colours of the first, and only its phases were in the legend."""
     panels, across, ends = alone(name)

@@ -610,7 +610,7 @@ def noisy_times(seed: int) -> list[dm.Measurement]:
         pytest.param(11, 0.21, marks=pytest.mark.slow),
         pytest.param(11, 0.22, marks=pytest.mark.slow),
         pytest.param(3, 0.2, marks=pytest.mark.slow),
-        (3, 0.21),
+        pytest.param(3, 0.21, marks=pytest.mark.slow),
         pytest.param(3, 0.22, marks=pytest.mark.slow),
     ],
 )
