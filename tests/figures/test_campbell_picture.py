@@ -36,7 +36,7 @@ def picture_of(study: xr.Dataset, **wishes: Any) -> Figure:
     return top.figure
 
 
-@pytest.mark.parametrize("width", [COLUMN, PAGE])
+@pytest.mark.parametrize("width", [COLUMN, pytest.param(PAGE, marks=pytest.mark.slow)])
 def test_a_campbell_diagram_takes_the_axes_of_a_reader(width: float) -> None:
     figure, axes = pyplot.subplots(2, 1, figsize=(width, 4.6), layout="constrained", sharex=True)
     top, bottom = dm.plot_campbell(campbell_study(), ax=axes, highest=150, title="(a) modes")

@@ -15,7 +15,12 @@ from tests.figures.every_kind import EXAMPLES
 from tests.figures.measured import assert_shows
 from tests.figures.reading import assert_fit_for_print
 
-IN_WIDTHS = [(kind, width) for kind, form in KINDS.items() for width in form.widths]
+IN_WIDTHS = [
+    pytest.param(kind, width, marks=[] if width == form.widths[0] else pytest.mark.slow)
+    for kind, form in KINDS.items()
+    for width in form.widths
+]
+"""Kinds of figures in all their widths; a further width of one is a slow test."""
 
 
 @pytest.mark.parametrize(("kind", "width"), IN_WIDTHS)

@@ -56,7 +56,14 @@ def speeds() -> xr.Dataset:
     )
 
 
-@pytest.mark.parametrize("name", DRAWN)
+TELLING = ("run", "multipliers", "branch", "line", "map", "words")
+"""Pictures of each kind of axes; the others are tried by slow tests."""
+
+
+@pytest.mark.parametrize(
+    "name",
+    [name if name in TELLING else pytest.param(name, marks=pytest.mark.slow) for name in DRAWN],
+)
 def test_a_picture_of_something_else_is_refused_and_leaves_axes_as_they_are(name: str) -> None:
     """The label of the second picture stood beside the values of the first."""
     figure, ax = pyplot.subplots(layout="constrained")
@@ -87,7 +94,7 @@ def test_another_parameter_is_refused_on_axes_beside_it_and_on_its_twin() -> Non
     by_load().plot("range", ax=below[1])
 
 
-@pytest.mark.parametrize("width", [84, 174])
+@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
 def test_a_shared_axis_has_its_label_beside_its_numbers_alone(width: int) -> None:
     """The upper panel repeated "Speed Ω (rad/s)" where no numbers stand."""
     size = (width / 25.4, 120 / 25.4)
@@ -238,8 +245,15 @@ def rows_of(ax: Any) -> list[Any]:
     return [row for each in rows_above(ax) for row in each.rows]
 
 
-@pytest.mark.parametrize("empty", ["begin", "end"])
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize(
+    ("empty", "layout"),
+    [
+        ("begin", None),
+        pytest.param("begin", "constrained", marks=pytest.mark.slow),
+        pytest.param("end", None, marks=pytest.mark.slow),
+        ("end", "constrained"),
+    ],
+)
 def test_a_variable_without_values_leaves_another_its_numbers_and_its_legend(
     empty: str, layout: Any
 ) -> None:
@@ -305,7 +319,7 @@ def test_what_has_no_value_is_said_once_above_the_marks_of_all_lines(layout: Any
     assert [row.get_color() for row in rows_of(ax)] == [line.get_color() for line in lines]
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("layout", [pytest.param(None, marks=pytest.mark.slow), "constrained"])
 def test_a_long_reason_leaves_panels_their_width(layout: Any) -> None:
     """Panels were 7 mm wide beside it."""
     study = speeds()
@@ -363,17 +377,18 @@ def test_symbols_on_axes_of_a_reader_are_upright_beside_labels_of_the_reader() -
     assert axes[0].get_ylabel() == "reach of $k_p$ (rad/s)"
 
 
-@pytest.mark.parametrize("log", [pytest.param(False, marks=pytest.mark.slow), True])
-def test_numbers_of_a_short_bar_do_not_meet(log: bool) -> None:
+@pytest.mark.parametrize("log", [False, True])
+@pytest.mark.parametrize("columns", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_numbers_of_a_short_bar_do_not_meet(log: bool, columns: int) -> None:
     """0.01, 0 and -0.01 lay on each other, and 28 on 29."""
     axes = {"N": [300.0, 350.0], "Omega": [14.0, 15.0]}
     rates = {"growth_rate": ([*axes], [[-0.2, 0.1], [0.2, 0.3]], {"units": "s-1"})}
     reach = {"reach": ([*axes], [[21.0, 24.0], [27.0, 29.9]], {"units": "mm"})}
-    figure, panels = pyplot.subplots(2, 2, figsize=(5.9, 3.4))
+    figure, panels = pyplot.subplots(2, columns, figsize=(2.95 * columns, 3.4), squeeze=False)
     for ax in panels.flat:
         dm.plot_sweep(xr.Dataset(reach if log else rates, axes), log=log, ax=ax)
     figure.draw_without_rendering()
-    for bar in figure.axes[4:]:
+    for bar in figure.axes[panels.size :]:
         labels = [*bar.get_yticklabels(), *bar.get_yticklabels(minor=True)]
         low, high = bar.get_ylim()
         shown = [

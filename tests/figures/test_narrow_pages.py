@@ -48,8 +48,8 @@ def side(ax: Any) -> float:
 
 
 @pytest.mark.parametrize("layout", [None, "constrained"])
-@pytest.mark.parametrize("width", [COLUMN, PAGE])
-@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("width", [COLUMN, pytest.param(PAGE, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [pytest.param(1, marks=pytest.mark.slow), 2])
 def test_multipliers_keep_their_circle_beside_their_legend(
     layout: Any, width: float, count: int
 ) -> None:
@@ -146,8 +146,17 @@ def test_numbers_of_a_low_scale_of_growth_rates_do_not_meet() -> None:
     pyplot.close(figure)
 
 
-@pytest.mark.parametrize("height", [50, 60, 76])
-@pytest.mark.parametrize("width", [84, 174])
+@pytest.mark.parametrize(
+    ("width", "height"),
+    [
+        (84, 50),
+        pytest.param(84, 60, marks=pytest.mark.slow),
+        pytest.param(84, 76, marks=pytest.mark.slow),
+        (174, 50),
+        pytest.param(174, 60, marks=pytest.mark.slow),
+        pytest.param(174, 76, marks=pytest.mark.slow),
+    ],
+)
 def test_speeds_of_a_hysteresis_that_were_not_found_fit_a_low_page(
     width: float, height: float
 ) -> None:
@@ -280,13 +289,14 @@ def test_sweeps_are_named_by_options_that_differ_and_by_their_reader() -> None:
         attrs = {"options": options, "base": '{"N": 300}'}
         found = directions([0.0, 0.1, 1.0], [0.5, 0.7, 0.9])
         sweeps.append(found.assign_attrs(attrs).isel(direction=0, drop=True))
-    _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
+    _, unnamed = pyplot.subplots(figsize=(PAGE, 4))
     for sweep in sweeps:
-        dm.plot_sweep(sweep, "range", ax=axes[0])
-    assert named(axes[0]) == ["stays of 5 s", "stays of 20 to 160 s"]
+        dm.plot_sweep(sweep, "range", ax=unnamed)
+    assert named(unnamed) == ["stays of 5 s", "stays of 20 to 160 s"]
+    _, called = pyplot.subplots(figsize=(PAGE, 4))
     for sweep, name in zip(sweeps, ("short", "long"), strict=True):
-        dm.plot_sweep(sweep, "range", ax=axes[1], labels={"case": name})
-    assert named(axes[1]) == ["short", "long"]
+        dm.plot_sweep(sweep, "range", ax=called, labels={"case": name})
+    assert named(called) == ["short", "long"]
     pyplot.close("all")
 
 
@@ -397,14 +407,17 @@ LONG_NAMES = [
 SHORTER_NAMES = [name.partition(",")[0] for name in LONG_NAMES]
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
 @pytest.mark.parametrize(
-    ("names", "least"),
+    ("names", "least", "layout"),
     [
-        (SHORTER_NAMES[:3], 10.0),
-        (SHORTER_NAMES, 9.0),
-        (LONG_NAMES[:3], 10.0),
-        (LONG_NAMES, 3.5),  # beside letters of 6 points there is no more room
+        pytest.param(SHORTER_NAMES[:3], 10.0, None, marks=pytest.mark.slow),
+        pytest.param(SHORTER_NAMES[:3], 10.0, "constrained", marks=pytest.mark.slow),
+        pytest.param(SHORTER_NAMES, 9.0, None, marks=pytest.mark.slow),
+        pytest.param(SHORTER_NAMES, 9.0, "constrained", marks=pytest.mark.slow),
+        pytest.param(LONG_NAMES[:3], 10.0, None, marks=pytest.mark.slow),
+        (LONG_NAMES[:3], 10.0, "constrained"),
+        (LONG_NAMES, 3.5, None),  # beside letters of 6 points there is no more room
+        pytest.param(LONG_NAMES, 3.5, "constrained", marks=pytest.mark.slow),
     ],
 )
 @pytest.mark.filterwarnings("ignore:the panel is")
@@ -444,16 +457,17 @@ def test_critical_speeds_of_two_functions_are_named_by_what_is_sought() -> None:
     search = critical_values("critical", '{"name": "Omega", "points": 201, "kind": "stick_slip"}')
     scan = critical_values("critical_speed", '{"horizon": 50.0, "step": 0.5, "max_crossings": 12}')
     longer = critical_values("critical_speed", '{"horizon": 90.0, "step": 0.1, "max_crossings": 9}')
-    _, axes = pyplot.subplots(1, 2, figsize=(PAGE, 4))
-    dm.plot_sweep(search, "value", ax=axes[0])
-    dm.plot_sweep(scan, "critical_speed", ax=axes[0])
+    _, ax = pyplot.subplots(figsize=(PAGE, 4))
+    dm.plot_sweep(search, "value", ax=ax)
+    dm.plot_sweep(scan, "critical_speed", ax=ax)
     names = ["instability of the stick-slip cycle", "separation, horizon 50 s"]
-    assert named(axes[0]) == names
-    dm.plot_sweep(scan, "critical_speed", ax=axes[1])
-    dm.plot_sweep(longer, "critical_speed", ax=axes[1])
+    assert named(ax) == names
+    _, ax = pyplot.subplots(figsize=(PAGE, 4))
+    dm.plot_sweep(scan, "critical_speed", ax=ax)
+    dm.plot_sweep(longer, "critical_speed", ax=ax)
     both = ["horizon 50 s, steps of 0.5 rad/s, up to 12 crossings"]
     both += ["horizon 90 s, steps of 0.1 rad/s, up to 9 crossings"]
-    assert named(axes[1]) == both
+    assert named(ax) == both
     pyplot.close("all")
 
 
@@ -480,15 +494,16 @@ def test_arrows_below_values_keep_their_room_beside_further_lines() -> None:
     pyplot.close("all")
 
 
-def test_four_panels_on_a_square_page_keep_their_size() -> None:
+@pytest.mark.parametrize("count", [1, pytest.param(2, marks=pytest.mark.slow)])
+def test_four_panels_on_a_square_page_keep_their_size(count: int) -> None:
     """Labels in four lines beside low panels left these 9 mm of width and 6 mm of height."""
     first = growth([0.01, 0.0, -0.1, np.nan, 0.6, 0.1])
     second = growth([0.02, 0.01, -0.05, 0.0, 0.5, 0.2]).assign_attrs(base='{"N": 300}')
     with pyplot.rc_context({"font.size": 8}):
         figure, axes = pyplot.subplots(2, 2, figsize=(COLUMN, COLUMN), layout="constrained")
         for ax in axes.ravel():
-            dm.plot_sweep(first, "growth_rate", ax=ax)
-            dm.plot_sweep(second, "growth_rate", ax=ax)
+            for study in (first, second)[:count]:
+                dm.plot_sweep(study, "growth_rate", ax=ax)
         figure.draw_without_rendering()
     sizes = np.array([[ax.bbox.width, ax.bbox.height] for ax in axes.ravel()])
     least = 25.4 / figure.dpi * sizes.min(axis=0)  # mm

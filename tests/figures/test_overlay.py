@@ -2,7 +2,7 @@
 
 import functools
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -60,19 +60,40 @@ def colours(ax: Any) -> set[str]:
     return {to_hex(line.get_color()) for line in shown}
 
 
-@pytest.mark.parametrize("own", [True, False])
-@pytest.mark.parametrize("name", DRAWN)
+class Alone(NamedTuple):
+    """Pictures of each case alone: how many panels they have, and the ends of the axes of the first."""
+
+    panels: int
+    across: list[tuple[float, float]]
+    upwards: list[tuple[float, float]]
+
+
+@functools.cache
+def alone(name: str) -> Alone:
+    pictures = [np.ravel(DRAWN[name](speed)) for speed in SPEEDS]
+    across = [panels[0].get_xlim() for panels in pictures]
+    upwards = [panels[0].get_ylim() for panels in pictures]
+    return Alone(len(pictures[0]), across, upwards)
+
+
+QUICK = ("run", "sections", "multipliers", "exponents")
+"""Pictures that are also drawn quickly on figures of this package, which the others share."""
+
+
+@pytest.mark.parametrize(
+    ("name", "own"),
+    [(name, False) for name in DRAWN]
+    + [pytest.param(name, True, marks=[] if name in QUICK else pytest.mark.slow) for name in DRAWN],
+)
 def test_cases_have_looks_names_and_common_limits(name: str, own: bool) -> None:
     """The second was cut off, in the colours of the first, and only its phases were in the legend."""
-    alone = [DRAWN[name](speed) for speed in SPEEDS]
-    first = np.ravel(alone[0])[0]
-    ends = [np.ravel(each)[0].get_ylim() for each in alone]
-    across = [np.ravel(each)[0].get_xlim() for each in alone]
-    axes: Any = alone[0]
-    if not own:
-        axes = pyplot.figure(layout="constrained").subplots(np.size(axes), 1, squeeze=False)[:, 0]
-        first = axes[0]
+    panels, across, ends = alone(name)
+    if own:
+        axes: Any = DRAWN[name](SPEEDS[0])
+    else:
+        axes = pyplot.figure(layout="constrained").subplots(panels, 1, squeeze=False)[:, 0]
         DRAWN[name](SPEEDS[0], ax=axes)
+    first = np.ravel(axes)[0]
     DRAWN[name](SPEEDS[1], ax=axes)
     places = [text for ax in np.ravel(axes) for text in legend_texts(ax)]
     common = ["filled: converged; ± standard error"] if name == "exponents" else []

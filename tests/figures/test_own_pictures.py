@@ -523,6 +523,12 @@ def all_words_of(ax: Axes) -> str:
     return " ".join(text.get_text() for text in texts)
 
 
+@functools.cache
+def critical_stiffness() -> Critical:
+    bounds = (1.8e4, 2.2e4)
+    return dm.critical(P.replace(Omega=12), "k_p", bounds, points=5, precision=10.0)
+
+
 @pytest.mark.parametrize(
     ("rate", "said"),
     [
@@ -531,7 +537,7 @@ def all_words_of(ax: Axes) -> str:
     ],
 )
 def test_a_critical_value_says_that_the_motion_is_elsewhere(rate: float, said: str) -> None:
-    found = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
+    found = critical_stiffness()
     away = replace(found, near_motion=False, other_growth_rate=rate)
     assert said in all_words_of(away.plot())
     assert said not in all_words_of(found.plot())
@@ -579,7 +585,7 @@ def test_a_special_point_of_minus_infinity_stands_at_the_lower_edge_too() -> Non
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
-    critical = dm.critical(P.replace(Omega=12), "k_p", (1.8e4, 2.2e4), points=5)
+    critical = critical_stiffness()
     figure = figure_of(critical.plot())
     assert_shows(figure, Shown(0, "x", "In-plane spring k_p", critical.values, "N/m"))
     assert_shows(figure, Shown(0, "y", "Growth rate of the cycle", critical.growth_rate, "1/s"))

@@ -66,7 +66,7 @@ def draw(height: float, layout: Any, **wishes: Any) -> list[str]:
     return [str(warning.message) for warning in caught]
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("layout", [pytest.param(None, marks=pytest.mark.slow), "constrained"])
 def test_a_reader_is_told_once_of_panels_without_room(layout: Any) -> None:
     [said] = draw(1.8, layout)
     assert re.match(
@@ -74,7 +74,7 @@ def test_a_reader_is_told_once_of_panels_without_room(layout: Any) -> None:
     )
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("layout", [None, pytest.param("constrained", marks=pytest.mark.slow)])
 def test_nothing_is_said_of_panels_with_room(layout: Any) -> None:
     assert not draw(5.0, layout)
 
@@ -87,8 +87,15 @@ def test_a_panel_that_is_small_from_the_beginning_is_its_readers_wish() -> None:
         dm.plot_sweep(shares(2e4), ax=small, lines="N", legend=False)
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
-@pytest.mark.parametrize(("width", "columns"), [(COLUMN, 1), (PAGE, 2)])
+@pytest.mark.parametrize(
+    ("width", "columns", "layout"),
+    [
+        (COLUMN, 1, None),
+        (COLUMN, 1, "constrained"),
+        (PAGE, 2, None),
+        pytest.param(PAGE, 2, "constrained", marks=pytest.mark.slow),
+    ],
+)
 def test_panels_below_strips_of_three_lines_keep_25_mm(
     width: float, columns: int, layout: Any
 ) -> None:

@@ -76,7 +76,7 @@ FUNCTIONS: dict[Callable[..., Any], dict[str, Any]] = {
     dm.hysteresis: {"bounds": (14, 15), "dwell": 2, "max_dwell": 2, "evaluation_time": 1},
     dm.lyapunov_exponents: {"duration": 0.5},
     dm.simulate: {"t_end": 0.5},
-    dm.critical: {"name": "mu_s", "bounds": (0.3, 0.5), "points": 3},
+    dm.critical: {"name": "mu_s", "bounds": (0.3, 0.5), "points": 3, "precision": 0.01},
     dm.continue_cycle: {"name": "mu_s", "bounds": (0.399, 0.401)},
     own: {},
 }
@@ -211,7 +211,7 @@ def test_what_a_motion_has_come_to_is_not_sampled_at_switches() -> None:
     assert kind.long_name == "what the motion has come to"
 
 
-@pytest.mark.parametrize("layout", [None, "constrained"])
+@pytest.mark.parametrize("layout", [None, pytest.param("constrained", marks=pytest.mark.slow)])
 def test_names_along_small_axes_of_a_page_do_not_meet(layout: str | None) -> None:
     """s9, s10 and s11 were printed on each other."""
     names = [f"s{i}" for i in range(1, 13)]
@@ -229,7 +229,7 @@ def test_names_along_small_axes_of_a_page_do_not_meet(layout: str | None) -> Non
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("width", [84, 174])
+@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
 def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
     """One line joined them, with a greatest value at 0.24 that there is not."""
     study = xr.Dataset(
@@ -557,7 +557,7 @@ def test_three_maps_beside_each_other_keep_their_legends_apart(order: tuple[int,
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("layout", [pytest.param(None, marks=pytest.mark.slow), "constrained"])
+@pytest.mark.parametrize("layout", [None, pytest.param("constrained", marks=pytest.mark.slow)])
 def test_four_maps_in_two_rows_keep_what_they_say_apart(layout: str | None) -> None:
     """On plain axes a title stood in the legend above it, and a bar's label in the next panel."""
     with pyplot.rc_context({"font.size": 8}):
@@ -626,7 +626,7 @@ def test_a_legend_covers_no_point_after_further_panels_are_drawn() -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("columns", [1, 3])
+@pytest.mark.parametrize("columns", [pytest.param(1, marks=pytest.mark.slow), 3])
 def test_values_with_equal_ratios_stand_on_a_logarithmic_axis(columns: int) -> None:
     speeds = np.geomspace(2, 40, 12)
     axes_of = {"N": [100.0, 200.0], "Omega": speeds}
@@ -754,7 +754,7 @@ def said_above(ax: Any) -> list[str]:
     return [" ".join(row.words.get_text().split()) for row in rows_above(ax)]
 
 
-@pytest.mark.parametrize("width", [84, 174])
+@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
 def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int) -> None:
     speeds = np.arange(14.0, 18.1, 0.5).tolist()
     growth = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=speeds)
@@ -878,7 +878,7 @@ def test_a_few_paired_samples_have_a_named_curve_each_over_an_axis() -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("width", [84, 174])
+@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
 def test_many_paired_samples_are_thin_curves_with_one_name(width: int) -> None:
     found = samples(12)
     figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")

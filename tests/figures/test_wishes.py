@@ -70,6 +70,12 @@ def one(drawn: Any) -> Axes:
     return np.ravel(np.asarray(drawn, dtype=object))[0]
 
 
+@functools.cache
+def usual(name: str) -> Axes:
+    """The first panel of a picture of which nothing is asked, which tests only read."""
+    return one(DRAWN[name]())
+
+
 def legend_texts(ax: Axes) -> list[str]:
     legends = [*ax.figure.legends, *filter(None, [ax.get_legend()])]
     return [text.get_text() for legend in legends for text in legend.get_texts()]
@@ -77,8 +83,7 @@ def legend_texts(ax: Axes) -> list[str]:
 
 @pytest.mark.parametrize("name", DRAWN)
 def test_labels_and_titles_can_be_replaced(name: str) -> None:
-    usual = one(DRAWN[name]())
-    said = legend_texts(usual)
+    said = legend_texts(usual(name))
     labels = {"x": "abscissa", "y": "ordinate"} | {text: f"my {text}" for text in said}
     ax = one(DRAWN[name](labels=labels, title="My title"))
     assert ax.get_xlabel() == "abscissa"
@@ -90,7 +95,7 @@ def test_labels_and_titles_can_be_replaced(name: str) -> None:
 
 @pytest.mark.parametrize("name", WITH_LEGEND)
 def test_a_legend_can_be_left_out_or_placed(name: str) -> None:
-    assert legend_texts(one(DRAWN[name]()))
+    assert legend_texts(usual(name))
     assert legend_texts(one(DRAWN[name](legend=False))) == []
     placed = one(DRAWN[name](legend={"loc": "upper left", "ncols": 2}))
     assert placed.figure.legends == []
@@ -154,7 +159,7 @@ def test_own_axes_have_the_values_of_the_case_above_them_on_request(name: str) -
     """Panels of several runs did not say which case they show."""
     _, ax = pyplot.subplots(layout="constrained")
     DRAWN[name](ax=ax, title=True)
-    new = one(DRAWN[name]()).figure
+    new = usual(name).figure
     note = title_above(new.axes[0])
     said = title_above(ax)
     in_one_line = " ".join(new.get_suptitle().split())
@@ -164,10 +169,9 @@ def test_own_axes_have_the_values_of_the_case_above_them_on_request(name: str) -
 
 @pytest.mark.parametrize("name", DRAWN)
 def test_new_figures_have_their_title_unless_it_is_false(name: str) -> None:
-    usual = one(DRAWN[name]()).figure
     asked = one(DRAWN[name](title=True)).figure
     without = one(DRAWN[name](title=False)).figure
-    assert asked.get_suptitle() == usual.get_suptitle()
+    assert asked.get_suptitle() == usual(name).figure.get_suptitle()
     assert without.get_suptitle() == ""
 
 
@@ -217,26 +221,26 @@ def test_widths_of_lines_and_marks_and_fonts_follow_the_settings(name: str) -> N
             "texts": np.array([text.get_fontsize() for text in ax.texts]),
         }
 
-    usual = sizes(1.0)
+    single = sizes(1.0)
     doubled = sizes(2.0)
-    assert sum(values.size for values in usual.values()) > 0
-    for what, values in usual.items():
+    assert sum(values.size for values in single.values()) > 0
+    for what, values in single.items():
         np.testing.assert_allclose(doubled[what], 2 * values, rtol=1e-12, err_msg=what)
 
 
 def test_a_new_figure_has_the_readers_font_and_otherwise_the_usual_style() -> None:
-    usual = one(DRAWN["line"]())
-    assert not usual.spines["top"].get_visible()
+    plain = usual("line")
+    assert not plain.spines["top"].get_visible()
     with mpl.rc_context({"font.family": "serif", "lines.linewidth": 3}):
         ax = one(DRAWN["line"]())
     assert ax.xaxis.label.get_fontfamily() == ["serif"]
-    assert ax.lines[0].get_linewidth() == 3 * usual.lines[0].get_linewidth()
+    assert ax.lines[0].get_linewidth() == 3 * plain.lines[0].get_linewidth()
     assert not ax.spines["top"].get_visible()
 
 
 @pytest.mark.parametrize("name", DRAWN)
 def test_new_figures_fit_a_column_or_a_page_with_all_that_they_say(name: str) -> None:
-    figure = one(DRAWN[name]()).figure
+    figure = usual(name).figure
     assert figure.get_figwidth() in (COLUMN, PAGE)
     assert_fit_for_print(figure)
 
@@ -349,10 +353,8 @@ def test_columns_on_own_axes_have_the_heights_that_stand_beside_the_first() -> N
             assert ax.get_ylim()[1] >= high
 
 
-LEGENDS = [(name, width) for name in WITH_LEGEND for width in (COLUMN, PAGE)]
-
-
-@pytest.mark.parametrize(("name", "width"), LEGENDS)
+@pytest.mark.parametrize("width", [COLUMN, pytest.param(PAGE, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", WITH_LEGEND)
 def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: float) -> None:
     """A legend covered ticks and marks of narrow axes, and the label below them."""
     figure, ax = pyplot.subplots(figsize=(width, 2.6), layout="constrained")
@@ -375,12 +377,19 @@ def test_a_legend_on_own_axes_covers_no_data_and_no_words(name: str, width: floa
     assert box.x1 <= figure.bbox.x1
 
 
-@pytest.mark.parametrize("size", [pytest.param((PAGE, 3.0), marks=pytest.mark.slow), (PAGE, 2.4)])
+@pytest.mark.parametrize(
+    ("loads", "height"),
+    [
+        ((385, 355), 2.4),
+        pytest.param((385, 370, 355), 2.4, marks=pytest.mark.slow),
+        pytest.param((385, 370, 355), 3.0, marks=pytest.mark.slow),
+    ],
+)
 def test_legends_of_branches_beside_each_other_stand_clear_of_them(
-    size: tuple[float, float],
+    loads: tuple[int, ...], height: float
 ) -> None:
     """That of the first panel lay over its branches, once that of the second had made it lower."""
-    loads = (385, 370, 355)
+    size = (PAGE, height)
     branches = [dm.continue_cycle(CASE.replace(N=N, Omega=14), "Omega", (12, 16)) for N in loads]
     settings = {"font.family": "serif", "font.size": 8, "lines.linewidth": 0.8}
     with mpl.rc_context(settings):
@@ -461,8 +470,15 @@ def test_panels_of_a_row_are_stacked_where_they_are_alone_in_a_narrow_figure() -
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("layout", ["constrained", None])
-@pytest.mark.parametrize("width", [COLUMN, PAGE])
+@pytest.mark.parametrize(
+    ("width", "layout"),
+    [
+        (COLUMN, "constrained"),
+        (COLUMN, None),
+        pytest.param(PAGE, "constrained", marks=pytest.mark.slow),
+        (PAGE, None),
+    ],
+)
 def test_pictures_on_twin_axes_have_one_legend_that_covers_neither(
     width: float, layout: Any
 ) -> None:
@@ -522,18 +538,17 @@ def is_row(axes: Any) -> bool:
     return bool(left.rowspan == right.rowspan and left.colspan != right.colspan)
 
 
-@pytest.mark.parametrize("tight", [False, True])
+@pytest.mark.parametrize("arranged", ["by a grid", "by tight_layout", "by hand"])
 @pytest.mark.parametrize("name", ["map", "words", "line"])
-@pytest.mark.parametrize("placed", [False, True])
-def test_pictures_on_plain_axes_stay_on_the_page(name: str, tight: bool, placed: bool) -> None:
+def test_pictures_on_plain_axes_stay_on_the_page(name: str, arranged: str) -> None:
     """The legend of a map lay below the page, and `tight_layout` drew its bar over it."""
     figure = pyplot.figure()
-    if placed:
+    if arranged == "by hand":
         ax = figure.add_axes((0.15, 0.15, 0.7, 0.7))
     else:
         ax = figure.add_subplot()
     DRAWN[name](ax=ax)
-    if tight and not placed:
+    if arranged == "by tight_layout":
         figure.tight_layout()
     figure.draw_without_rendering()
     boxes = [each.get_tightbbox() for each in figure.axes]

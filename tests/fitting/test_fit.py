@@ -606,11 +606,11 @@ def noisy_times(seed: int) -> list[dm.Measurement]:
 @pytest.mark.parametrize(
     ("seed", "start"),
     [
-        (11, 0.2),
+        pytest.param(11, 0.2, marks=pytest.mark.slow),
         pytest.param(11, 0.21, marks=pytest.mark.slow),
         pytest.param(11, 0.22, marks=pytest.mark.slow),
         pytest.param(3, 0.2, marks=pytest.mark.slow),
-        (3, 0.21),
+        pytest.param(3, 0.21, marks=pytest.mark.slow),
         pytest.param(3, 0.22, marks=pytest.mark.slow),
     ],
 )
@@ -628,6 +628,7 @@ def test_indistinct_parameters_are_named_from_every_start(seed: int, start: floa
 
 
 @pytest.mark.compiled
+@pytest.mark.slow
 def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
     """One doubt hid the other."""
     measured = [replace(each, uncertainty=2e-7) for each in noisy_times(3)]
@@ -784,8 +785,9 @@ def test_a_parameter_that_may_be_zero_has_an_upper_limit(
     assert "widen" not in found.doubt
 
 
-def test_upper_limits_lie_above_the_true_value_in_95_of_100_draws() -> None:
-    drawn = np.random.default_rng(5).normal(size=300)
+@pytest.mark.parametrize("draws", [60, pytest.param(300, marks=pytest.mark.slow)])
+def test_upper_limits_lie_above_the_true_value_in_95_of_100_draws(draws: int) -> None:
+    drawn = np.random.default_rng(5).normal(size=draws)
     start = BLOCK.replace(c_p=2)
     for true in (0.0, 0.5, 1.0):
         above = 0

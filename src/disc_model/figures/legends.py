@@ -248,10 +248,11 @@ def legend_below(
             bbox_transform=ax.transAxes + offset,
             **{**size, **look},
         )
-        places.append(Place(draw, width + shift))
-    place = _first_that_fits(places, 2)
+        places.append(Place(draw, width + shift, looks.index(size)))
     if len(handles) <= IN_A_ROW:
         place = _first_that_fits(places[:4], len(handles))
+    else:
+        place = _first_that_fits(places, 2)
     smaller = [place, *places[places.index(place) + 1 :]]
     place = _first_low_enough(smaller, len(handles), _room_below(ax, depth))
     legend = _widest_that_fits(place.draw, len(handles), place.width)
@@ -290,23 +291,33 @@ def move_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
 
 
 class Place(NamedTuple):
-    """How a legend is drawn at a place, and the width in pixels that it has there."""
+    """How a legend is drawn at a place, the width in pixels that it has there, and the number of its
+    look: legends of one look are equally wide."""
 
     draw: partial[Legend]
     width: float
+    look: int
 
 
 def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
     """The first place that is wide enough for so many columns, or for as many fewer as need be; the
     last one if none is."""
     for count in _columns_tried(places[0].draw, columns):
+        widths: dict[int, float] = {}
         for place in places:
-            trial = place.draw(ncols=count)
-            width = trial.get_window_extent().width
-            trial.remove()
-            if width <= place.width:
+            if place.look not in widths:
+                widths[place.look] = _width_in(place, count)
+            if widths[place.look] <= place.width:
                 return place
     return places[-1]
+
+
+def _width_in(place: Place, columns: int) -> float:
+    """The width in pixels of a legend at a place, in so many columns."""
+    trial = place.draw(ncols=columns)
+    width = float(trial.get_window_extent().width)
+    trial.remove()
+    return width
 
 
 def _first_low_enough(places: Sequence[Place], columns: int, height: float) -> Place:
@@ -363,11 +374,10 @@ def _free_below(ax: Axes, bars: Sequence[Axes]) -> Sides:
         if other is ax or other in bars:
             continue
         in_row = other.bbox.y0 < ax.bbox.y1 and other.bbox.y1 > ax.bbox.y0
-        sides = _sides_of(other)
         if in_row and other.bbox.x1 <= ax.bbox.x0:
-            left = max(left, 0.5 * (sides.right + own.left) + gap)
+            left = max(left, 0.5 * (_sides_of(other).right + own.left) + gap)
         elif in_row and other.bbox.x0 >= ax.bbox.x1:
-            right = min(right, 0.5 * (own.right + sides.left) - gap)
+            right = min(right, 0.5 * (own.right + _sides_of(other).left) - gap)
     return Sides(left, right)
 
 

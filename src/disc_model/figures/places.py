@@ -25,7 +25,7 @@ def _lay_out(page: Any, engine: Any) -> None:
     """Let a layout place axes, and note whether it gives up."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
-        with _ticks_once(page):
+        with ticks_once(page):
             engine.execute(page)
     _COLLAPSED.discard(page)
     for each in caught:
@@ -40,13 +40,15 @@ def has_collapsed(figure: Any) -> bool:
 
 
 @contextmanager
-def _ticks_once(page: Any) -> Iterator[None]:
-    """Set ticks once for each size and range of an axis.
+def ticks_once(figure: Any) -> Iterator[None]:
+    """Set ticks once for each size and range of an axis, while no locator or formatter is replaced.
 
     A layout asks each axis for its ticks some ten times: for its numbers, for its title, and for each
-    of the four lines around it.
+    of the four lines around it. Places of legends are tried with as many measures of these.
     """
-    all_of_them = [axis for ax in page.axes for axis in (ax.xaxis, ax.yaxis)]
+    page = figure.get_figure(root=True)
+    every_axis = [axis for ax in page.axes for axis in (ax.xaxis, ax.yaxis)]
+    all_of_them = [axis for axis in every_axis if "_update_ticks" not in vars(axis)]
     for axis in all_of_them:
         axis._update_ticks = _kept_ticks(axis)
     try:

@@ -11,6 +11,7 @@ from disc_model.figures.legends import LEAST_CURVE, keep_height
 from disc_model.figures.own_symbols import set_symbols
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
+from disc_model.figures.places import ticks_once
 from disc_model.figures.placing import check_room, stack_narrow
 from disc_model.figures.room import make_room
 from disc_model.figures.shared_labels import clear_repeated
@@ -58,10 +59,20 @@ def _finish(page: Page, wishes: Wishes) -> None:
     restate(page, wishes)
     shown = [*page.axes, *page.bars]
     break_labels(figure, shown)  # long ones would leave the legend no room
-    write_legend(page, wishes)
-    break_labels(figure, shown)  # of axes that may be lower or narrower now
-    if page.beside == "below":  # also below labels that have more lines now
+    former = _legends_in_layout(figure)
+    with ticks_once(figure):
         write_legend(page, wishes)
+        others = _legends_in_layout(figure) != former or page.beside != "inside"
+        if figure.get_layout_engine() is not None and others:  # which makes axes smaller
+            break_labels(figure, shown)
+            if page.beside == "below":  # also below labels that have more lines now
+                write_legend(page, wishes)
     make_room(page, wishes)
     if page.bars:
         check_room(page.axes)
+
+
+def _legends_in_layout(figure: Any) -> list[Any]:
+    """The legends of a figure and of its axes for which a layout makes room."""
+    legends = [*figure.legends, *(ax.get_legend() for ax in figure.axes)]
+    return [legend for legend in legends if legend is not None and legend.get_in_layout()]

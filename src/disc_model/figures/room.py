@@ -1,5 +1,6 @@
 """Room for the labels and legends of pictures on a reader's figure."""
 
+from collections.abc import Mapping, Sequence
 from itertools import chain
 from typing import Any
 
@@ -10,8 +11,9 @@ from disc_model.figures.legend_room import ROUNDS, SPARE, cramped_in, move_legen
 from disc_model.figures.own_symbols import DRAWN_ON
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import Page, Wishes
-from disc_model.figures.places import set_places
+from disc_model.figures.places import set_places, ticks_once
 from disc_model.figures.placing import fit_to_page, restore_margins
+from disc_model.figures.types import Axes
 
 
 def make_room(page: Page, wishes: Wishes) -> None:
@@ -24,6 +26,19 @@ def make_room(page: Page, wishes: Wishes) -> None:
     for ax in page.axes:
         part_numbers(ax)
 
+    with ticks_once(figure):
+        _find_places(page, panels)
+    for ax, bars in panels.items():
+        part_numbers(ax)
+        spare_heights(ax)
+        for bar in bars:
+            spare_numbers(bar)
+    move_legends(figure)
+
+
+def _find_places(page: Page, panels: Mapping[Axes, Sequence[Axes]]) -> None:
+    """Give panels, with the bars of colours beside them, and legends their places."""
+    figure: Any = page.ax.get_figure(root=True)
     plain = figure.get_layout_engine() is None
     if plain:
         restore_margins(figure)
@@ -43,9 +58,3 @@ def make_room(page: Page, wishes: Wishes) -> None:
             remember_legend(former, asked)
     if plain:
         fit_to_page(figure, panels)
-    for ax, bars in panels.items():
-        part_numbers(ax)
-        spare_heights(ax)
-        for bar in bars:
-            spare_numbers(bar)
-    move_legends(figure)
