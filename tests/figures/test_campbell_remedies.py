@@ -95,3 +95,17 @@ def test_a_further_axis_is_refused_with_a_selection_that_works() -> None:
     with refusal(r"study='N': .*study\.sel\(N=200\.0\)"):
         dm.plot_campbell(loads)
     dm.plot_campbell(loads.sel(N=200.0))
+
+
+def test_a_multiple_at_a_peak_is_open_where_the_motion_is_near_another_cycle() -> None:
+    """It had the frequency of the other cycle there."""
+    study = campbell_study()
+    away = np.full(21, np.nan)
+    away[17:19] = 0.0
+    study["near_motion"] = ("Omega", away)
+    near = study["near_motion"].isnull()
+    expected = 2.5 * study["stick_slip_frequency"].where(near).values
+    top, _ = dm.plot_campbell(study)
+    drawn = [np.asarray(line.get_ydata(), dtype=float) for line in top.lines]
+    alike = [each for each in drawn if np.array_equal(each, expected, equal_nan=True)]
+    assert len(alike) == 1

@@ -10,7 +10,7 @@ from disc_model.data.variables import flag_names
 from disc_model.display import counted
 from disc_model.figures.campbell_crossings import SYMBOLS, UNKNOWN, meeting_of
 from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
-from disc_model.figures.campbell_peaks import Column, elsewhere_of
+from disc_model.figures.campbell_peaks import Column, followed_frequency
 from disc_model.figures.drawing import halo, large, sample
 from disc_model.figures.types import Artist, Axes, Mask
 
@@ -20,7 +20,7 @@ ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a m
 def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highest: float) -> None:
     """Draw multiples of the stick-slip frequency over the speed, with their names, and marks where
     modes cross them, up to the highest frequency shown (Hz)."""
-    releases = _followed_frequency(study)
+    releases = followed_frequency(study)
     for multiple in multiples:
         line = multiple * releases
         ax.plot(study["Omega"], line, zorder=ABOVE_MODES, **multiple_look())
@@ -29,12 +29,6 @@ def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highes
         speeds = study["crossing_Omega"].values[at_effect]
         frequencies = study["crossing_frequency"].values[at_effect]
         ax.plot(speeds, frequencies, **crossing_look(effect))
-
-
-def _followed_frequency(study: xr.Dataset) -> xr.DataArray:
-    """The stick-slip frequency as crossings have it, nan at speeds without a cycle near the motion, Hz."""
-    near = ~elsewhere_of(study)
-    return study["stick_slip_frequency"].where(near)
 
 
 def _name_line(
