@@ -38,7 +38,7 @@ def checked_study(
     raise_faults(faults)
     drawn = without_single(study, *OTHERS).transpose("Omega", ...)
     further = [str(dim) for dim in drawn.dims if dim not in OTHERS]
-    rule = f"must not vary along it: select one, as by study.isel({'=0, '.join(further)}=0)"
+    rule = f"must not vary along it: select one, as by study.sel({_first_place(drawn, further)})"
     points = "must have two speeds or more"
     require(
         (not further, "study", ", ".join(further), rule),
@@ -52,3 +52,8 @@ def _are_multiples(multiples: Any) -> bool:
     if np.ndim(multiples) != 1:
         return False
     return all(is_whole(each) and each >= 1 for each in multiples)
+
+
+def _first_place(study: xr.Dataset, dims: Sequence[str]) -> str:
+    """The first value along each of these dimensions, as arguments of ``sel``."""
+    return ", ".join(f"{dim}={study[dim].values[0].item()!r}" for dim in dims)

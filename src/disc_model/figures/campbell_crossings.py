@@ -1,5 +1,6 @@
 """What a Campbell diagram says of the crossings of its study."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -8,10 +9,12 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.display import counted
 from disc_model.figures.drawing import sample
-from disc_model.figures.types import Artist
+from disc_model.figures.types import Array, Artist, Mask
 
 SYMBOLS = ("$f_s$", "$f_Ω$")
 """Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
+UNKNOWN = ("unresolved", "beyond_scan")
+"""Effects of crossings at which it is not known what growth rates do."""
 
 
 def meeting_of(crossing: xr.Dataset) -> tuple[float, float]:
@@ -30,29 +33,65 @@ def symbol_of_line(crossing: xr.Dataset) -> str:
     return SYMBOLS[0 if by_slips else 1]
 
 
-def entries_of_unresolved(studies: Sequence[xr.Dataset]) -> list[Artist]:
-    """The entry of a legend for crossings at which it is not known what growth rates do, if there are
-    any; where these are most of them, the steps are too wide."""
+def entries_of_unknown(studies: Sequence[xr.Dataset]) -> list[Artist]:
+    """Entries of a legend for crossings at which it is not known what growth rates do, with the remedy:
+    smaller steps, or a wider scan."""
+    unresolved = _count_of(studies, "unresolved")
+    beyond = _count_of(studies, "beyond_scan")
+    labels = []
+    if unresolved:
+        labels.append(f"{_share_of(unresolved, studies)} unresolved{_steps_needed(studies)}")
+    if beyond:
+        labels.append(f"{_share_of(beyond, studies)}: window leaves the scan: widen it")
+    return [sample(label=label, linestyle="") for label in labels]
+
+
+def _share_of(count: int, studies: Sequence[xr.Dataset]) -> str:
+    """So many crossings, of all if there are others."""
     every = sum(int(_are_there(study).sum()) for study in studies)
-    unresolved = sum(unresolved_crossings(study) for study in studies)
-    if not unresolved:
-        return []
-    label = f"{counted(unresolved, 'crossing')} unresolved"
-    if unresolved < every:
-        label = f"{unresolved} of {counted(every, 'crossing')} unresolved"
-    if 2 * unresolved > every:
-        label = f"{label}: smaller steps"
-    return [sample(label=label, linestyle="")]
+    if count < every:
+        return f"{count} of {counted(every, 'crossing')}"
+    return counted(count, "crossing")
 
 
-def unresolved_crossings(study: xr.Dataset) -> int:
-    """The number of crossings at which it is not known what growth rates do."""
+def _steps_needed(studies: Sequence[xr.Dataset]) -> str:
+    """What the legend says of the steps that resolve crossings, rounded down; nothing where the steps are
+    as small already."""
+    steps = [step for study in studies for step in _steps_of(study)]
+    if not steps:
+        return ""
+    return f": steps of {rounded_down(min(steps)):g} rad/s"
+
+
+def _steps_of(study: xr.Dataset) -> Array:
+    """Steps by which unresolved crossings are resolved, as far as they are smaller than those of the study."""
+    if "crossing_step" not in study:
+        return np.zeros(0)
+    steps = study["crossing_step"].values[_has_effect(study, "unresolved")]
+    widest = np.diff(study["Omega"].values).max()
+    return steps[steps < widest]
+
+
+def rounded_down(value: float) -> float:
+    """A positive number with one significant digit, not above the value."""
+    unit = 10.0 ** math.floor(math.log10(value))
+    return math.floor(value / unit) * unit
+
+
+def _count_of(studies: Sequence[xr.Dataset], effect: str) -> int:
+    """The number of crossings of an effect."""
+    return sum(int(_has_effect(study, effect).sum()) for study in studies)
+
+
+def _has_effect(study: xr.Dataset, effect: str) -> Mask:
+    """Places of the table of crossings that have one of this effect."""
+    there = _are_there(study)
     if "crossing_effect" not in study:
-        return 0
-    return int((_are_there(study) & (flag_names(study["crossing_effect"]) == "unresolved")).sum())
+        return np.zeros_like(there)
+    return there & (flag_names(study["crossing_effect"]) == effect)
 
 
-def _are_there(study: xr.Dataset) -> np.ndarray:
+def _are_there(study: xr.Dataset) -> Mask:
     """Places of the table of crossings that have one."""
     if "crossing_Omega" not in study:
         return np.zeros(0, dtype=bool)

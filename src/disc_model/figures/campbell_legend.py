@@ -8,7 +8,7 @@ import xarray as xr
 from disc_model.figures.campbell_bands import entries_of_bands
 from disc_model.figures.campbell_crossings import (
     SYMBOLS,
-    entries_of_unresolved,
+    entries_of_unknown,
     meeting_of,
     symbol_of_line,
 )
@@ -49,7 +49,7 @@ def entries_of(
     if above:
         handles.append(entry_of_cut(above, highest))
     handles += entries_of_left_out(studies)
-    handles += entries_of_unresolved(studies)
+    handles += entries_of_unknown(studies)
     found = [peak for column in columns for peak in column.peaks]
     handles += _entries_of_peaks(found, highest, bool(multiples))
     handles += entries_of_crossings(studies, multiples, highest)

@@ -64,6 +64,7 @@ CROSSINGS = {
     "no_cycle": ("h", "no cycle"),
     "unresolved": ("v", "unresolved"),
     "not_near": ("X", "motion not near the cycle"),
+    "beyond_scan": ("<", "its window leaves the scan"),
 }
 """Marks of crossings by what growth rates do there, and what the legend says of them."""
 

@@ -5,7 +5,7 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.campbell_crossings import meeting_of
 from disc_model.figures.campbell_looks import beyond_look, dot_look, multiple_look, speed_look
-from disc_model.figures.campbell_peaks import Peak
+from disc_model.figures.campbell_peaks import Peak, followed_frequency
 from disc_model.figures.types import Axes
 
 EDGE = 1.0  # height of a mark at this edge, as a share of the panel
@@ -28,7 +28,7 @@ def draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: f
         return
 
     by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
-    line = study["stick_slip_frequency" if by_slips else "rotation_frequency"]
+    line = followed_frequency(study) if by_slips else study["rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
     top.plot(study["Omega"], multiple * line, zorder=0, **multiple_look())
     top.plot(*place, **dot_look(peak.alone))

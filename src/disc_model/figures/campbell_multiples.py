@@ -8,9 +8,9 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.display import counted
-from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of
+from disc_model.figures.campbell_crossings import SYMBOLS, UNKNOWN, meeting_of
 from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
-from disc_model.figures.campbell_peaks import Column, elsewhere_of
+from disc_model.figures.campbell_peaks import Column, followed_frequency
 from disc_model.figures.drawing import halo, large, sample
 from disc_model.figures.types import Artist, Axes, Mask
 
@@ -20,7 +20,7 @@ ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a m
 def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highest: float) -> None:
     """Draw multiples of the stick-slip frequency over the speed, with their names, and marks where
     modes cross them, up to the highest frequency shown (Hz)."""
-    releases = _followed_frequency(study)
+    releases = followed_frequency(study)
     for multiple in multiples:
         line = multiple * releases
         ax.plot(study["Omega"], line, zorder=ABOVE_MODES, **multiple_look())
@@ -29,13 +29,6 @@ def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highes
         speeds = study["crossing_Omega"].values[at_effect]
         frequencies = study["crossing_frequency"].values[at_effect]
         ax.plot(speeds, frequencies, **crossing_look(effect))
-
-
-def _followed_frequency(study: xr.Dataset) -> xr.DataArray:
-    """The stick-slip frequency as crossings have it, interpolated over speeds without a cycle near the
-    motion, Hz."""
-    near = ~elsewhere_of(study)
-    return study["stick_slip_frequency"].where(near).interpolate_na("Omega")
 
 
 def _name_line(
@@ -75,7 +68,7 @@ def entries_of_crossings(
 def entries_of_unmarked(
     columns: Sequence[Column], multiples: Sequence[int], highest: float
 ) -> list[Artist]:
-    """The entry of a legend for resolved crossings that the picture does not mark, if there are any."""
+    """The entry of a legend for crossings of known effect that the picture does not mark, if there are any."""
     unmarked = sum(_unmarked_crossings(column, multiples, highest) for column in columns)
     if not unmarked:
         return []
@@ -83,15 +76,15 @@ def entries_of_unmarked(
 
 
 def _unmarked_crossings(column: Column, multiples: Sequence[int], highest: float) -> int:
-    """The number of resolved crossings up to the highest frequency shown (Hz) that are neither at a
+    """The number of crossings of known effect up to the highest frequency shown (Hz) that are neither at a
     peak nor of a multiple that a reader asks for."""
     study = column.study
     if "crossing_effect" not in study:
         return 0
     speeds = study["crossing_Omega"].values
     frequencies = study["crossing_frequency"].values
-    resolved = flag_names(study["crossing_effect"]) != "unresolved"
-    unmarked = resolved & (frequencies <= highest)
+    known = ~np.isin(flag_names(study["crossing_effect"]), UNKNOWN)
+    unmarked = known & (frequencies <= highest)
     for marked in _by_effect(study, multiples, highest).values():
         unmarked &= ~marked
     for peak in column.peaks:

@@ -60,7 +60,8 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
     if modes_above(study["sliding_frequency"], highest):
         mark_cut(top, highest)
     draw_bands(top, bottom, study)
-    top.set_xlim(speeds[0], speeds[-1])
+    for ax in (top, bottom):
+        ax.set_xlim(speeds[0], speeds[-1])
     bottom.set_xlabel(SPEED)
 
 

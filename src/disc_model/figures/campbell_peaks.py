@@ -52,6 +52,12 @@ def elsewhere_of(study: xr.Dataset) -> Mask:
     return away
 
 
+def followed_frequency(study: xr.Dataset) -> xr.DataArray:
+    """The stick-slip frequency as crossings have it, nan at speeds without a cycle near the motion, Hz."""
+    near = ~elsewhere_of(study)
+    return study["stick_slip_frequency"].where(near)
+
+
 def peaks(study: xr.Dataset) -> Iterator[Peak]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
     crossing, of the leading mode if possible; without ends of lines, beyond which the rate may rise, and

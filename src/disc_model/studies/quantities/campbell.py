@@ -3,9 +3,9 @@ frequencies with multiples of the stick-slip or rotation frequency, by linear in
 two speeds.
 
 A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance,
-it is that of steady sliding, with the difference interpolated. The stick-slip frequency is
-interpolated over speeds without a cycle. A speed at which the motion from the static start is not near
-the cycle counts as one without: the cycle there is another.
+it is that of steady sliding, with the difference interpolated. Multiples of the stick-slip frequency have
+crossings between two neighbouring speeds with a cycle only. A speed at which the motion from the
+static start is not near the cycle counts as one without: the cycle there is another.
 """
 
 import math
@@ -44,10 +44,13 @@ EFFECTS = (
     "no_cycle",
     "unresolved",
     "not_near",
+    "beyond_scan",
 )
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
-there and on neither side; there is no cycle; or fewer than three speeds, or an end of the axis, lie in the window; or
-the motion is not near the cycle somewhere in the window."""
+there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window; the
+motion is not near the cycle somewhere in the window; or the window goes beyond an end of the axis."""
+LEAST_SPEEDS = 3
+"""Least number of speeds in a window by which the effect of a crossing is known."""
 OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_growth_rate")
 """Variables of the cycle, which is another where the motion is not near it."""
 
@@ -119,7 +122,15 @@ class Campbell(Quantity):
         "crossing_growing_mode": _crossing(
             "1", "number of the mode whose growth rate rises most", whole=True
         ),
-        "crossing_effect": _crossing("1", "what the growth rates do at the crossing", EFFECTS),
+        "crossing_effect": _crossing(
+            "1",
+            "what the growth rates do in the window; beyond_scan where it leaves the scan, unresolved "
+            "where it has too few speeds",
+            EFFECTS,
+        ),
+        "crossing_step": _crossing(
+            "rad s-1", "largest step of the speed by which three speeds lie in the window"
+        ),
     }
     SUMMARY_COORDINATES: ClassVar = {
         "crossing": Coordinate(
@@ -176,7 +187,8 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     rates = Rates(growth, cell["growth_rate"].values, away.values)
     speeds = cell["Omega"].values
     turns = cell["rotation_frequency"].values
-    releases = cell["stick_slip_frequency"].interpolate_na("Omega").values
+    releases = cell["stick_slip_frequency"].values
+    joined = cell["stick_slip_frequency"].interpolate_na("Omega").values
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
@@ -184,25 +196,50 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
         most = 0
         if np.isfinite(releases).any():
             most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
-        lines = [("stick_slip", half / 2, half / 2 * releases) for half in range(1, most + 1)]
-        lines += [
-            ("rotation", float(l), l * turns) for l in range(1, int(cell["diameters"].max()) + 1)
-        ]
-        for line, multiple, frequency in lines:
-            detuning = of_mode - frequency
-            for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
-                before, after = detuning[index : index + 2]
-                if before == after or (after == 0 and index + 2 < len(speeds)):
-                    continue  # the next interval begins there
-                part = before / (before - after)
+        halves = np.arange(1, most + 1) / 2
+        lines = [Line("stick_slip", half, half * releases, half * joined) for half in halves]
+        for l in range(1, int(cell["diameters"].max()) + 1):
+            lines.append(Line("rotation", l, l * turns, l * turns))
+        for line in lines:
+            for index, part in _changes_of_sign(of_mode - line.frequency):
                 yield {
                     "Omega": _between(speeds, index, part),
-                    "frequency": _between(frequency, index, part),
+                    "frequency": _between(line.frequency, index, part),
                     "mode": int(mode),
-                    "line": line,
-                    "multiple": multiple,
-                    **effect_of(detuning, int(index), rates, options),
+                    "line": line.kind,
+                    "multiple": float(line.multiple),
+                    "step": _step_of(of_mode - line.joined, speeds, index, options),
+                    **effect_of(of_mode - line.joined, index, rates, options),
                 }
+
+
+class Line(NamedTuple):
+    """A multiple of a frequency over the speed, Hz: where there is one, and joined over gaps, which the
+    window of a crossing may have."""
+
+    kind: str
+    multiple: float
+    frequency: Array
+    joined: Array
+
+
+def _changes_of_sign(detuning: Array) -> Iterator[tuple[int, float]]:
+    """Yield the interval of each change of sign, and the part of it before the change. A zero at a
+    speed belongs to the interval that begins there, if that has another end."""
+    followed = np.append(np.isfinite(detuning[2:]), False)
+    for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+        before, after = detuning[index : index + 2]
+        if before == after or (after == 0 and followed[index]):
+            continue
+        yield int(index), float(before / (before - after))
+
+
+def _step_of(detuning: Array, speeds: Array, index: int, options: Campbell) -> float:
+    """The largest step by which the window has enough speeds at a crossing after the speed of an index,
+    rad/s, by the slope there."""
+    slope = np.diff(detuning)[index] / np.diff(speeds)[index]
+    width = 2 * options.half_bandwidth / abs(float(slope))
+    return width / LEAST_SPEEDS
 
 
 def _between(values: Array, index: Any, part: float) -> float:
@@ -231,34 +268,44 @@ class Rates(NamedTuple):
     leading: Array
     away: Array
 
+    def missing(self, speeds: slice) -> str:
+        """The effect of a crossing where some of these speeds have no cycle near the motion."""
+        return "not_near" if self.away[speeds].any() else "no_cycle"
+
 
 def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
     rates in the window, compared with those at its ends."""
-    growth, leading, away = rates
+    growth, leading, _ = rates
+    beside = slice(index, index + 2)
+    if not np.isfinite(leading[beside]).all():
+        return {"effect": rates.missing(beside)}
     outside = np.flatnonzero(~(np.abs(detuning) <= options.half_bandwidth))  # nan lies outside
     first = outside.max(initial=-1, where=outside <= index)
     last = outside.min(initial=len(detuning), where=outside > index)
     within = slice(first + 1, last)
-    if first < 0 or last >= len(detuning) or last - first - 1 < 3:
+    leaves_scan = first < 0 or last >= len(detuning)
+    if last - first - 1 < LEAST_SPEEDS and not leaves_scan:
         return {"effect": "unresolved"}
     highest = math.nan
     if np.isfinite(leading[within]).any():
         highest = float(np.nanmax(leading[within]))
-    if not np.isfinite(leading[first : last + 1]).all():
-        missing = "not_near" if away[first : last + 1].any() else "no_cycle"
-        return {"effect": missing, "growth_rate": highest}
+    whole = slice(max(first, 0), last + 1)
+    if not np.isfinite(leading[whole]).all():
+        return {"effect": rates.missing(whole), "growth_rate": highest}
+    if leaves_scan:
+        return {"effect": "beyond_scan", "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
     if not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
     mode = int(np.nanargmax(rises))
     rise = float(np.nanmax(rises))
-    beside = max(leading[first], leading[last])
+    at_ends = max(leading[first], leading[last])
     effect = "no_rise"
-    if highest > 0 >= beside:
+    if highest > 0 >= at_ends:
         effect = "destabilises"
-    elif highest - beside >= options.min_rise:
+    elif highest - at_ends >= options.min_rise:
         effect = "rises"
     elif rise >= options.min_rise:
         effect = "mode_rises"
