@@ -1,6 +1,7 @@
 """Tests of the legends of branches: of those that are unstable throughout, and of points without one."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 import xarray as xr
@@ -26,7 +27,7 @@ def swept() -> xr.Dataset:
     return dm.sweep(dm.continue_cycle, CASE, N=[200, 300, 385], **options)
 
 
-def drawn(swept: xr.Dataset, variable: str, **options: object) -> Axes:
+def drawn(swept: xr.Dataset, variable: str, **options: Any) -> Axes:
     """The branches of a sweep, of which one point has none."""
     with pytest.warns(UserWarning, match=r"^no branch at N = 300 N: swept.* says why$"):
         return dm.plot_branches(swept, variable, **options)
@@ -43,6 +44,12 @@ def test_a_point_without_a_branch_is_in_the_legend(swept: xr.Dataset) -> None:
     words = said(drawn(swept, "period"))
     assert words[:2] == ["N = 200 N", "N = 385 N"]
     assert words[-1] == "N = 300 N: no branch"
+
+
+def test_it_is_the_last_entry_below_narrow_axes_too(swept: xr.Dataset) -> None:
+    _, ax = pyplot.subplots(figsize=(3.31, 3.2), layout="constrained")
+    drawn(swept, "growth_rate", ax=ax)
+    assert ax.get_legend().get_texts()[-1].get_text() == "N = 300 N: no branch"
 
 
 def test_it_stays_in_the_legend_beside_further_branches(swept: xr.Dataset) -> None:

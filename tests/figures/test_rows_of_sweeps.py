@@ -1,6 +1,7 @@
 """Tests of the rows of marks above panels that have lines of several sweeps."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 import pytest
@@ -63,7 +64,7 @@ def test_marks_lie_on_lines_of_the_looks_of_the_legend(
 ) -> None:
     """Strokes of both sweeps had the colour of two lines, and no dashes."""
     ax = beside(loads, dampers)
-    lines = ax.get_legend_handles_labels()[0]
+    lines: list[Any] = ax.get_legend_handles_labels()[0]
     in_legend = {(str(line.get_color()), line.get_linestyle()) for line in lines}
     first = rows_above(ax)[0]
     assert len(looks_below(first)) == 2
@@ -74,7 +75,8 @@ def test_marks_lie_on_lines_of_the_looks_of_the_legend(
 
 def test_lines_below_marks_stay_on_their_strip(loads: xr.Dataset, dampers: xr.Dataset) -> None:
     ax = beside(loads, dampers)
-    ax.figure.draw_without_rendering()
+    figure: Any = ax.figure
+    figure.draw_without_rendering()
     for rows in rows_above(ax):
         strip = rows.strip.get_window_extent()
         for row in rows.kept:

@@ -90,7 +90,10 @@ def plot_branch(
         member = Member(name, values_of_case, int(branch.releases[0]), handles, special)
         member.width = None if stable.any() else thin
         join_family(page, member)
-        page.explain([*page.handles, *_no_branch(failed)])
+        without = _no_branch(failed)
+        page.explain([*page.handles, *without])
+        # a legend is written more than once, each time behind what it keeps
+        page.replaced = [*page.replaced, *(str(each.get_label()) for each in without)]
     return page.ax
 
 
