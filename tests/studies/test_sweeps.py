@@ -299,10 +299,11 @@ def test_a_point_of_a_sweep_is_the_branch_of_a_direct_call(N: float) -> None:
 def test_all_branches_of_a_sweep_are_drawn_but_those_that_failed() -> None:
     """A loop over the points stopped at the first that had failed."""
     swept = swept_branches()
-    with pytest.warns(UserWarning, match=r"left out: N = -1 N: ParameterError: N=-1: must be"):
+    with pytest.warns(UserWarning, match=r"^no branch at N = -1 N: swept\[.message.\] says why$"):
         ax = dm.plot_branches(swept, "period")
     said = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert [" ".join(text.split()) for text in said[:2]] == ["N = 300 N", "N = 385 N"]
+    assert said[-1] == "N = -1 N: no branch"
     with refusal(r"swept: must have a branch, but all of its points failed, .* N=-1: must be"):
         dm.plot_branches(swept.sel(N=[-1]))
     with refusal(r"swept=3: must be a sweep of continue_cycle"):

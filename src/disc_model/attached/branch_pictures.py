@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from disc_model.attached.drawing import draw
 from disc_model.data.swept_branches import OF_SWEEPS, is_of_sweep
 from disc_model.errors import Fault, ParameterError, require
 
@@ -27,8 +28,8 @@ def plot_branches(
 ) -> Axes:
     """Draw all branches of a sweep of `continue_cycle` on the same axes, as `Branch.plot` draws one.
 
-    The legend names them by what varies. Points that have failed have no branch: they are left out, and a
-    warning names them, with their messages.
+    The legend names them by what varies. Points that have failed have no branch: the legend and a warning
+    name them, and ``swept["message"]`` says why.
 
     Parameters
     ----------
@@ -56,19 +57,21 @@ def plot_branches(
     from disc_model.stability.continuation import Branch
 
     _refuse_others(swept)
-    failed = []
-    for point in _points(swept):
-        if point["status"].item() == "failed":
-            failed.append(point)
-            continue
+    points = [*_points(swept)]
+    whole = [point for point in points if not _has_failed(point)]
+    failed = [_name_of(point, swept) for point in points if _has_failed(point)]
+    *before, last = whole
+    options: dict[str, Any] = {"legend": legend, "title": title}
+    for point in before:
         named = _with_name(point, swept, labels)
-        branch = Branch.from_dataset(point)
-        ax = branch.plot(y, ax=ax, legend=legend, labels=named, title=title)
+        ax = Branch.from_dataset(point).plot(y, ax=ax, labels=named, **options)
+    named = _with_name(last, swept, labels)
+    options |= {"labels": named, "failed": failed}
+    axes = draw("plot_branch", Branch.from_dataset(last), y, ax=ax, **options)
     if failed:
-        said = [f"{_name_of(point, swept)}: {point['message'].item()}" for point in failed]
-        warnings.warn(f"without a branch, and left out: {'; '.join(said)}", stacklevel=2)
-    assert ax is not None  # one point or more has a branch
-    return ax
+        why = 'swept["message"] says why'
+        warnings.warn(f"no branch at {'; '.join(failed)}: {why}", stacklevel=2)
+    return axes
 
 
 def _refuse_others(swept: Any) -> None:
@@ -86,6 +89,11 @@ def _points(swept: xr.Dataset) -> Iterator[xr.Dataset]:
     status = swept["status"]
     for place in np.ndindex(status.shape):
         yield swept.isel(dict(zip(status.dims, place, strict=True)))
+
+
+def _has_failed(point: xr.Dataset) -> bool:
+    """Whether a point of a sweep has no branch."""
+    return bool(point["status"].item() == "failed")
 
 
 def _varying(swept: xr.Dataset) -> list[str]:

@@ -10,6 +10,7 @@ from disc_model.figures.types import Axes
 
 MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
 NUMBERS_APART = 4.0  # points, least gap between these
+HEIGHTS_APART = 1.5  # points, least gap between numbers on each other
 
 
 def part_numbers(ax: Axes) -> None:
@@ -100,13 +101,14 @@ def spare_heights(ax: Axes) -> None:
     numbers = sorted(
         _numbers_beside(axis), key=lambda each: (each[0] not in whole, abs(each[0]), each[0])
     )
+    gap = HEIGHTS_APART * axis.get_figure(root=True).dpi / 72
     kept: list[Any] = []
     hidden = []
     for number, box in numbers:
         if box.count_overlaps(kept):
             hidden.append(number)
         else:
-            kept.append(box)
+            kept.append(box.padded(0, gap))
     if hidden:
         _hide_numbers(axis, hidden)
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import axis_of, presentation_of
+from disc_model.data.variables import axis_of, presentation_of, typeset
 from disc_model.figures.branch_family import NAME, NO_FURTHER, SPECIAL_MARKS, join_family, next_look
 from disc_model.figures.branch_heights import axis_upward, refined_upward, upward_of
 from disc_model.figures.branch_lines import (
@@ -14,7 +15,9 @@ from disc_model.figures.branch_lines import (
     NARROW,
     STABLE,
     THIN,
+    Look,
     above_floor,
+    dot_in_legend,
     draw_at_floor,
     draw_branch,
     draw_dots,
@@ -27,7 +30,7 @@ from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import scale_rates
 from disc_model.figures.stated_case import stated, stated_values
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Artist, Axes, Mask
 
 if TYPE_CHECKING:
     from disc_model.stability.continuation import Branch
@@ -43,9 +46,13 @@ def plot_branch(
     legend: Any = True,
     labels: Any = None,
     title: str | bool | None = None,
+    failed: Sequence[str] = (),
 ) -> Axes:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
-    its first; returns the axes."""
+    its first; returns the axes.
+
+    failed : names of points of its sweep without a branch, which the legend says
+    """
     first, *second = branch.parameters
     across, factor = axis_of(first)
     x = branch.values[:, 0] * factor
@@ -71,12 +78,7 @@ def plot_branch(
         heights = axes.dataLim  # of all branches on the axes
         if y == "range" and not second and heights.y1 > WIDE * heights.minposy:
             axes.set_yscale("log")
-        looks = ((stable.any(), STABLE, "stable"), (not stable.all(), thin, "unstable"))
-        handles = [
-            sample(color=BLACK, linewidth=wide(width), label=text)
-            for occurs, width, text in looks
-            if occurs
-        ]
+        handles = _stability_samples(stable, thin)
         handles += lowest
         special = _mark_special_points(axes, branch, y, (factor, upward))
         set_margins(axes)
@@ -85,8 +87,34 @@ def plot_branch(
         page.explain([*handles, *special])
         page.joins = True
         values_of_case = stated_values(branch.case, *branch.parameters)
-        join_family(page, Member(name, values_of_case, int(branch.releases[0]), handles, special))
+        member = Member(name, values_of_case, int(branch.releases[0]), handles, special)
+        member.width = None if stable.any() else thin
+        join_family(page, member)
+        without = _no_branch(failed)
+        page.explain([*page.handles, *without])
+        # a legend is written more than once, each time behind what it keeps
+        page.replaced = [*page.replaced, *(str(each.get_label()) for each in without)]
     return page.ax
+
+
+def _stability_samples(stable: Mask, thin: float) -> list[Artist]:
+    """Entries of the legend for the widths of lines: a branch that is unstable throughout is a thin line
+    with dots in the legend too.
+
+    stable : whether the branch is stable between points
+    thin : width of the line where it is not, points
+    """
+    if not stable.any():
+        return [sample(**Look(BLACK).line(thin), **dot_in_legend(), label="unstable")]
+    samples = [sample(color=BLACK, linewidth=wide(STABLE), label="stable")]
+    if not stable.all():
+        samples.append(sample(color=BLACK, linewidth=wide(thin), label="unstable"))
+    return samples
+
+
+def _no_branch(failed: Sequence[str]) -> list[Artist]:
+    """Entries of the legend for points of a sweep without a branch: words alone."""
+    return [sample(linestyle="", label=f"{typeset(name)}: no branch") for name in failed]
 
 
 def _mark_special_points(

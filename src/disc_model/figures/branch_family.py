@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from disc_model.figures.branch_lines import Look
+from disc_model.figures.branch_lines import Look, dot_in_legend
 from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, sample
 from disc_model.figures.family import LOOKS, Member, names_of
 from disc_model.figures.family_titles import retitle
@@ -65,7 +65,9 @@ def _explain(page: Page, family: Sequence[Member]) -> None:
     handles: list[Any] = []
     for number, text in enumerate(names_of(family, NAME)):
         look = LOOKS[number % len(LOOKS)]
-        handles.append(sample(label=text, **look.line(WIDTH)))
+        width = family[number].width
+        dot = dot_in_legend() if width else {}
+        handles.append(sample(label=text, **look.line(width or WIDTH), **dot))
     looks: dict[str, Any] = {}
     marks: dict[str, Any] = {}
     for each in family:

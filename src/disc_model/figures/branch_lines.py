@@ -48,6 +48,11 @@ class Look(NamedTuple):
         return options
 
 
+def dot_in_legend() -> dict[str, Any]:
+    """Options of a line in a legend that has the mark of a cycle."""
+    return {"marker": ".", "markersize": mark(DOT)}
+
+
 def draw_branch(
     ax: Axes,
     x: Array,

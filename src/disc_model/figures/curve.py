@@ -27,8 +27,10 @@ def draw(plot: CurvePlot, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
     marks: dict[str, str] = {}
     for part in panels:
         choose_marks(marks, _lines_of(part.data, plot.variable, plot.x))
+    alone = len(panels) == 1  # else a line may have values in another panel
     for ax, part in zip(axes, panels, strict=True):
-        draw_lines(ax, part.data, plot.variable, plot.x, plot.log, marks)
+        variable, x = plot.variable, plot.x
+        draw_lines(ax, part.data, variable, x, plot.log, marks, names_valueless=alone)
         ax.label_outer()
     in_legend = any(map(names_errors, axes)) or plot.legend
     if plot.limits is not None:

@@ -18,6 +18,7 @@ from disc_model.figures.curve_marks import (
     open_look,
     point_down,
     reason_of_open_steps,
+    reasons_of_gaps,
 )
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.error_bars import draw_errors
@@ -33,6 +34,7 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.separating_share import draw_intervals_of_lines
 from disc_model.figures.types import Array, Axes, Mask
+from disc_model.figures.valueless_lines import UNSEEN, say_valueless, valueless_lines
 
 
 def draw_lines(  # noqa: PLR0913
@@ -46,6 +48,7 @@ def draw_lines(  # noqa: PLR0913
     joined: bool = True,
     single: Look = PLAIN,
     sweep: int | None = None,
+    names_valueless: bool = False,
 ) -> list[tuple[str, Any]]:
     """Draw a line, or one for each value of a second dimension, or points that are not `joined`;
     marks above the panel stand for missing values. Returns each line with its name.
@@ -54,7 +57,8 @@ def draw_lines(  # noqa: PLR0913
     colour in all of them.
 
     single : colour of a single line, and dashes of all
-    sweep : number of the sweep on its axes, if each has rows of its own above the panel
+    sweep : number of the sweep on its axes, if others may have lines of the same colours
+    names_valueless : whether the legend names lines without any value in place of marks for them
     """
     if marks is None:
         marks = {}
@@ -66,12 +70,14 @@ def draw_lines(  # noqa: PLR0913
 
     # lines, in the colours of their order
     parts = parts_along(array, by)
-    looks = looks_of(parts, marks, single)._replace(sweep=sweep)
+    line = dashes_of(single) if joined and not names else ""
+    looks = looks_of(parts, marks, single)._replace(sweep=sweep, dashes=line)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = open_steps(study, array, by, log) if joined else {}
-    line = dashes_of(single) if joined and not names else ""
     bounds = _at_bound_by_part(study, array, by)
     titles = titles_of_shown(study, array, by)
+    reasons = reasons_of_gaps(study, array)
+    valueless = valueless_lines(reasons, by) if names_valueless else {}
     drawn = []
     for part in parts:
         title = titles.get(part.name)
@@ -84,7 +90,11 @@ def draw_lines(  # noqa: PLR0913
             look |= few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
+        if part.name in valueless:
+            look |= UNSEEN
         [first, *_] = ax.plot(*pieces, **look)
+        if part.name in valueless:
+            say_valueless(first, valueless[part.name])
         if title is not None:
             drawn.append((title, first))
 
@@ -95,7 +105,7 @@ def draw_lines(  # noqa: PLR0913
     point_down(ax, parts, along, bounds, looks)
     fill_doubtful(ax, study, array, x, looks)
     draw_intervals_of_lines(ax, study, array, x, looks.colours)
-    mark_gaps(ax, study, array, x, looks)
+    mark_gaps(ax, reasons, array, x, looks, valueless)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
 

@@ -20,13 +20,15 @@ WIDEST = 8.0  # but not beyond this
 
 
 class Looks(NamedTuple):
-    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes; and the
-    number of their sweep, if other sweeps have the same looks."""
+    """Looks of the marks of lines, by the names of these: their shapes, colours, and sizes; the
+    number of their sweep, if other sweeps have the same colours; and the dashes of all lines, "" where
+    none joins points."""
 
     marks: Mapping[str, str]
     colours: Mapping[str, Any]
     sizes: Mapping[str, float]
     sweep: int | None = None
+    dashes: Any = ""
 
     def of(self, name: str) -> dict[str, Any]:
         """The look of the marks of a line."""

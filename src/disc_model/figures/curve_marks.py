@@ -1,7 +1,7 @@
 """Marks of curves: those of points whose value is in doubt or at a bound, of points without a
 value, and of steps at which a line is open."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -97,18 +97,25 @@ def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, look
                 ax.plot(along[here], part.data.values[here], **look)
 
 
-def mark_gaps(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:
-    """Mark points without a value above the panel, a row for each line and each reason, in the looks
-    of the lines."""
+def mark_gaps(
+    ax: Axes,
+    reasons: Mapping[str, xr.DataArray],
+    array: xr.DataArray,
+    x: str,
+    looks: Looks,
+    named: Collection[str] = (),
+) -> None:
+    """Mark points without a value, by their reasons, above the panel: a row for each line and each
+    reason, in the looks of the lines, but for lines that the legend names with their reason."""
     by = remaining(array, [x])
     across = measured_along(array[x]).values
     placed = array[x].notnull()
-    for reason, gone in reasons_of_gaps(study, array).items():
+    for reason, gone in reasons.items():
         for part in parts_along(gone & placed, by):
             mask = part.data.values
-            if mask.any():
+            if mask.any() and part.name not in named:
                 look = {**looks.of(part.name), **open_look()}
-                add_row(ax, reason, across[mask], looks.sweep, **look)
+                add_row(ax, reason, across[mask], looks.sweep, looks.dashes, **look)
 
 
 def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
@@ -181,4 +188,4 @@ def mark_open_steps(
     for name, is_gap in steps.items():
         if is_gap.any():
             look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
-            add_row(ax, reason, middle[is_gap], looks.sweep, **look)
+            add_row(ax, reason, middle[is_gap], looks.sweep, looks.dashes, **look)

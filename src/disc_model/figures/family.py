@@ -56,6 +56,7 @@ class Member:
     releases : of stick in a period of its cycles
     looks : its entries of the legend when it is alone
     special : those of its special points
+    width : of a line that is as thin throughout, points
     said : words for values of which names of parameters say nothing
     selected : words for those at which a study was selected, which titles have as well
     """
@@ -65,6 +66,7 @@ class Member:
     releases: int = 0
     looks: list[Any] = field(default_factory=list)
     special: list[Any] = field(default_factory=list)
+    width: float | None = None
     said: Mapping[str, str] = field(default_factory=dict)
     selected: Mapping[str, str] = field(default_factory=dict)
 

@@ -1,12 +1,15 @@
 """Rows of marks above a panel, and columns beside one, which stand for points of its lines without a
 value, and why these have none."""
 
-from collections.abc import Mapping, Sequence
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
 import numpy as np
+from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.text import Text
 from matplotlib.transforms import ScaledTranslation, blended_transform_factory
@@ -36,21 +39,43 @@ TITLE = 6.0  # points, distance of a title from what stands above a panel
 class Rows:
     """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
 
-    reason : the words without the name of the sweep whose points they are
-    said : the words with this name, in one line
-    sweep : the number of this sweep, if others have rows of the same looks
+    reason : the words in one line
+    kept : all rows, also those that others of the same marks stand for
     """
 
     words: Text
     strip: Rectangle
     reason: str
-    said: str
-    sweep: int | None = None
-    rows: list[Any] = field(default_factory=list)
+    kept: list[Row] = field(default_factory=list)
+
+    @property
+    def seen(self) -> list[Row]:
+        """The rows that are seen."""
+        return [row for row in self.kept if row.marks.get_visible()]
+
+    @property
+    def rows(self) -> list[Any]:
+        """The marks of each of them."""
+        return [row.marks for row in self.seen]
 
 
-_ROWS: WeakKeyDictionary[Axes, dict[tuple[str, int | None], Rows]] = WeakKeyDictionary()
-"""The rows above panels, by their reasons and sweeps, in their order."""
+@dataclass
+class Row:
+    """A row of marks.
+
+    sweep : the number of the sweep of their line, if other sweeps have lines of the same colours
+    dashes : of this line
+    below : the line below the marks, which has these dashes, if there is one
+    """
+
+    marks: Any
+    sweep: int | None
+    dashes: Any
+    below: Any = None
+
+
+_ROWS: WeakKeyDictionary[Axes, dict[str, Rows]] = WeakKeyDictionary()
+"""The rows above panels, by their reasons, in their order."""
 _MAY_BE_SMALL: WeakSet[Axes] = WeakSet()
 """The panels of readers, above which rows and words are smaller if there are many,"""
 _SMALL: WeakSet[Axes] = WeakSet()
@@ -65,38 +90,36 @@ def allow_small_rows(axes: Sequence[Axes]) -> None:
 
 
 def rows_above(ax: Axes) -> list[Rows]:
-    """The rows that are seen above a panel."""
-    return [each for each in _kept_above(ax) if each.strip.get_visible()]
-
-
-def _kept_above(ax: Axes) -> list[Rows]:
-    """The rows above a panel from which they were not removed, as by ``ax.clear()``, also those that
-    are not seen because others have the same marks."""
+    """The rows above a panel from which they were not removed, as by ``ax.clear()``."""
     return [each for each in _ROWS.get(ax, {}).values() if each.words in ax.texts]
 
 
-def add_row(ax: Axes, reason: str, across: Array, sweep: int | None = None, **look: Any) -> None:
+def add_row(
+    ax: Axes, reason: str, across: Array, sweep: int | None = None, dashes: Any = "", **look: Any
+) -> None:
     """Mark points above a panel, in a row under the words of their reason, which stand there once for
-    all lines, also of those on axes on the same place, such as those of ``ax.twinx()``; or once for
-    all lines of a sweep, by its number, if others have rows of the same looks."""
+    all lines, also of those on axes on the same place, such as those of ``ax.twinx()``.
+
+    sweep : number of the sweep of the line, if other sweeps have lines of the same colours
+    dashes : of the line, "" if none joins its points
+    """
     ax = _host_of(ax)
-    if not _kept_above(ax):
+    if not rows_above(ax):
         _ROWS[ax] = {}
         _SMALL.discard(ax)
     reasons = _ROWS[ax]
-    key = (reason, sweep)
-    if key not in reasons:
+    if reason not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[key] = Rows(words, strip, reason, reason, sweep)
+        reasons[reason] = Rows(words, strip, reason)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
     [row] = ax.plot(
         across, [1.0] * len(across), transform=transform, clip_on=False, linestyle="", **look
     )
-    reasons[key].rows.append(row)
+    reasons[reason].kept.append(Row(row, sweep, dashes))
     stack_rows(ax)
 
 
@@ -123,41 +146,56 @@ def silence_rows(ax: Axes) -> None:
     found = rows_above(host)
     for number, each in enumerate(found, start=1):
         strip = f"strip {number}" if len(found) > 1 else "strip"
-        each.strip.set_label(f"{strip} above: {each.said}")
+        each.strip.set_label(f"{strip} above: {each.reason}")
         each.words.set_text("")
     stack_rows(host)
 
 
-def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
-    """Add the names of sweeps, by their numbers, to the words of rows that are those of one sweep."""
+def tell_rows_apart(ax: Axes, sweeps: Collection[int]) -> None:
+    """Show whose marks stand in rows above a panel that has lines of several sweeps, by the numbers of
+    these: lines of the same dashes lie below marks. Rows that all sweeps have alike stand there
+    once."""
     host = _host_of(ax)
-    by_reason: dict[str, list[Rows]] = {}
-    for each in _kept_above(host):
-        if each.sweep is not None and each.sweep in names:
-            each.said = f"{each.reason}, {names[each.sweep]}"
-            each.words.set_text(each.said)
-        by_reason.setdefault(each.reason, []).append(each)
-    for alike in by_reason.values():
-        _show_once(alike)
+    for each in rows_above(host):
+        by_sweep = _by_sweep(each, sweeps)
+        alike = _are_alike(by_sweep, sweeps)
+        for place, rows in enumerate(by_sweep.values()):
+            for row in rows:
+                row.marks.set_visible(place == 0 or not alike)
+                _draw_below(host, row, not alike)
     stack_rows(host)
 
 
-def _show_once(found: Sequence[Rows]) -> None:
-    """Show rows of one reason, or the first of them alone, without a name, where all have the same
-    marks."""
-    first, *others = found
-    same = all(_marks_of(each) == _marks_of(first) for each in others)
-    for each in others:
-        for artist in (each.words, each.strip, *each.rows):
-            artist.set_visible(not same)
-    if others and same:
-        first.said = first.reason
-        first.words.set_text(first.said)
+def _draw_below(ax: Axes, row: Row, seen: bool) -> None:
+    """Draw a line of the dashes of a row below its marks, or remove it."""
+    if row.below is not None:
+        row.below.remove()
+        row.below = None
+    if seen and row.dashes:
+        look = {"color": row.marks.get_color(), "linestyle": row.dashes, "linewidth": wide(0.5)}
+        row.below = Line2D([0, 1], [1, 1], clip_on=False, zorder=1, **look)
+        ax.add_artist(row.below)
 
 
-def _marks_of(found: Rows) -> list[tuple[Any, ...]]:
-    """Places and looks of the marks of rows."""
-    return [(*row.get_xdata(), str(row.get_marker()), str(row.get_color())) for row in found.rows]
+def _by_sweep(found: Rows, sweeps: Collection[int]) -> dict[int, list[Row]]:
+    """The rows of a reason whose colours other sweeps have as well, by the numbers of their sweeps."""
+    by_sweep: dict[int, list[Row]] = {}
+    for row in found.kept:
+        if row.sweep in sweeps and row.sweep is not None:
+            by_sweep.setdefault(row.sweep, []).append(row)
+    return by_sweep
+
+
+def _are_alike(by_sweep: Mapping[int, Sequence[Row]], sweeps: Collection[int]) -> bool:
+    """Whether all of some sweeps have rows with the same marks."""
+    marks = [[_marks_of(row) for row in rows] for rows in by_sweep.values()]
+    return len(marks) == len(sweeps) and all(each == marks[0] for each in marks)
+
+
+def _marks_of(row: Row) -> tuple[Any, ...]:
+    """Places and looks of the marks of a row."""
+    marks = row.marks
+    return (*marks.get_xdata(), str(marks.get_marker()), str(marks.get_color()))
 
 
 def _host_of(ax: Axes) -> Axes:
@@ -211,10 +249,12 @@ def _stack(ax: Axes, found: Sequence[Rows], sizes: Sizes) -> float:
     top = height
     for each in found:
         _set_strip(ax, each, height - 0.5 * sizes.apart, (len(each.rows) - 1) * apart + sizes.apart)
-        for row in each.rows:
+        for row in each.seen:
             up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
-            row.set_transform(blended_transform_factory(ax.transData, up))
-            row.set_markersize(min(row.get_markersize(), sizes.apart))
+            row.marks.set_transform(blended_transform_factory(ax.transData, up))
+            row.marks.set_markersize(min(row.marks.get_markersize(), sizes.apart))
+            if row.below is not None:
+                row.below.set_transform(up)
             height += apart
         height += GAP + 0.5 * sizes.apart - apart
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)

@@ -14,7 +14,7 @@ from disc_model.figures.colour_wishes import ColourWishes, are_limits, is_colorm
 from disc_model.figures.covered import twins_of
 from disc_model.figures.curve_scales import number_whole
 from disc_model.figures.drawing import COLUMN
-from disc_model.figures.gap_rows import name_rows
+from disc_model.figures.gap_rows import tell_rows_apart
 from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.outside_limits import note_outside, remove_note, words_of_note
 from disc_model.figures.rate_scale import set_limits
@@ -200,7 +200,7 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, lines: L
     found = draw_each(page.ax, study, drawn, log, lines.number, taken)
     page.ax.set_ylabel(quantities.y)
     lines.parts = [(part, ref(line)) for part, line in found]
-    name_rows(page.ax, join_lines(page, lines))
+    tell_rows_apart(page.ax, join_lines(page, lines))
 
 
 def _say_what_is_outside(page: Page, limits: tuple[float, float]) -> None:

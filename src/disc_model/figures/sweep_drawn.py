@@ -36,7 +36,8 @@ def draw_each(
     if drawn.second is None:
         return draw_lines(ax, study, drawn.variable, across, log, {"": mark}, **options)
     marks = {} if _has_dashes(study, drawn) else _further_marks(study, drawn, taken)
-    return draw_lines(ax, study, drawn.variable, across, log, marks, sweep=number, **options)
+    options |= {"sweep": number, "names_valueless": True}
+    return draw_lines(ax, study, drawn.variable, across, log, marks, **options)
 
 
 def _has_dashes(study: xr.Dataset, drawn: Drawn) -> bool:

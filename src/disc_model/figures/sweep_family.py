@@ -10,6 +10,7 @@ from disc_model.figures.family_titles import retitle
 from disc_model.figures.pages import Page
 from disc_model.figures.sweep_lines import Lines, add_lines, common_tail, lines_beside, lines_on
 from disc_model.figures.sweep_options import COMPARED, unset_text
+from disc_model.figures.valueless_lines import name_line
 
 
 def _within(name: str) -> str:
@@ -50,14 +51,13 @@ def _with_unset(family: Sequence[Lines]) -> None:
         each.options = {*each.options, *unset}
 
 
-def join_lines(page: Page, new: Lines) -> dict[int, str]:
+def join_lines(page: Page, new: Lines) -> list[int]:
     """Add lines to those on their axes. Of several, the legend names each by what differs between
-    their variables and cases, or as its reader does. Returns the names of several by their numbers."""
+    their variables and cases, or as its reader does. Returns the numbers of several."""
     family = [*lines_beside(page.ax), new]
     add_lines(page.ax, new)
     shown = [each.shown for each in family]
     names = [new.shown.name]
-    called: dict[int, str] = {}
     tail = common_tail([each.phrase for each in family])  # which the axis says
     for each in family:
         short = each.phrase.removesuffix(tail).rstrip(" ,")
@@ -69,15 +69,13 @@ def join_lines(page: Page, new: Lines) -> dict[int, str]:
     if len(family) > 1:
         names = _distinct(names_of(shown, "sweep"), shown)
         retitle(page, shown)
-        for each, name in zip(family, names, strict=True):
-            called[each.number] = name if each.shown.name else _within(name)  # behind a reason
 
     page.joins = True
     # lines of a former variable of the page may have replaced names already
     page.replaced = [*page.replaced, *_rename(family, names)]
     axes = [*filter(lines_on, twins_of(page.ax)), page.ax]
     page.explain([each for ax in axes for each in ax.get_legend_handles_labels()[0]])
-    return called
+    return [each.number for each in family] if len(family) > 1 else []
 
 
 def _rename(family: Sequence[Lines], names: Sequence[str]) -> list[str]:
@@ -90,6 +88,7 @@ def _rename(family: Sequence[Lines], names: Sequence[str]) -> list[str]:
                 name = _within(name)
             text = ", ".join(filter(None, (part, name)))
             if line is not None and text:
-                replaced += [str(line.get_label()), text]
-                line.set_label(text)
+                former = str(line.get_label())
+                name_line(line, text)
+                replaced += [former, str(line.get_label())]
     return replaced
