@@ -59,6 +59,7 @@ class Stated(NamedTuple):
     Attributes
     ----------
     motion : what its stored motions are
+    motion_by : the same more exactly, by the outcome of a point or the stability of its cycle
     call : how its points are computed in Python, as `disc_model.studies.point_calls.Call.plain`
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
@@ -74,6 +75,7 @@ class Stated(NamedTuple):
     axes: Sequence[str] = ()
     variable: str = ""
     at: Mapping[str, Any] = MappingProxyType({})
+    motion_by: Mapping[str, str] = MappingProxyType({})
 
 
 NOTHING_STATED = Stated()
@@ -112,6 +114,7 @@ def _study_contents(
     shown_motions = None
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
+        shown_motions["text_by"] = dict(stated.motion_by)
     base = stated_in(study, "base")
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}
