@@ -13,6 +13,7 @@ from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
+from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
@@ -110,7 +111,8 @@ def _study_contents(
 ) -> dict[str, Any]:
     """Contents of a merged study, in the units that are set."""
     endless = _endless(study)
-    study = _as_texts(_with_parameters(study.transpose(*study.sizes)), endless)
+    study = without_padding(study.transpose(*study.sizes))
+    study = _as_texts(_with_parameters(study), endless)
     shown_motions = None
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)

@@ -58,9 +58,11 @@ function drawMap() {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
     hatched: false, open: false, intervals: false,
   };
+  const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
-    const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
+    const ends = [i === 0 ? left : horizontal(xs.borders[i]), i === lastAcross ? right : horizontal(xs.borders[i + 1])];
+    const [x0, x1] = ends.map(Math.round);
     const [y0, y1] = curve ? [box.top, box.bottom]
       : [Math.round(vertical(ys.borders[j + 1])), Math.round(vertical(ys.borders[j]))];
     const fill = (look) => {
