@@ -120,7 +120,7 @@ class AttractorBasins(Start, Quantity):
         ),
         "critical_energy_lower": Variable(
             "J",
-            "greatest energy below the critical one, in the same direction, that does not lead to it",
+            "greatest energy below the critical one, in the same direction, without lasting separation",
         ),
         "critical_energy_sampled": Variable(
             "J", "least energy among the starts that come to lasting separation"
