@@ -49,9 +49,8 @@ const seen = {
     const hex = n => "#" + [0, 1, 2].map(k => data[4 * n + k].toString(16).padStart(2, "0")).join("");
     return [...new Set([...Array(data.length / 4).keys()].map(hex))];
   },
-  // The first and last value of both axes, where their cells begin and end, and the gaps to their neighbours.
-  ends: () => [drawn.xs, drawn.ys].map(({at, borders}) =>
-    [at[0], at.at(-1), borders[0], borders.at(-1), at[1] - at[0], at.at(-1) - at.at(-2)]),
+  // The first and last value of both axes, and where their cells begin and end.
+  ends: () => [drawn.xs, drawn.ys].map(({at, borders}) => [at[0], at.at(-1), borders[0], borders.at(-1)]),
   // The texts below selectors.
   below: () => [...document.querySelectorAll("#controls span")].map(x => x.textContent),
   colours() {

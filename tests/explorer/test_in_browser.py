@@ -134,14 +134,11 @@ def test_its_maps_have_the_marks_of_figures(tmp_path: Path) -> None:
         assert is_light(hatched)
         assert shown.ask("coloursOf", 3, 0) == [LOOKS["quiet"].face]
 
-        # cells are whole at the ends of the axes too, and what is chosen for dots stays
-        for first, last, begin, end, before, after in shown.ask("ends"):
-            assert first - begin == pytest.approx(before / 2), "half of the cell was drawn"
-            assert end - last == pytest.approx(after / 2)
-        shown.choose("Dots", "growth_rate=stable")
+        # what is chosen for marks stays
+        shown.choose("Marks", "growth_rate=stable")
         assert shown.text("legend").endswith(STABLE.label)
         shown.choose("Up", "normalization")
-        assert opened.run("return document.getElementById('controls').Dots.value") == (
+        assert opened.run("return document.getElementById('controls').Marks.value") == (
             "growth_rate=stable"
         )
 
@@ -376,13 +373,13 @@ def draws_gaps_and_scale(shown: Explorer) -> None:
 
 def keeps_what_is_chosen_in_the_link(shown: Explorer) -> None:
     shown.choose("Colours", "linear")
-    shown.choose("Dots", "outcome=separation")
+    shown.choose("Marks", "outcome=separation")
     link = shown.ask("link")
     shown.choose("Colours", "stretched")
-    shown.choose("Dots", "")
+    shown.choose("Marks", "")
     shown.page.run("location.hash = arguments[0]", link)
     shown.page.wait_for(f"{SEEN}\nreturn seen.link() === '{link}'")
-    controls = "return ['Colours', 'Dots'].map(x => document.getElementById('controls')[x].value)"
+    controls = "return ['Colours', 'Marks'].map(x => document.getElementById('controls')[x].value)"
     assert shown.page.run(controls) == ["linear", "outcome=separation"]
 
 
@@ -427,7 +424,7 @@ def names_selectors_as_axes(shown: Explorer) -> None:
     shown.choose("Up", "")
     assert shown.page.run(label, "N") == "Preload N"
     assert shown.page.run(options) == ["100 N", "200 N", "385 N"]
-    dots = "return [...document.getElementById('controls').Dots.options].map(x => x.text)"
+    dots = "return [...document.getElementById('controls').Marks.options].map(x => x.text)"
     assert {"none", "Growth rate: stable", "Outcome within 200 s: quiet"} <= {*shown.page.run(dots)}
     shown.choose("Up", "N")
 
@@ -456,7 +453,7 @@ def draws_dots_on_curves(shown: Explorer) -> None:
     shown.choose("N", "2")
     dots = {}
     for option in ("", "outcome=separation", "outcome=quiet"):
-        shown.choose("Dots", option)
+        shown.choose("Marks", option)
         dots[option] = shown.ask("whites")
     # a dot of radius 3 without its line has some 15 to 20 pixels; there are two of each class
     assert dots[""] == 0

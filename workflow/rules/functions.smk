@@ -83,6 +83,7 @@ def stated_of(grid):
     return {
         "call": call_of(grid.quantity, grid.options).plain,
         "motion": grid.options.motion,
+        "motion_by": dict(grid.options.motion_by),
         "units": units,
         "has_figures": bool(grid.plots),
         "axes": [*maps[0].values()] if maps else [],

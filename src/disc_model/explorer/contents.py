@@ -13,6 +13,7 @@ from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
+from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
@@ -59,6 +60,7 @@ class Stated(NamedTuple):
     Attributes
     ----------
     motion : what its stored motions are
+    motion_by : the same more exactly, by the outcome of a point or the stability of its cycle
     call : how its points are computed in Python, as `disc_model.studies.point_calls.Call.plain`
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
@@ -74,6 +76,7 @@ class Stated(NamedTuple):
     axes: Sequence[str] = ()
     variable: str = ""
     at: Mapping[str, Any] = MappingProxyType({})
+    motion_by: Mapping[str, str] = MappingProxyType({})
 
 
 NOTHING_STATED = Stated()
@@ -108,10 +111,12 @@ def _study_contents(
 ) -> dict[str, Any]:
     """Contents of a merged study, in the units that are set."""
     endless = _endless(study)
-    study = _as_texts(_with_parameters(study.transpose(*study.sizes)), endless)
+    study = without_padding(study.transpose(*study.sizes))
+    study = _as_texts(_with_parameters(study), endless)
     shown_motions = None
     if motions is not None:
         shown_motions = motion_contents(_as_texts(motions, endless), stated.motion)
+        shown_motions["text_by"] = dict(stated.motion_by)
     base = stated_in(study, "base")
     drawn = [x for x in study.data_vars.values() if x.size and x.ndim and x.dtype.kind in "biuf"]
     call = {**NO_CALL, **stated.call}

@@ -93,6 +93,8 @@ WITHOUT = {
     "if no step is audited": "no step is audited",
     "unless every step is audited": "not every step is audited",
     "unless friction acts on a surface that moves": "friction acts on no surface that moves",
+    "if friction acts on no surface that moves": "friction acts on no surface that moves",
+    "if the motion is near the cycle, or no other was found": "near the cycle, or no other found",
 }
 """What figures say for what long names say after "nan"."""
 

@@ -8,7 +8,7 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial
-from types import CodeType
+from types import CodeType, MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
@@ -253,6 +253,21 @@ COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
 )
+ON_CYCLE = "The motion on the cycle that it has settled to."
+AT_HORIZON = "The motion at the horizon."
+COME_TO_BY: Mapping[str, str] = MappingProxyType(
+    {
+        "separation": "The motion a while after the first separation.",
+        "quiet": ON_CYCLE,
+        "other_cycle": ON_CYCLE,
+        "separating": ON_CYCLE,
+        "steady_sliding": "The steady sliding that the motion has settled to.",
+        "at_rest": "The rest to which the motion has come.",
+        "undecided": AT_HORIZON,
+        "growing": AT_HORIZON,
+    }
+)
+"""What a motion has come to, by its outcome."""
 NUMBERS = tuple(
     name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
 )
@@ -283,6 +298,8 @@ class Quantity(Ruled):
         0  # number of values of each axis for which a motion is stored, fewer if it is expensive
     )
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
+    # more exact descriptions, by the outcome of a point, or by "stable" and "unstable" of its cycle
+    motion_by: ClassVar[Mapping[str, str]] = MappingProxyType({})
     tiled: ClassVar[bool] = (
         False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
     )

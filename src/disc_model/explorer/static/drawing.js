@@ -16,7 +16,7 @@ function unevenness(values) {
 }
 
 /** Where values of a dimension lie: by themselves, by their logarithms, or by their places; and the borders and middles of
- * their cells, which are whole at the first and last value too. */
+ * their cells. As in figures, an axis of several numbers ends at the first and last one, whose cells are half as wide. */
 function scaleOf(dim) {
   const count = dim.values.length;
   const decade = !dim.words && dim.values[0] > 0 && dim.values[count - 1] >= 10 * dim.values[0];
@@ -30,7 +30,9 @@ function scaleOf(dim) {
   const at = kind === "place" ? dim.values.map((_, i) => i) : dim.values.map(to);
   const apart = count > 1 ? gaps(at) : [1];
   const middle = at.slice(1).map((_, i) => at[i] + apart[i] / 2);
-  const borders = [at[0] - apart[0] / 2, ...middle, at[count - 1] + apart.at(-1) / 2];
+  const isWhole = kind === "place" || count === 1;
+  const [before, after] = isWhole ? [apart[0] / 2, apart.at(-1) / 2] : [0, 0];
+  const borders = [at[0] - before, ...middle, at[count - 1] + after];
   const middles = at.map((_, i) => (borders[i] + borders[i + 1]) / 2);
   return { kind, at, borders, middles, ticks: () => ticksOf(dim, kind, at) };
 }
@@ -96,7 +98,8 @@ function colouring(numbers, { scale, whole }) {
   const both = least < 0 && greatest > 0;
   const zero = both ? 0 : least;
   const size = both ? Math.max(-least, greatest) : greatest - least;
-  const sizes = finite.map((x) => Math.abs(x - zero)).sort((a, b) => a - b);
+  // what lies at the beginning of the scale does not say how the rest is spread
+  const sizes = finite.map((x) => Math.abs(x - zero)).filter((x) => x > 0).sort((a, b) => a - b);
   const quarter = sizes[Math.floor(sizes.length / 4)] || size / 100;
   const stretched = view.colours === "stretched" || (view.colours === "auto" && !whole && size > 40 * quarter);
   const width = stretched ? Math.max(quarter, 1e-6 * size) : 0;
@@ -240,12 +243,12 @@ function swatchOf(look) {
 
 const MOST_RADIUS = 3; // of a dot, pixels
 
-/** A legend's swatch with a dot as in the map. */
-function dotSwatch() {
+/** A legend's swatch with the mark of a class as in the map. */
+function classSwatch(chosen) {
   const swatch = document.createElement("canvas");
   swatch.width = swatch.height = 16;
   swatch.classList.add("bare");
-  disc(swatch.getContext("2d"), 8, 8, MOST_RADIUS);
+  markOfClass(swatch.getContext("2d"), chosen, 8, 8, MOST_RADIUS);
   return swatch;
 }
 

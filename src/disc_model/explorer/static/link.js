@@ -1,5 +1,6 @@
 // The link to a point. It says values in SI units, and so leads to the same point after the axes have changed.
 
+const MARKS = "dots"; // the word of links for the marked class, which all marked by dots once
 const OLDER = "across"; // a word of links of older pages, which counted cells
 
 /** A value as a text; rounding is not a part of it. */
@@ -11,7 +12,7 @@ function address() {
   const along = study.dims.flatMap((dim) =>
     Object.entries(dim.parts).map(([name, column]) => [name, stated(column[place[dim.name]])]),
   );
-  const shown = { study: study.name, x, y, variable: variable.name, colours, dots: mark };
+  const shown = { study: study.name, x, y, variable: variable.name, colours, [MARKS]: mark };
   if (offAxes().some(canSpread)) shown.all = spread;
   return new URLSearchParams([...Object.entries(shown), ...along]);
 }
@@ -56,7 +57,7 @@ async function follow(hash) {
   return true;
 }
 
-const SHOWN_BY = ["study", "x", "y", "variable", "colours", "dots", "all"]; // words of a link that are no values
+const SHOWN_BY = ["study", "x", "y", "variable", "colours", MARKS, "all"]; // words of a link that are no values
 
 /** Warnings of values in an address that are not those of its study: of a parameter that does not vary, or of none. */
 function otherValues(asked) {
@@ -70,7 +71,7 @@ function otherValues(asked) {
   });
 }
 
-/** Choose the axes, variable, colours and dots that an address says; returns warnings of those that are not there. */
+/** Choose the axes, variable, colours and marks that an address says; returns warnings of those that are not there. */
 function followShown(asked) {
   const { study } = view;
   const missing = [];
@@ -90,6 +91,6 @@ function followShown(asked) {
   const all = asked.get("all");
   if (all === NONE || offAxes().some((dim) => dim.name === all && canSpread(dim))) view.spread = all;
   if (COLOURS.some(([key]) => key === asked.get("colours"))) view.colours = asked.get("colours");
-  if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get("dots"))) view.mark = asked.get("dots");
+  if ([NONE, ...marks().map((mark) => mark.key)].includes(asked.get(MARKS))) view.mark = asked.get(MARKS);
   return [changed, ...missing.map((word) => `The link's “${word}” is not in this study.`)];
 }

@@ -1,5 +1,6 @@
 // A variable over two dimensions in colour, or over one as a curve.
 
+const BESIDE = 8; // free beside the first and last point of a curve, pixels
 let drawn = null; // where cells lie, for the pointer
 
 /** All places of the map or curve, the one along other dimensions being as chosen unless it is given. */
@@ -41,13 +42,14 @@ function drawMap() {
   const named = colours ? wrapped(ink, axisLabel(variable), right - left) : [];
   const below = 48 + (colours ? 40 + LINE * named.length : 0);
   const box = { left, right, top: 10 + LINE * upward.length, bottom: height - below };
-  const horizontal = linear(xs.borders[0], xs.borders.at(-1), box.left, box.right);
+  const room = curve ? BESIDE : 0;
+  const horizontal = linear(xs.borders[0], xs.borders.at(-1), box.left + room, box.right - room);
   const vertical = linear(ys.borders[0], ys.borders.at(-1), box.bottom, box.top);
   ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
-  const dots = chosenDots() ?? (curve ? stableDots(variable) : undefined);
-  const dotted = (place) => Boolean(dots) && dots.holds(place);
+  const chosen = chosenClass() ?? (curve ? stableClass(variable) : undefined);
+  const marked = (place) => Boolean(chosen) && chosen.holds(place);
   const over = curve ? [] : marksOver(variable, x, y);
   const patterns = patternsOf(ink, over);
   // a curve has a gap where none of its points has a number
@@ -56,9 +58,11 @@ function drawMap() {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
     hatched: false, open: false, intervals: false,
   };
+  const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
     // whole pixels, so that no seams show
-    const [x0, x1] = [Math.round(horizontal(xs.borders[i])), Math.round(horizontal(xs.borders[i + 1]))];
+    const ends = [i === 0 ? left : horizontal(xs.borders[i]), i === lastAcross ? right : horizontal(xs.borders[i + 1])];
+    const [x0, x1] = ends.map(Math.round);
     const [y0, y1] = curve ? [box.top, box.bottom]
       : [Math.round(vertical(ys.borders[j + 1])), Math.round(vertical(ys.borders[j]))];
     const fill = (look) => {
@@ -80,7 +84,7 @@ function drawMap() {
       seen.statuses.add(shown(study, study.status, place));
       fill(hatch);
     }
-    if (!curve && dotted(place)) disc(ink, (x0 + x1) / 2, (y0 + y1) / 2, dotRadius(x1 - x0, y1 - y0));
+    if (!curve && marked(place)) markOfClass(ink, chosen, (x0 + x1) / 2, (y0 + y1) / 2, radiusIn(x1 - x0, y1 - y0));
   });
   ink.fillStyle = style("--text");
   xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
@@ -90,13 +94,13 @@ function drawMap() {
   if (curve) {
     const open = isJoined() ? openSteps(cells) : [];
     if (open.includes(true)) seen.open = openAlong().reason;
-    drawCurve(ink, curveOf(cells, numbers, intervals, dotted, seen), open);
+    drawCurve(ink, curveOf(cells, numbers, intervals, marked, seen), open, chosen);
   } else markChosen(ink);
-  legend(seen, dots);
+  legend(seen, chosen);
 }
 
-/** The dots of a curve of growth rates, those of its stable points, unless others are chosen; they stand for the map's marks. */
-const stableDots = (variable) => marks().find((mark) => mark.key === `${variable.name}=stable`);
+/** The class that a curve of growth rates marks, that of its stable points, unless another is chosen; it stands for the map's marks. */
+const stableClass = (variable) => marks().find((mark) => mark.key === `${variable.name}=stable`);
 
 /** The marks that lie over the cells of a map, as in the figures: a doubt that is one of them already is not drawn twice. */
 function marksOver(variable, x, y) {
@@ -111,19 +115,44 @@ const patternsOf = (ink, over) =>
 
 const linear = (from, to, start, end) => (x) => start + ((x - from) / (to - from || 1)) * (end - start);
 
-/** The radius of a dot in a cell. */
-const dotRadius = (width, height) => Math.max(1, Math.min(MOST_RADIUS, width / 5, height / 5));
+/** The radius of a mark in a cell. */
+const radiusIn = (width, height) => Math.max(1, Math.min(MOST_RADIUS, width / 5, height / 5));
 
 /** A dot that shows on any colour. */
 function disc(ink, x, y, radius) {
   ink.beginPath();
   ink.arc(x, y, radius, 0, 2 * Math.PI);
+  fillOutlined(ink, Math.min(1, radius / 2));
+}
+
+const LARGER = 1.6; // half a diagonal of a diamond over the radius of a dot
+
+/** A diamond that shows on any colour. */
+function diamond(ink, x, y, radius) {
+  const half = LARGER * radius;
+  ink.beginPath();
+  ink.moveTo(x, y - half);
+  ink.lineTo(x + half, y);
+  ink.lineTo(x, y + half);
+  ink.lineTo(x - half, y);
+  ink.closePath();
+  fillOutlined(ink, Math.min(1.5, radius / 2));
+}
+
+/** Fill a path with white, and draw its outline in black. */
+function fillOutlined(ink, thick) {
   ink.fillStyle = "#ffffff";
   ink.strokeStyle = "#000000";
-  ink.lineWidth = Math.min(1, radius / 2);
+  ink.lineWidth = thick;
   ink.fill();
   ink.stroke();
   ink.lineWidth = 1;
+}
+
+/** The mark of a chosen class: a dot of stable growth rates, as in the figures, and a diamond of any other. */
+function markOfClass(ink, chosen, x, y, radius) {
+  const draw = chosen.isStable ? disc : diamond;
+  draw(ink, x, y, radius);
 }
 
 /** The room that a text takes at an end of a bar, with a gap beside it. */
@@ -165,14 +194,14 @@ function markChosen(ink) {
     const near = nearestMotion();
     if (near && isInMap(near)) {
       ink.beginPath();
-      ink.arc(horizontal(xs.at[near.places[x]]), vertical(ys.at[near.places[y]]), 6, 0, 2 * Math.PI);
+      ink.arc(horizontal(xs.middles[near.places[x]]), vertical(ys.middles[near.places[y]]), 6, 0, 2 * Math.PI);
       ink.stroke();
     }
   }
   ink.lineWidth = 1;
 }
 
-function legend(seen, dots) {
+function legend(seen, chosen) {
   const { study, variable } = view;
   const entries = [...seen.flags].sort((a, b) => a - b)
     .map((code) => [swatchOf(variable.looks[code]), variable.looks[code].label]);
@@ -183,7 +212,7 @@ function legend(seen, dots) {
   if (seen.intervals) entries.push([bareSwatch((ink) => bar(ink, 8, 1, 15)), intervalName(study)]);
   if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), seen.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
-  if (dots) entries.push([dotSwatch(), dots.title]);
+  if (chosen) entries.push([classSwatch(chosen), chosen.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
@@ -205,6 +234,7 @@ function scaleOfNumbers(variable, numbers) {
   const [least, greatest] = finite.length ? [Math.min(...finite), Math.max(...finite)] : [0, 1];
   if (variable.scale && Math.max(-least, greatest) > 2 * variable.scale.width) return scaleOfRates(variable.scale, least, greatest);
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
+  if (!finite.length) return { borders: [least, greatest], to: identity, ticks: () => [] };
   const ticks = variable.flags
     ? variable.looks.map((look, code) => [code, look.label]).filter(([code]) => code >= least && code <= greatest)
     : ticksBetween(least - room, greatest + room, variable.whole).map((tick) => [tick, number(tick, 4)]);
@@ -225,14 +255,14 @@ function scaleOfRates({ width }, least, greatest) {
   return { borders, to, ticks: () => inside };
 }
 
-/** Whether a curve joins its points: those of one line, along which its number has values between them. */
+/** Whether a curve joins its points: those of one line, along which its number has values between them; counts have none. */
 const isJoined = () => {
   const across = view.study.dim[view.x];
-  return !view.variable.flags && view.spread === NONE && !across.words && !counts(across);
+  return !view.variable.flags && !view.variable.whole && view.spread === NONE && !across.words && !counts(across);
 };
 
 /** The points of a curve as they are drawn, and what of them the legend names. */
-function curveOf(cells, numbers, intervals, dotted, seen) {
+function curveOf(cells, numbers, intervals, marked, seen) {
   const { study, variable } = view;
   const { horizontal, vertical, xs, ys } = drawn;
   const height = (one) => vertical(ys.to(one));
@@ -241,7 +271,7 @@ function curveOf(cells, numbers, intervals, dotted, seen) {
     const ends = (intervals[n] ?? []).filter(Number.isFinite).map(height);
     for (const doubt of doubts) seen.doubts.add(doubt);
     if (ends.length) seen.intervals = true;
-    return { x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, dotted: dotted(place) };
+    return { x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, marked: marked(place) };
   });
 }
 
@@ -307,8 +337,8 @@ function bareSwatch(draw) {
 }
 
 /** The marks of a curve's points and open steps. */
-function markCurve(ink, points, open) {
-  points.forEach(({ x, y, ends, doubts, dotted }, n) => {
+function markCurve(ink, points, open, chosen) {
+  points.forEach(({ x, y, ends, doubts, marked }, n) => {
     if (open[n]) stroke(ink, (x + points[n + 1].x) / 2, drawn.box.top + 3);
     if (!Number.isFinite(y)) return;
     if (ends.length === 2) bar(ink, x, ...ends);
@@ -316,13 +346,13 @@ function markCurve(ink, points, open) {
       if (doubt.is_bound) arrow(ink, x, y);
       else filledMark(ink, x, y);
     }
-    if (dotted) disc(ink, x, y, MOST_RADIUS);
+    if (marked) markOfClass(ink, chosen, x, y, MOST_RADIUS);
     ink.fillStyle = ink.strokeStyle = style("--accent");
   });
 }
 
-/** The curve in its frame, with its dots, and a line at the chosen point, which has a ring among others. */
-function drawCurve(ink, points, open) {
+/** The curve in its frame, with its marks, and a line at the chosen point, which has a ring among others. */
+function drawCurve(ink, points, open, chosen) {
   const { box, horizontal, xs } = drawn;
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const zero = drawn.vertical(0);
@@ -331,17 +361,17 @@ function drawCurve(ink, points, open) {
   const isAtBound = (n) => points[n].doubts.some((doubt) => doubt.is_bound);
   const opens = (n) => open[n] || isAtBound(n) || isAtBound(n + 1); // a value at a bound may lie anywhere below
   polyline(ink, points.map(({ x, y }) => [x, y]), isJoined(), opens);
-  markCurve(ink, points, open);
+  markCurve(ink, points, open, chosen);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);
   line(ink, at, box.top, at, box.bottom);
   ink.setLineDash([]);
   if (view.spread === NONE) return;
-  const chosen = drawn.vertical(drawn.ys.to(value(view.study, view.variable, view.place)));
-  if (!Number.isFinite(chosen)) return;
+  const height = drawn.vertical(drawn.ys.to(value(view.study, view.variable, view.place)));
+  if (!Number.isFinite(height)) return;
   ink.beginPath();
-  ink.arc(at, chosen, 6, 0, 2 * Math.PI);
+  ink.arc(at, height, 6, 0, 2 * Math.PI);
   ink.stroke();
 }
 

@@ -25,8 +25,18 @@ function fateOf(study, place) {
   if (!rate) return study.status ? shown(study, study.status, place) : "";
   const gap = gapAt(study, rate, place);
   if (gap) return gap.label;
+  const neutral = rate.marks.find((mark) => mark.is_neutral);
+  if (neutral && value(study, neutral, place)) return neutral.look.label;
   const stable = stableMark(rate);
   return stable && value(study, stable, place) ? stable.look.label : "unstable";
+}
+
+/** What a stored motion is, as a sentence: that of its outcome or of its cycle's stability, as far as the quantity has one. */
+function saidOfMotion(study, motion) {
+  const place = { ...view.place, ...motionPlaces(study, motion) };
+  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  const word = outcome ? outcome.flags[value(study, outcome, place)] : fateOf(study, place);
+  return study.motions.text_by[word] ?? study.motions.text;
 }
 
 /** How far a motion's place is from the chosen point, by places along the axes; infinitely far beyond another word. */
@@ -102,7 +112,7 @@ function drawMotion() {
   const fate = fateOf(study, place);
   const like = fate ? `of the same kind, ${fate}, ` : "";
   const said = own ? "At this point" : `Nearest stored motion ${like}at ${where(motion.places, dims)}${ring}`;
-  element("motion-note").textContent = `${said}. ${study.motions.text}`;
+  element("motion-note").textContent = `${said}. ${saidOfMotion(study, motion)}`;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;

@@ -5,11 +5,14 @@ function cellAt(canvas, event) {
   const [px, py] = [event.clientX - left, event.clientY - top];
   const { box, horizontal, vertical, xs, ys } = drawn;
   if (px < box.left || px > box.right || py < box.top || py > box.bottom) return null;
-  const inside = (scale, position, at) =>
-    scale.at.findIndex((_, n) => {
+  const inside = (scale, position, pointed) => {
+    const [first, last] = [position(scale.borders[0]), position(scale.borders.at(-1))];
+    const at = Math.max(Math.min(first, last), Math.min(pointed, Math.max(first, last))); // beside a curve's end: that point
+    return scale.at.findIndex((_, n) => {
       const ends = [position(scale.borders[n]), position(scale.borders[n + 1])];
       return at >= Math.min(...ends) && at <= Math.max(...ends);
     });
+  };
   const found = { ...view.place, [view.x]: inside(xs, horizontal, px) };
   if (view.spread !== NONE) return { ...found, [view.spread]: nearestAcross(found[view.x], py) };
   return view.y === NONE ? found : { ...found, [view.y]: inside(ys, vertical, py) };

@@ -158,7 +158,7 @@ function chooseAxes() {
   const ranked = [growth, answers, measures, wanted, () => true];
   const usual = ranked.map((kind) => fitting.find(kind)).find((one) => one);
   if (!fitting.includes(view.variable)) view.variable = usual;
-  if (!chosenDots()) view.mark = NONE;
+  if (!chosenClass()) view.mark = NONE;
   view.spread = usualSpread();
 }
 
@@ -200,11 +200,15 @@ function tellOfVariable(variable, y) {
 
 const variablesShown = () => view.study.variables.filter((variable) => along(variable, view.x, view.y));
 
+/** The words of a flag that any point has; none of a number. */
+const wordsOf = (variable) => (variable.flags ?? []).filter((_, code) => variable.numbers.includes(code));
+
 const SIMULATED = "method=simulation";
 /** The mark of a variable's stable points, if it has one. */
 const stableMark = (variable) => variable.marks.find((one) => one.is_stable);
 
-/** What points can be dotted by, a class of a flag or the stability of a growth rate: its key, text, and whether it holds. */
+/** What points can be marked by, a class of a flag that occurs or the stability of a growth rate: its key, text, and whether it
+ * holds. */
 function marks() {
   const { study } = view;
   return variablesShown().flatMap((variable) => {
@@ -212,13 +216,13 @@ function marks() {
       key: `${variable.name}=${word}`, title: `${variable.label}: ${label}`, holds,
     });
     const stable = stableMark(variable);
-    if (stable) return [mark("stable", stable.look.label, (place) => value(study, stable, place) > 0)];
-    return (variable.flags ?? []).map((word, code) =>
-      mark(word, labelOf(variable, word), (place) => value(study, variable, place) === code));
+    if (stable) return [{ ...mark("stable", stable.look.label, (place) => value(study, stable, place) > 0), isStable: true }];
+    return wordsOf(variable).map((word) =>
+      mark(word, labelOf(variable, word), (place) => variable.flags[value(study, variable, place)] === word));
   });
 }
 
-const chosenDots = () => marks().find((mark) => mark.key === view.mark);
+const chosenClass = () => marks().find((mark) => mark.key === view.mark);
 
 // Controls
 
@@ -244,11 +248,11 @@ function choice(label, options, chosen, act, name = label) {
 
 const MANY_STUDIES = 8; // which a reader does not overlook in a list
 
-/** The studies whose name, title or quantity has all words of the search, and the one that is shown. */
-function studiesFound(shown = null) {
+/** The studies whose name, title or quantity has all words of the search. */
+function studiesFound() {
   const words = view.search.toLowerCase().split(/\s+/).filter(Boolean);
   const text = (study) => `${study.name} ${study.title} ${study.call.quantity}`.toLowerCase();
-  return contents.studies.filter((study) => study === shown || words.every((word) => text(study).includes(word)));
+  return contents.studies.filter((study) => words.every((word) => text(study).includes(word)));
 }
 
 /** The selector of a study, in groups of one quantity. */
@@ -258,18 +262,26 @@ function studyChoice(shown) {
   return box;
 }
 
+const NOT_FOUND = "still shown, but not found"; // the heading of the study that is shown and does not match
+
+/** Some studies in the list, below a heading. */
+function groupOf(label, studies, shown) {
+  const group = document.createElement("optgroup");
+  group.label = label;
+  group.append(...studies.map((study) => new Option(`${study.name}: ${study.title}`, study.name, false, study === shown)));
+  return group;
+}
+
+/** Lists the studies that are found; the one that is shown is apart from them if it does not match. */
 function listStudies(select, shown) {
-  const found = studiesFound().length ? studiesFound(shown) : contents.studies;
+  const found = studiesFound().length ? studiesFound() : contents.studies;
   const quantities = [...new Set(found.map((study) => study.call.quantity))];
-  const groups = quantities.map((quantity) => {
-    const group = document.createElement("optgroup");
-    group.label = quantity.replaceAll("_", " ");
-    for (const study of found.filter((one) => one.call.quantity === quantity))
-      group.append(new Option(`${study.name}: ${study.title}`, study.name, false, study === shown));
-    return group;
-  });
+  const groups = quantities.map((quantity) =>
+    groupOf(quantity.replaceAll("_", " "), found.filter((one) => one.call.quantity === quantity), shown));
   const grouped = quantities.length > 1 && found.length > MANY_STUDIES;
-  select.replaceChildren(...(grouped ? groups : groups.flatMap((group) => [...group.children])));
+  const listed = grouped ? groups : groups.flatMap((group) => [...group.children]);
+  if (!found.includes(shown)) listed.push(groupOf(NOT_FOUND, [shown], shown));
+  select.replaceChildren(...listed);
   select.value = shown.name;
   select.title = select.selectedOptions[0].text;
 }
@@ -335,7 +347,7 @@ function fillControls() {
     );
   if (marks().length)
     boxes.push(
-      choice("Dots", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.title])],
+      choice("Marks", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.title])],
         view.mark, (key) => (view.mark = key)),
     );
   element("controls").replaceChildren(...boxes);

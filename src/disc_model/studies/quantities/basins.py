@@ -53,7 +53,7 @@ _KNOWN = ("attractor",)
 
 
 def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
-    ends = ("", ", lower end of its confidence interval", ", upper end of it")
+    ends = ("", ", lower end of its confidence interval", ", upper end of its confidence interval")
     return with_ends(
         what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends)
     )
@@ -99,7 +99,9 @@ class AttractorBasins(Start, Quantity):
         "attractor_index": Variable(
             "1", "number of the attractor reached, from 1", dims=_EACH, whole=True
         ),
-        "simulated_time": Variable("s", "simulated time until that was known", dims=_EACH),
+        "simulated_time": Variable(
+            "s", "simulated time until it was known what the start comes to", dims=_EACH
+        ),
         "lost_contact": Variable(
             "1",
             "whether contact was lost on the way, or will only be lost later",
@@ -117,7 +119,8 @@ class AttractorBasins(Start, Quantity):
             "J", "least energy found that leads to lasting separation, by bisection"
         ),
         "critical_energy_lower": Variable(
-            "J", "greatest energy below it, in the same direction, that does not"
+            "J",
+            "greatest energy below the critical one, in the same direction, without lasting separation",
         ),
         "critical_energy_sampled": Variable(
             "J", "least energy among the starts that come to lasting separation"
@@ -129,22 +132,31 @@ class AttractorBasins(Start, Quantity):
             dims=_KNOWN,
         ),
         "attractor_starts": Variable(
-            "1", "number of starts that reach it", dims=_KNOWN, whole=True
+            "1", "number of starts that reach the attractor", dims=_KNOWN, whole=True
         ),
-        "attractor_range": Variable("m", "range of the slider's height on it", dims=_KNOWN),
-        "attractor_separation_rate": Variable("s-1", "separations per second on it", dims=_KNOWN),
+        "attractor_range": Variable(
+            "m", "range of the slider's height on the attractor", dims=_KNOWN
+        ),
+        "attractor_separation_rate": Variable(
+            "s-1", "separations per second on the attractor", dims=_KNOWN
+        ),
         "attractor_stick_fraction": Variable(
-            "1", "share of the time spent sticking on it", dims=_KNOWN
+            "1", "share of the time spent sticking on the attractor", dims=_KNOWN
         ),
         "attractor_separation_fraction": Variable(
-            "1", "share of the time spent separated on it", dims=_KNOWN
+            "1", "share of the time spent separated on the attractor", dims=_KNOWN
         ),
         "attractor_releases": Variable(
-            "1", "stick releases in its period, 0 if not periodic", dims=_KNOWN, whole=True
+            "1",
+            "stick releases in the attractor's period, 0 if not periodic",
+            dims=_KNOWN,
+            whole=True,
         ),
-        "attractor_period": Variable("s", "its period, nan if not periodic", dims=_KNOWN),
+        "attractor_period": Variable(
+            "s", "period of the attractor, nan if not periodic", dims=_KNOWN
+        ),
         "attractor_growth_rate": Variable(
-            "s-1", "growth rate of disturbances of it, if periodic", dims=_KNOWN
+            "s-1", "growth rate of disturbances of the attractor, if periodic", dims=_KNOWN
         ),
     }
     COORDINATES: ClassVar = {

@@ -24,6 +24,10 @@ class Floquet(Quantity):
     """tolerance of cycles: relative residual of the return map"""
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
+    motion_by: ClassVar = {
+        "stable": "The stick-slip cycle itself, which is stable.",
+        "unstable": "The stick-slip cycle itself, which is unstable: the motion leaves it.",
+    }
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),

@@ -10,6 +10,7 @@ from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Var
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import (
     COME_TO,
+    COME_TO_BY,
     STATUS,
     OutcomeResult,
     Point,
@@ -47,6 +48,7 @@ class HorizonOutcome(Start, Quantity):
     _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
+    motion_by: ClassVar = COME_TO_BY
     COLUMNS: ClassVar = {
         "status": STATUS,
         "outcome": Variable(
@@ -64,7 +66,7 @@ class HorizonOutcome(Start, Quantity):
             "1", "relative difference of successive cycles at the last probe"
         ),
         "return_map_residual_rate": Variable(
-            "s-1", "growth rate of that difference over the last probes"
+            "s-1", "growth rate of the difference of successive cycles over the last probes"
         ),
         "P_min": Variable("N", "least contact force over the late stretch"),
         "P_max": Variable("N", "greatest contact force over the late stretch"),

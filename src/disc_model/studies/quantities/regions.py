@@ -9,6 +9,7 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.studies.quantity import (
     COME_TO,
+    COME_TO_BY,
     START_OUTCOME,
     STATUS,
     TIMED_SEPARATION,
@@ -41,6 +42,7 @@ class Regions(Quantity):
     """side of the first cells, in intervals of the grid"""
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
+    motion_by: ClassVar = COME_TO_BY
     tiled: ClassVar = True
     COLUMNS: ClassVar = {
         "status": STATUS,
