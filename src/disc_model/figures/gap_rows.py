@@ -134,7 +134,8 @@ def name_rows(ax: Axes, names: Mapping[int, str]) -> None:
     by_reason: dict[str, list[Rows]] = {}
     for each in _kept_above(host):
         if each.sweep is not None and each.sweep in names:
-            each.said = f"{each.reason}, {names[each.sweep]}"
+            reason, colon, further = each.reason.partition(":")
+            each.said = f"{reason}, {names[each.sweep]}{colon}{further}"
             each.words.set_text(each.said)
         by_reason.setdefault(each.reason, []).append(each)
     for alike in by_reason.values():
