@@ -57,7 +57,8 @@ def draw_points(
     set_scales(ax, study, names, array, x, log)
 
     if "sample" in array.dims and has_kinds(study, x):
-        add_kinds(ax, study, along, look.colour, sweep)
+        known = np.isfinite(heights).any(axis=1)  # others have a row of their reason
+        add_kinds(ax, study.isel({x: known}), along[known], look.colour, sweep)
     row: dict[str, Any] = {"color": look.colour, "marker": "o" if marker == "." else marker}
     for reason, gone in reasons_of_gaps(study, array).items():
         here = gone.transpose(x, ...).values.all(axis=1)
