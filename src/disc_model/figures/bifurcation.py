@@ -1,6 +1,8 @@
 """Bifurcation diagrams: samples once a turn or at events, periods, and exponents."""
 
 from collections.abc import Mapping
+from textwrap import fill
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -20,22 +22,24 @@ from disc_model.figures.drawing import (
     plain_decades,
 )
 from disc_model.figures.edge_strip import draw_strip
+from disc_model.figures.kind_rows import SHAPES, looks_of_kinds, words_of_kinds
 from disc_model.figures.kinds.motions import Bifurcation
 from disc_model.figures.legends import legend_above
 from disc_model.figures.selection import failed
 from disc_model.figures.settled_motions import CALM, kinds_of
 from disc_model.figures.types import Array, Axes, Figure
 
+CHARACTERS = 12  # of the title of a legend in an inch of the page
+Row = tuple[Array, dict[str, Any]]
+"""Places along the horizontal axis, and the look of their marks."""
 IN_LEGEND = 6.0  # size of the marks there: those of the diagram are too small for it
-SHAPES = {"steady_sliding": "_", "at_rest": "1"}
-"""Marks of motions without events."""
-STRIPS = (0.06, 0.16)
-"""Heights of the strips for motions without samples and without a period, as shares of their panels."""
+STRIPS = (0.05, 0.1)
+"""Heights of rows for kinds of motion, and for those without a period, as shares of their panels."""
 
 
 def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw samples by phase, hollow where the motion is not shown to have settled, with crosses
-    at failed points, a strip of motions without samples; below periods, and exponents with
+    at failed points, with a strip of kinds of motion; below periods, and exponents with
     crosses where the largest is missing."""
     study = study.transpose(plot.x, "sample", ...)
     label, factor = axis_of(plot.x)
@@ -60,29 +64,32 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         panel.margins(x=0.02)  # no dot is cut at the edge
     places = {case: value * factor for case, value in plot.paper_cases.items()}
     mark_cases(axes, places)
-    draw_strip(axes[0], STRIPS[0], _without_samples(study, along))
+    kinds = [(at, {**look, "color": BLACK}) for at, look in looks_of_kinds(study, along)]
+    draw_strip(axes[0], STRIPS[0], [*kinds, _without_samples(study, along)])
     draw_strip(axes[1], STRIPS[1], _calm(study, along))
     legend_above(axes[1])
-    legend = legend_above(axes[0])
+    title = f"on the grey strip: {words_of_kinds(study)}"
+    legend = legend_above(axes[0], title=fill(title, round(width * CHARACTERS)))
     for line in legend.get_lines() if legend else ():
         line.set_markersize(mark(IN_LEGEND))
     return figure
 
 
-def _without_samples(study: xr.Dataset, along: Array) -> dict[str, tuple[str, Array]]:
-    """Places of motions without samples: steady sliding, permanent stick, and others without an event."""
+def _without_samples(study: xr.Dataset, along: Array) -> Row:
+    """Places of motions that have events, but none while they were sampled."""
     idle = ~(phases_of(study) != "none").any(axis=1) & ~failed(study).values
-    kinds = kinds_of(study)
-    found = {name_of(word): (SHAPES[word], along[idle & (kinds == word)]) for word in CALM}
-    found["no event while sampled"] = ("|", along[idle & ~np.isin(kinds, CALM)])
-    return found
+    here = idle & ~np.isin(kinds_of(study), CALM)
+    return along[here], {"marker": "|", "label": "no event while sampled"}
 
 
-def _calm(study: xr.Dataset, along: Array) -> dict[str, tuple[str, Array]]:
+def _calm(study: xr.Dataset, along: Array) -> list[Row]:
     """Places of motions that have no period because they have no events."""
     known = ~failed(study).values
     kinds = kinds_of(study)
-    return {name_of(word): (SHAPES[word], along[known & (kinds == word)]) for word in CALM}
+    return [
+        (along[known & (kinds == word)], {"marker": SHAPES[word], "label": name_of(word)})
+        for word in CALM
+    ]
 
 
 def _draw_periods(ax: Axes, study: xr.Dataset, along: Array) -> None:

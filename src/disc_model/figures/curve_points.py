@@ -13,17 +13,29 @@ from disc_model.figures.curve_marks import measured_along, open_look, reasons_of
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.error_bars import draw_bars, errors_of
 from disc_model.figures.gap_rows import add_row
+from disc_model.figures.kind_rows import add_kinds, has_kinds
 from disc_model.figures.point_groups import points_of
 from disc_model.figures.types import Axes
 
 
 def draw_points(
-    ax: Axes, study: xr.Dataset, variable: str, x: str, log: bool, look: Look, marker: str
+    ax: Axes,
+    study: xr.Dataset,
+    variable: str,
+    x: str,
+    log: bool,
+    look: Look,
+    marker: str,
+    sweep: int | None = None,
 ) -> list[tuple[str, Any]]:
     """Draw all values of a variable at each place along a dimension; rings are of motions that had not
-    settled, or of averages that have not converged, and marks above the panel of places without any
-    value. Returns the points with the names of the events at which they were sampled, or all of them,
-    with the number of modes that they are of, and the rings with their names."""
+    settled, or of averages that have not converged, and marks above the panel of what kind of motion
+    samples are of, and of places without any value. Returns the points with the names of the events at
+    which they were sampled, or all of them, with the number of modes that they are of, and the rings
+    with their names.
+
+    sweep : number of sweeps and variables that were drawn there before
+    """
     names, array = join_classes(ax, *heights_of(study, variable))
     array = array.transpose(x, ...)
     along = measured_along(array[x]).values
@@ -44,6 +56,9 @@ def draw_points(
         draw_bars(ax, *each, look.colour)
     set_scales(ax, study, names, array, x, log)
 
+    if "sample" in array.dims and has_kinds(study, x):
+        known = np.isfinite(heights).any(axis=1)  # others have a row of their reason
+        add_kinds(ax, study.isel({x: known}), along[known], look.colour, sweep)
     row: dict[str, Any] = {"color": look.colour, "marker": "o" if marker == "." else marker}
     for reason, gone in reasons_of_gaps(study, array).items():
         here = gone.transpose(x, ...).values.all(axis=1)

@@ -1,6 +1,6 @@
 """A strip along the lower edge of a panel, for marks of points that have no value on its axis."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -14,22 +14,24 @@ from disc_model.figures.types import Array, Axes
 SHARE = 0.8  # of a strip, whose lower edge is the axis, at which no value may lie
 
 
-def draw_strip(ax: Axes, share: float, marks: Mapping[str, tuple[str, Array]]) -> None:
-    """Mark places on a strip as high as a share of a panel, below all values; nothing without a place.
+def draw_strip(ax: Axes, share: float, rows: Sequence[tuple[Array, dict[str, Any]]]) -> None:
+    """Mark places on a strip below all values, in rows each as high as a share of a panel, from the lowest
+    on; nothing without a place.
 
-    marks : shape of the mark, and places along the horizontal axis, by what a legend calls them
+    rows : places along the horizontal axis, and the look of their marks, with what a legend calls them
     """
-    shown = {name: each for name, each in marks.items() if each[1].size}
+    shown = [each for each in rows if each[0].size]
     if not shown:
         return
-    _make_room(ax, share)
+    height = share * len(shown)
+    _make_room(ax, height)
     edge: dict[str, Any] = {"transform": ax.transAxes, "color": STRIP, "linewidth": 0}
-    ax.add_patch(Rectangle((0, 0), 1, SHARE * share, zorder=0, **edge))
-    look: dict[str, Any] = {"color": GREY, "linestyle": "", "markersize": mark(4)}
-    for name, (shape, places) in shown.items():
-        heights = np.full(places.size, 0.5 * SHARE * share)
-        transform = ax.get_xaxis_transform()
-        ax.plot(places, heights, marker=shape, label=name, transform=transform, **look)
+    ax.add_patch(Rectangle((0, 0), 1, SHARE * height, zorder=0, **edge))
+    transform = ax.get_xaxis_transform()
+    for number, (places, look) in enumerate(shown):
+        heights = np.full(places.size, (number + 0.5) * SHARE * share)
+        whole: dict[str, Any] = {"color": GREY, "linestyle": "", "markersize": mark(4), **look}
+        ax.plot(places, heights, transform=transform, **whole)
 
 
 def _make_room(ax: Axes, share: float) -> None:

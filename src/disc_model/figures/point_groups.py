@@ -77,7 +77,8 @@ def _look_at(phase: str, look: Look, marker: str) -> dict[str, Any]:
     """What tells samples in a phase from others of a sweep, whose colour they have: the marks of a bifurcation
     diagram, or beside other sweeps full marks of releases, and open ones of separations."""
     if marker == ".":
-        return {"marker": MARKS[phase]["marker"]}
+        own = MARKS[phase]
+        return {**own, "markersize": mark(own["markersize"])}
     return {"markerfacecolor": look.colour} if phase == "stick" else {}
 
 

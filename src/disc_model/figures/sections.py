@@ -15,11 +15,16 @@ def names_of_events(study: xr.Dataset) -> dict[str, str]:
     return EVENTS if _section(study) == "event" else {}
 
 
+def is_once_a_turn(study: xr.Dataset) -> bool:
+    """Whether samples were taken once per turn of the drive."""
+    return _section(study) == "stroboscopic"
+
+
 def with_section(study: xr.Dataset, name: str, words: str) -> str:
     """The words for a variable of a study, with when it was sampled if that is once per turn, or at the
     event of a single motion; those of several are named by the marks of their samples."""
     sampled = name in study and "sample" in study[name].dims
-    if sampled and _section(study) == "stroboscopic":
+    if sampled and is_once_a_turn(study):
         return f"{words} {ONCE_A_TURN}"
     if sampled:
         return f"{words} {_only_event(study)}".rstrip()

@@ -29,7 +29,7 @@ def draw_each(
     mark = MARKS[number % len(MARKS)]
     if drawn.counted:
         shape = mark if number else "."
-        return draw_points(ax, study, drawn.variable, across, log, look, shape)
+        return draw_points(ax, study, drawn.variable, across, log, look, shape, number)
     if drawn.sampled and study.sizes[drawn.second] > MOST_NAMED:
         return draw_samples(ax, study, drawn.variable, across, log, look, mark)
     options: dict[str, Any] = {"joined": drawn.joined, "single": look}

@@ -30,6 +30,8 @@ SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 class Bifurcation(Start, Quantity):
     """Samples of the motion after a transient, for bifurcation diagrams.
 
+    Once a turn, a periodic stick-slip cycle fills an interval, as its period is no multiple of a
+    turn: `kind` tells it from motions that do not repeat.
     At events, which are separations if there are any, else releases, a periodic motion shows as
     many points as its period has events. The transient is doubled there until the motion has
     settled, up to `max_transient`.
