@@ -189,13 +189,3 @@ def test_words_of_a_further_sweep_stand_above_those_before() -> None:
         study = grid(Omega=[10.0, 12]).assign(level=("Omega", words))
         dm.plot_sweep(study, "level", ax=ax)
     assert words_up(ax) == ["low", "hi", "at the top"]
-
-
-def test_names_of_sweeps_behind_a_reason_begin_small() -> None:
-    """They had a capital within a sentence."""
-    study = grid(N=[300.0, 400], Omega=[10.0, 12, 14])
-    for name in ("rising_force", "falling_force"):
-        study[name] = study["height"].where(study["height"] > 0).assign_attrs(units="N")
-    ax = dm.plot_sweep(study, ["rising_force", "falling_force"], x="Omega", ax=small_axes())
-    reasons = [text.get_text().replace("\n", " ") for text in ax.texts]
-    assert reasons == ["no value, rising force", "no value, falling force"]
