@@ -11,7 +11,7 @@ from disc_model.explorer import Stated
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import AT_BOUND, NOT_NEAR, UNSETTLED
 from disc_model.figures.curve_heights import heights_of
-from disc_model.figures.curve_lines import open_steps
+from disc_model.figures.curve_pieces import open_steps
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.studies.point_calls import HEADLINES
 from disc_model.studies.run import describe

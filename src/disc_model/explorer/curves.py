@@ -6,7 +6,7 @@ import xarray as xr
 
 from disc_model.figures.classes import AT_BOUND, Look
 from disc_model.figures.curve_heights import heights_of
-from disc_model.figures.curve_lines import open_steps
+from disc_model.figures.curve_pieces import open_steps
 from disc_model.figures.rate_scale import RATE
 from disc_model.figures.selection import OF_CYCLES, at_lower_bound, border_alone, doubts
 from disc_model.figures.types import Mask

@@ -1,9 +1,7 @@
 """Lines of a variable along one dimension, and what is marked on them."""
 
-from collections.abc import Mapping
 from typing import Any
 
-import numpy as np
 import xarray as xr
 
 from disc_model.figures.branch_lines import Look
@@ -20,20 +18,13 @@ from disc_model.figures.curve_marks import (
     reason_of_open_steps,
     reasons_of_gaps,
 )
+from disc_model.figures.curve_pieces import at_bound_by_line, draw_at_bound, open_steps
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.error_bars import draw_errors
-from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens
-from disc_model.figures.selection import (
-    at_lower_bound,
-    border_alone,
-    not_near,
-    opened,
-    parts_along,
-    remaining,
-    titles_of_shown,
-)
+from disc_model.figures.rate_scale import are_rates
+from disc_model.figures.selection import opened, parts_along, remaining, titles_of_shown
 from disc_model.figures.separating_share import draw_intervals_of_lines
-from disc_model.figures.types import Array, Axes, Mask
+from disc_model.figures.types import Axes
 from disc_model.figures.valueless_lines import UNSEEN, say_valueless, valueless_lines
 
 
@@ -60,8 +51,7 @@ def draw_lines(  # noqa: PLR0913
     sweep : number of the sweep on its axes, if others may have lines of the same colours
     names_valueless : whether the legend names lines without any value in place of marks for them
     """
-    if marks is None:
-        marks = {}
+    marks = {} if marks is None else marks
     names, array = join_classes(ax, *heights_of(study, variable))
     by = remaining(array, [x])
     along = measured_along(array[x]).values
@@ -74,7 +64,7 @@ def draw_lines(  # noqa: PLR0913
     looks = looks_of(parts, marks, single)._replace(sweep=sweep, dashes=line)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = open_steps(study, array, by, log) if joined else {}
-    bounds = _at_bound_by_part(study, array, by)
+    bounds = at_bound_by_line(study, array, by)
     titles = titles_of_shown(study, array, by)
     reasons = reasons_of_gaps(study, array)
     valueless = valueless_lines(reasons, by) if names_valueless else {}
@@ -82,7 +72,7 @@ def draw_lines(  # noqa: PLR0913
     for part in parts:
         title = titles.get(part.name)
         look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
-        heights = _draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
+        heights = draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
         pieces = [along, heights]
         if steps:
             pieces = opened(along, heights, steps[part.name])
@@ -108,46 +98,3 @@ def draw_lines(  # noqa: PLR0913
     mark_gaps(ax, reasons, array, x, looks, valueless)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
-
-
-def _at_bound_by_part(study: xr.Dataset, array: xr.DataArray, by: str | None) -> dict[str, Mask]:
-    """Points of each line whose value is the lower bound of its search."""
-    bound = at_lower_bound(study, str(array.name))
-    if bound is None:
-        bound = array.copy(data=np.zeros(array.shape, dtype=bool))
-    return {part.name: part.data.values for part in parts_along(bound, by)}
-
-
-def _draw_at_bound(
-    ax: Axes, along: Array, heights: Array, at_bound: Mask, look: Mapping[str, Any]
-) -> Array:
-    """Draw the points of a line that are at the bound of a search, and return the heights of the others:
-    the value may lie anywhere below, so that no line leads there."""
-    if at_bound.any():
-        alone = {**look, "linestyle": "", "label": "_nolegend_"}
-        ax.plot(along[at_bound], heights[at_bound], **alone)
-    return np.where(at_bound, np.nan, heights)
-
-
-def open_steps(
-    study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
-) -> dict[str, Mask]:
-    """The steps at which each line of a variable is open: of critical values, those to or from the main
-    border of stability; of a variable of cycles, those at which the growth rate says that they may
-    lead to another cycle, and those to or from a cycle that the motion is not near; none of other
-    variables."""
-    on_border = border_alone(study, str(array.name))
-    if on_border is not None:
-        parts = parts_along(on_border, by)
-        return {part.name: np.abs(np.diff(part.data.values)) > 0 for part in parts}
-    rates = array if array.name == RATE else study.get(RATE, array)
-    if not are_of_cycles(array, rates) or (array.name == RATE and not are_rates(array, log)):
-        return {}
-    other = not_near(study, str(array.name))
-    if other is None:
-        other = array.copy(data=np.zeros(array.shape, dtype=bool))
-    found = {}
-    of_lines = zip(parts_along(rates, by), parts_along(other, by), strict=True)
-    for part, apart in of_lines:
-        found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
-    return found

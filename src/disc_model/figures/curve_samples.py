@@ -9,9 +9,9 @@ from disc_model.display import counted
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.class_axis import join_classes
 from disc_model.figures.curve_heights import heights_of
-from disc_model.figures.curve_lines import open_steps
 from disc_model.figures.curve_looks import dashes_of, draw_dots
 from disc_model.figures.curve_marks import measured_along, open_look, reasons_of_gaps
+from disc_model.figures.curve_pieces import open_steps
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.drawing import BLACK, GREY, wide
 from disc_model.figures.gap_rows import add_row
