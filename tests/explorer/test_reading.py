@@ -163,3 +163,19 @@ def test_few_values_have_an_even_scale(opened: Open, numbers: list[float], middl
             "view.colours = 'auto'; return colouring(arguments[0], {}).ticks(600)", numbers
         )
     assert ticks[2][1] == pytest.approx(middle)
+
+
+@pytest.mark.parametrize(("word", "time"), [("separation", 1000), ("quiet", 60)])
+def test_a_motion_is_simulated_until_it_separates(opened: Open, word: str, time: int) -> None:
+    """Where its time is not known, a call of 60 s showed a motion in contact."""
+    study = plane()
+    code = OUTCOMES.split().index(word)
+    study["outcome"] = study["outcome"].copy(data=np.full(study["outcome"].shape, code, np.int8))
+    study["outcome"].attrs = flagged(OUTCOMES)
+    untimed = np.full(study["outcome"].shape, np.nan)
+    meaning = {"units": "s", "long_name": "time of the first separation"}
+    study["first_separation"] = (study["outcome"].dims, untimed, meaning)
+    stated = Stated(call={"options": {"horizon": 1000}})
+    with opened([contents_of("plane", study, None, stated)]) as shown:
+        call = shown.text("motion-call")
+    assert call.endswith(f", {time}).plot()")

@@ -42,7 +42,7 @@ def said_of(study: xr.Dataset) -> list[str]:
 def test_the_legend_names_the_step_of_the_narrowest_unresolved_window() -> None:
     """It said "smaller steps"; steps of the study are 0.5 rad/s."""
     study = study_of(["unresolved", "unresolved", "rises"], [0.048, 0.2, 0.01])
-    assert said_of(study) == ["2 of 3 crossings unresolved: steps of 0.04 rad/s"]
+    assert said_of(study) == ["2 of 3 crossings unresolved: need steps of 0.04 rad/s"]
 
 
 def test_the_legend_names_no_step_wider_than_those_of_the_study() -> None:
@@ -58,7 +58,7 @@ def test_the_legend_asks_for_a_wider_scan_where_a_window_leaves_it() -> None:
 
 def test_both_remedies_are_told_apart() -> None:
     study = study_of(["beyond_scan", "unresolved", "rises"], [0.1] * 3)
-    unresolved = "1 of 3 crossings unresolved: steps of 0.1 rad/s"
+    unresolved = "1 of 3 crossings unresolved: need steps of 0.1 rad/s"
     assert said_of(study) == [unresolved, f"1 of 3 crossings: {WIDEN}"]
 
 

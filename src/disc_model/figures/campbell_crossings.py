@@ -60,7 +60,7 @@ def _steps_needed(studies: Sequence[xr.Dataset]) -> str:
     steps = [step for study in studies for step in _steps_of(study)]
     if not steps:
         return ""
-    return f": steps of {rounded_down(min(steps)):g} rad/s"
+    return f": need steps of {rounded_down(min(steps)):g} rad/s"
 
 
 def _steps_of(study: xr.Dataset) -> Array:

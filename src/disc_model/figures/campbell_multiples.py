@@ -15,40 +15,36 @@ from disc_model.figures.drawing import halo, large, sample
 from disc_model.figures.types import Artist, Axes, Mask
 
 ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a mode
+NAMES_APART = 0.12  # distance of the places of two names, over the range of speeds
+NAMES_BESIDE = 3  # such places
 
 
 def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highest: float) -> None:
     """Draw multiples of the stick-slip frequency over the speed, with their names, and marks where
     modes cross them, up to the highest frequency shown (Hz)."""
     releases = followed_frequency(study)
-    for multiple in multiples:
+    for place, multiple in enumerate(multiples):
         line = multiple * releases
         ax.plot(study["Omega"], line, zorder=ABOVE_MODES, **multiple_look())
-        _name_line(ax, line, multiple, study["sliding_frequency"], highest)
+        _name_line(ax, line, f"{multiple} {SYMBOLS[0]}", place, highest)
     for effect, at_effect in _by_effect(study, multiples, highest).items():
         speeds = study["crossing_Omega"].values[at_effect]
         frequencies = study["crossing_frequency"].values[at_effect]
         ax.plot(speeds, frequencies, **crossing_look(effect))
 
 
-def _name_line(
-    ax: Axes, line: xr.DataArray, multiple: int, modes: xr.DataArray, highest: float
-) -> None:
-    """Write the name of a multiple within the panel, at the last speed at which it is shown, on the
-    side away from the nearest mode."""
+def _name_line(ax: Axes, line: xr.DataArray, name: str, place: int, highest: float) -> None:
+    """Write the name of a multiple on its line, near the last speed at which it is shown; names of lines
+    that may be near each other stand at different places."""
     shown = np.flatnonzero(line.values <= highest)
     if not shown.size:
         return
-    end = shown[-1]
-    place = (float(line["Omega"][end]), float(line[end]))
-    detuning = (modes.isel(Omega=end) - place[1]).values
-    apart = np.nan_to_num(np.abs(detuning), nan=np.inf)
-    nearest = detuning[apart.argmin()]
-    below = nearest > 0
-    look: dict[str, Any] = {"ha": "right", "va": "top" if below else "bottom", "fontsize": large(6)}
-    name = f"{multiple} {SYMBOLS[0]}"
-    offset = (-2, -1 if below else 1)
-    ax.annotate(name, place, offset, textcoords="offset points", path_effects=halo(), **look)
+    speeds = line["Omega"].values[shown]
+    back = NAMES_APART * (place % NAMES_BESIDE) * np.ptp(speeds)
+    at = shown[np.abs(speeds - (speeds.max() - back)).argmin()]
+    anchor = (float(line["Omega"][at]), float(line[at]))
+    look: dict[str, Any] = {"ha": "right", "va": "center", "fontsize": large(6)}
+    ax.annotate(name, anchor, (-2, 0), textcoords="offset points", path_effects=halo(), **look)
 
 
 def entries_of_crossings(

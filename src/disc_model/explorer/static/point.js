@@ -225,11 +225,21 @@ const SIMULATED_FOR = 60; // s, as in the package's first examples
 
 const LONGEST_CASE = 120; // characters of a case that is written twice: a sample or a disc has more
 
-/** How long a simulation shows the motion of a point, s: beyond its first separation where the study has a later one. */
+/** Whether a motion is known to separate within the horizon of a study. */
+function isSeparating(study, place) {
+  const outcome = study.variables.find((one) => one.name === "outcome" && one.flags);
+  return Boolean(outcome) && outcome.flags[value(study, outcome, place)] === "separation";
+}
+
+/** How long a simulation shows the motion of a point, s: beyond its first separation where the study has a later one, and to
+ * the horizon where the motion separates within it at a time that the study does not have. */
 function simulatedFor(study, place) {
   const timed = study.variables.find((one) => one.name === "first_separation" && one.unit === "s");
   const separates = timed ? value(study, timed, place) : NaN;
-  return separates > SIMULATED_FOR ? 10 * Math.ceil(separates / 10) + 10 : SIMULATED_FOR;
+  if (separates > SIMULATED_FOR) return 10 * Math.ceil(separates / 10) + 10;
+  const horizon = Number(study.call.options.horizon);
+  const isUntimed = !Number.isFinite(separates) && isSeparating(study, place);
+  return isUntimed && horizon > SIMULATED_FOR ? horizon : SIMULATED_FOR;
 }
 
 /** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
