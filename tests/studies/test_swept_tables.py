@@ -1,5 +1,6 @@
 """Sweeps of functions that return a table, and of what a function used in place of an argument."""
 
+import numpy as np
 import pandas as pd
 from matplotlib import pyplot
 
@@ -43,3 +44,12 @@ def test_a_sweep_over_tolerances_says_which_ones_were_used() -> None:
     assert found["tol_used"].values.tolist() == [1e-10, dm.simulate(CASE, 0.01, tol=1e-6).tol]
     assert "that was used" in found["tol_used"].attrs["long_name"]
     assert "tol_used" not in dm.sweep(dm.simulate, CASE, 0.01, N=[300, 385])
+
+
+def test_a_result_that_has_the_name_of_an_axis_gets_another_one() -> None:
+    """Coordinates of modes of steady sliding are called a and b, as the radii are."""
+    case = dm.Parameters(N=385, Omega=18, normalization="orthonormal", damping_ratio=1e-3)
+    swept = dm.sweep(dm.steady_sliding, case.replace(r_0=0.05), b=[0.14, 0.15])
+    np.testing.assert_array_equal(swept["b"], [0.14, 0.15])
+    alone = dm.steady_sliding(case.replace(r_0=0.05, b=0.14)).b
+    np.testing.assert_array_equal(swept["steady_sliding_b"].isel(b=0), alone)

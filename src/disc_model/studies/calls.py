@@ -107,7 +107,11 @@ class Call:
             elif (self.ours, name) == LIMITED:
                 kept[f"{name}_used"] = own.copy()
                 kept[f"{name}_used"].attrs["long_name"] += " that was used, at most the limit"
-            elif name not in self.arguments or {*own.dims} - {name}:
+            elif name in self.arguments and not {*own.dims} - {name}:
+                continue
+            elif self.ours:
+                kept[f"{self.ours}_{name}"] = own
+            else:
                 rule = f"returned {name}, which is a coordinate of the sweep: give it another name"
                 raise ParameterError(Fault((self.title,), "", rule))
         dims = taken | {dimension.name for dimension in self.dimensions}

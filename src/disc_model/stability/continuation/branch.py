@@ -133,7 +133,7 @@ class Branch:
         1  fold    LP  15.094912
         2   end    EP  14.800000
         """
-        import pandas as pd
+        from disc_model.stability.continuation.special_table import SpecialTable
 
         columns: dict[str, list[object]] = {
             "kind": [special.kind for special in self.special],
@@ -146,7 +146,7 @@ class Branch:
         columns["multiplier"] = [special.multiplier for special in self.special]
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
-        return pd.DataFrame(columns)
+        return SpecialTable(columns)
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
