@@ -5,6 +5,7 @@ from typing import Any
 
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -44,6 +45,11 @@ def as_map(study: xr.Dataset, *chosen: Any, **wishes: Any) -> Axes:
     plane = [dim for dim in shown.dims if study.sizes[dim] > 1 and study[dim].dtype.kind in "fi"]
     lines: Any = False if len(plane) == 2 else ""
     return dm.plot_sweep(study, *chosen, lines=lines, **wishes)
+
+
+def small_axes() -> Axes:
+    """Axes of a reader, of a column of a page."""
+    return pyplot.subplots(figsize=(3.3, 2.9))[1]
 
 
 LEAST_PANEL = 0.4  # inch

@@ -24,12 +24,6 @@ from tests.figures.reading import assert_fit_for_print, assert_numbers_are_apart
 from tests.refusals import refusal
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def picture_of(study: xr.Dataset, **wishes: Any) -> Figure:
     """The figure of the diagram of a study."""
     top, _ = dm.plot_campbell(study, **wishes)

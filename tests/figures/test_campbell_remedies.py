@@ -17,12 +17,6 @@ from tests.refusals import refusal
 WIDEN = "window leaves the scan: widen it"
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def study_of(effects: list[str], steps: list[float]) -> xr.Dataset:
     """A study with such effects of its three crossings, and steps that resolve them."""
     study = campbell_study()

@@ -3,8 +3,6 @@
 from typing import Any
 
 import numpy as np
-import pytest
-from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.critical_beside import UNSTABLE
@@ -14,12 +12,6 @@ from tests.figures.test_wishes import legend_texts
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=12)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def made(case: dm.Parameters = CASE, **further: Any) -> Critical:

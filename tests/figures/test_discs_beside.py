@@ -4,18 +4,11 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from matplotlib import pyplot
 
 import disc_model as dm
 from tests.figures.test_wishes import legend_texts
 
 PLATE = dm.Parameters(N=385, Omega=15)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def table(*frequencies: float) -> dm.Disc:

@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.gap_rows import rows_above
@@ -11,12 +10,6 @@ from tests.figures.reading import as_map, labels
 
 SPEEDS = [8.0, 10.0, 12.0]  # rad/s
 LOADS = [200.0, 300.0, 400.0, 500.0]  # N
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def grid(name: str) -> xr.Dataset:

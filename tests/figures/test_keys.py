@@ -19,12 +19,6 @@ from disc_model.figures.legends import (
 )
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def dashed_lines() -> Axes:
     """Three lines with marks, which differ in their dashes."""
     _, ax = pyplot.subplots(layout="constrained")

@@ -1,11 +1,8 @@
 """Bifurcation diagrams say what kind of motion each of their columns of points is of."""
 
-from collections.abc import Iterator
-
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.analysis.classify import ANSWER
@@ -18,12 +15,6 @@ from tests.figures.reading import labels
 
 SPEEDS = np.array([8.0, 9.0, 10.0])
 KINDS = ["quiet", "separating", "undecided"]
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    pyplot.close("all")
 
 
 def study_of(section: str) -> xr.Dataset:

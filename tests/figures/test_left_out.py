@@ -23,12 +23,6 @@ LEFT_OUT = 1  # the place of 12 rad/s
 LOADS = [350, 360, 370]  # N
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 @functools.cache
 def masked() -> xr.Dataset:
     """Cycles at four speeds, but one, and three loads."""

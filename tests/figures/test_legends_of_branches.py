@@ -1,6 +1,5 @@
 """Tests of the legends of branches: of those that are unstable throughout, and of points without one."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import pytest
@@ -11,13 +10,6 @@ import disc_model as dm
 from disc_model.figures.types import Axes
 
 CASE = dm.Parameters(N=385, Omega=12)
-
-
-@pytest.fixture(autouse=True)
-def _close() -> Iterator[None]:
-    """Close the figures of a test."""
-    yield
-    pyplot.close("all")
 
 
 @pytest.fixture(scope="module")

@@ -16,12 +16,6 @@ MANY = {"mu_k": 0.25, "E": 2e11, "m": 0.3, "D_star": 2e-5, "k_p": 1.5e4, "nu": 0
 FEW = {"k_p": 1.5e4}
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def outcomes(values: dict[str, float]) -> xr.Dataset:
     """Outcomes over speed and preload."""
     words = np.full((4, 4), "quiet")

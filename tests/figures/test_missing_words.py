@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 
 import disc_model as dm
 from tests.figures.reading import labels
@@ -16,12 +15,6 @@ LOADS = [200.0, 385.0, 600.0]  # N
 def load_of(case: dm.Parameters) -> dict[str, float]:
     """A result of its own."""
     return {"size": case.N}
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 @pytest.mark.parametrize("nothing", ["", None, np.nan])

@@ -1,7 +1,6 @@
 """Pictures of bifurcations in which some motions have no events, or had not settled: a figure of a study, a
 curve, and a sweep say the same of them."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -20,12 +19,6 @@ from tests.figures.every_kind import column, flag, over, stated
 NAN = np.nan
 SPEEDS = [8.0, 9.0, 10.0, 11.0]
 SLIDES = 10.0
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> Iterator[None]:
-    yield
-    pyplot.close("all")
 
 
 def study_of(section: str, settled: list[str], phases: list[str]) -> xr.Dataset:

@@ -33,12 +33,6 @@ ANOTHER = {
 """For each picture, one of something else, and the axis along which it is."""
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 @functools.cache
 def by_load() -> Any:
     return dm.continue_cycle(CASE.replace(Omega=14.9), "N", (380, 390))

@@ -22,12 +22,6 @@ WINDOWS = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 @functools.cache
 def run(speed: float) -> dm.Result:
     return dm.simulate(CASE.replace(Omega=speed), 8, WINDOWS)

@@ -1,7 +1,6 @@
 """Legends that readers make themselves of pictures without one."""
 
 import numpy as np
-import pytest
 import xarray as xr
 from matplotlib import pyplot
 from matplotlib.axes import Axes
@@ -14,12 +13,6 @@ LOADS = [200.0, 385.0]  # N
 WORDS = "ok no_cycle separates"
 STATUS = {"flag_values": np.arange(3, dtype=np.int8), "flag_meanings": WORDS}
 PLANE = ("Omega", "N")
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def rates() -> xr.Dataset:

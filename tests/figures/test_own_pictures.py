@@ -47,12 +47,6 @@ def run() -> dm.Result:
     return dm.simulate(P, 56, windows)
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def figure_of(drawn: object) -> Figure:
     return np.ravel(np.asarray(drawn, dtype=object))[0].get_figure()
 

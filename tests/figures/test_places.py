@@ -15,12 +15,6 @@ from disc_model.figures.places import ticks_once
 from disc_model.figures.sizes import COLUMN
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def test_ticks_are_set_once_for_each_range_of_an_axis(monkeypatch: pytest.MonkeyPatch) -> None:
     """Each measure of an axis set them anew."""
     update = Axis._update_ticks  # type: ignore[attr-defined]

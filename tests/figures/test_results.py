@@ -29,12 +29,6 @@ def run() -> dm.Result:
     return dm.simulate(P, 60)
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def test_a_run_without_windows_shows_its_range_and_its_last_cycles_with_their_phases() -> None:
     axes = run().plot()
     assert axes.shape == (3, 2)

@@ -1,6 +1,5 @@
 """Tests of the rows of marks above panels that have lines of several sweeps."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -14,13 +13,6 @@ from disc_model.figures.types import Axes
 
 CASE = dm.Parameters(N=385, Omega=18)
 FRICTION = np.linspace(0.1, 0.35, 11)
-
-
-@pytest.fixture(autouse=True)
-def _close() -> Iterator[None]:
-    """Close the figures of a test."""
-    yield
-    pyplot.close("all")
 
 
 @pytest.fixture(scope="module")

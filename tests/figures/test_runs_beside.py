@@ -13,12 +13,6 @@ from disc_model.figures.common_stretch import Shown, stretch_shown
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 @functools.cache
 def run(speed: float, end: float) -> dm.Result:
     return dm.simulate(CASE.replace(Omega=speed), end, {"late": dm.Window(last=0.05, rate=1e4)})

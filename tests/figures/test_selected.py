@@ -7,7 +7,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
@@ -16,12 +15,6 @@ from tests.figures.reading import as_map
 
 SPEEDS = np.array([10.0, 11.0, 12.0])
 P = dm.Parameters(N=385, Omega=14)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def title_of(ax: Axes) -> str:

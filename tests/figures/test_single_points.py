@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.figures.render import render
@@ -35,13 +34,6 @@ def study() -> xr.Dataset:
 @pytest.fixture(scope="module")
 def sweep() -> xr.Dataset:
     return dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=10), N=[300.0], Omega=[10.0])
-
-
-@pytest.fixture(autouse=True)
-def closed() -> Any:
-    """Close the figures of a test."""
-    yield
-    pyplot.close("all")
 
 
 def panel_of(study: xr.Dataset, name: str) -> Any:

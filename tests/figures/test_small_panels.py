@@ -23,12 +23,6 @@ STATUS = {"flag_values": np.arange(4, dtype=np.int8), "flag_meanings": WORDS}
 PLANE = ("Omega", "N")
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def shares(k_p: float) -> xr.Dataset:
     """Shares of sticking at speeds and loads, with a point where none was found."""
     sticking = 4.0 / SPEEDS[:, None] + 1e-4 * np.array(LOADS)

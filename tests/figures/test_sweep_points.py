@@ -20,12 +20,6 @@ SPEEDS = np.array([10.0, 12.0, 14.0, 16.0])  # rad/s
 SAMPLES = 5
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def sections() -> xr.Dataset:
     """Angles of the slider once a turn; at the last speed the motion had not settled."""
     angles = 0.01 * np.arange(20.0).reshape(4, SAMPLES)

@@ -20,12 +20,6 @@ STIFF = CASE.replace(k_p=25e3)
 DISC = CASE.replace(n_diameters=1)
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def words_along(ticks: list[Any]) -> list[str]:
     """The words of the ticks of an axis."""
     return [words_of(tick) for tick in ticks]

@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
@@ -15,12 +14,6 @@ from tests.figures.reading import labels
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=14)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def ticks_along(ax: Axes) -> list[str]:

@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
@@ -30,12 +29,6 @@ CONVERGED = np.array(
     ]
 )
 OF_EXPONENTS = {"units": "s-1", "long_name": "Lyapunov exponent"}
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
 
 
 def swept() -> xr.Dataset:

@@ -5,27 +5,15 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
 from disc_model.data.variables import attributes
 from disc_model.figures.drawing import PlainDecades
-from tests.figures.reading import labels
+from tests.figures.reading import labels, small_axes
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=14)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
-def small_axes() -> Axes:
-    """Axes of a reader, of a column of a page."""
-    return pyplot.subplots(figsize=(3.3, 2.9))[1]
 
 
 def grid(name: str = "height", **axes: Any) -> xr.Dataset:

@@ -5,26 +5,14 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.colors import to_rgba
 
 import disc_model as dm
 from disc_model.figures.classes import FILLED_MARK, GROWING
-from tests.figures.reading import labels
+from tests.figures.reading import labels, small_axes
 
 CASE = dm.Parameters(N=385, Omega=14)
-
-
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
-def small_axes() -> Axes:
-    """Axes of a reader, of a column of a page."""
-    return pyplot.subplots(figsize=(3.3, 2.9))[1]
 
 
 def named_points(ax: Axes) -> list[Any]:

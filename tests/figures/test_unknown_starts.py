@@ -30,12 +30,6 @@ KINDS = {
 """Outcomes of four starts."""
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def basins_with(points: list[str], **values: list[float]) -> xr.Dataset:
     """A sweep of basins over the speed, with the outcomes of `KINDS` at its points."""
     codes = np.zeros((len(points), 4), dtype=np.int8)

@@ -1,6 +1,5 @@
 """Tests of lines without any value, which legends name with their reason."""
 
-from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -18,13 +17,6 @@ SPEEDS = np.linspace(14, 20, 13)
 LOADS = [300, 320, 340, 385, 400, 420]
 FRICTION = [0.2, 0.5, 0.3, 0.5, 0.25, 0.5]
 """Half of these are above static friction, with which there is no case."""
-
-
-@pytest.fixture(autouse=True)
-def _close() -> Iterator[None]:
-    """Close the figures of a test."""
-    yield
-    pyplot.close("all")
 
 
 @pytest.fixture(scope="module")

@@ -60,12 +60,6 @@ DRAWN: dict[str, Draw] = {
 WITH_LEGEND = ("portrait", "multipliers", "eigenvalues", "branch", "map", "words")
 
 
-@pytest.fixture(autouse=True)
-def _closed() -> object:
-    yield
-    pyplot.close("all")
-
-
 def one(drawn: Any) -> Axes:
     return np.ravel(np.asarray(drawn, dtype=object))[0]
 
