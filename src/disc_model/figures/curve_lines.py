@@ -18,11 +18,11 @@ from disc_model.figures.curve_marks import (
     reason_of_open_steps,
     reasons_of_gaps,
 )
-from disc_model.figures.curve_pieces import at_bound_by_line, draw_at_bound, open_steps
+from disc_model.figures.curve_pieces import at_bound_by_line, draw_at_bound, open_steps, pieces_of
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.error_bars import draw_errors
 from disc_model.figures.rate_scale import are_rates
-from disc_model.figures.selection import opened, parts_along, remaining, titles_of_shown
+from disc_model.figures.selection import parts_along, remaining, titles_of_shown
 from disc_model.figures.separating_share import draw_intervals_of_lines
 from disc_model.figures.types import Axes
 from disc_model.figures.valueless_lines import UNSEEN, say_valueless, valueless_lines
@@ -73,18 +73,12 @@ def draw_lines(  # noqa: PLR0913
         title = titles.get(part.name)
         look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
         heights = draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
-        pieces = [along, heights]
-        if steps:
-            pieces = opened(along, heights, steps[part.name])
+        pieces = pieces_of(along, heights, steps.get(part.name))
         if heights.size > CROWDED:
             look |= few_marks(pieces[1], joined=bool(line), alone=len(marks) == 1)
             if not gapless:
                 draw_dots(ax, along, heights, looks.colours[part.name])
-        if part.name in valueless:
-            look |= UNSEEN
-        [first, *_] = ax.plot(*pieces, **look)
-        if part.name in valueless:
-            say_valueless(first, valueless[part.name])
+        first = _draw_line(ax, pieces, look, valueless.get(part.name, ""))
         if title is not None:
             drawn.append((title, first))
 
@@ -98,3 +92,13 @@ def draw_lines(  # noqa: PLR0913
     mark_gaps(ax, reasons, array, x, looks, valueless)
     mark_open_steps(ax, steps, along, looks, reason_of_open_steps(variable))
     return drawn
+
+
+def _draw_line(ax: Axes, pieces: list[Any], look: dict[str, Any], reason: str) -> Any:
+    """Draw a line, and return its first piece; one without any value is words in the legend, with the
+    reason."""
+    if not reason:
+        return ax.plot(*pieces, **look)[0]
+    first = ax.plot(*pieces, **{**look, **UNSEEN})[0]
+    say_valueless(first, reason)
+    return first

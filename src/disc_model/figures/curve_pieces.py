@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens
-from disc_model.figures.selection import at_lower_bound, border_alone, not_near, parts_along
+from disc_model.figures.selection import at_lower_bound, border_alone, not_near, opened, parts_along
 from disc_model.figures.types import Array, Axes, Mask
 
 
@@ -53,3 +53,10 @@ def open_steps(
     for part, apart in of_lines:
         found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
     return found
+
+
+def pieces_of(along: Array, heights: Array, is_open: Mask | None) -> list[Array]:
+    """What is plotted of a line, which ends at its open steps and begins again, if it has any."""
+    if is_open is None:
+        return [along, heights]
+    return opened(along, heights, is_open)

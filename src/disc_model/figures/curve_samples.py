@@ -11,11 +11,11 @@ from disc_model.figures.class_axis import join_classes
 from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_looks import dashes_of, draw_dots
 from disc_model.figures.curve_marks import measured_along, open_look, reasons_of_gaps
-from disc_model.figures.curve_pieces import open_steps
+from disc_model.figures.curve_pieces import open_steps, pieces_of
 from disc_model.figures.curve_scales import set_scales
 from disc_model.figures.drawing import BLACK, GREY, wide
 from disc_model.figures.gap_rows import add_row
-from disc_model.figures.selection import opened, parts_along, remaining
+from disc_model.figures.selection import parts_along, remaining
 from disc_model.figures.types import Array, Axes, Mask
 
 MOST_NAMED = 6  # samples whose lines have a name each
@@ -50,8 +50,7 @@ def draw_samples(
     for part in parts:
         heights = part.data.values
         is_open = steps.get(part.name, np.zeros(heights.size - 1, dtype=bool))
-        pieces = opened(along, heights, is_open) if steps else [along, heights]
-        drawn += ax.plot(*pieces, **line)
+        drawn += ax.plot(*pieces_of(along, heights, steps.get(part.name)), **line)
         alone = _stands_alone(heights, is_open)
         if names:
             alone = np.isfinite(heights)
