@@ -108,7 +108,7 @@ def column_of(name: Any) -> str:
     return match[1] if match and match[1] in UNCERTAIN else ""
 
 
-def unit_of_mode(name: str) -> str:
+def si_unit_of_mode(name: str) -> str:
     """The SI unit of a number of a mode by its name, "" of a share or another name."""
     return OF_COLUMNS.get(column_of(name), "")
 

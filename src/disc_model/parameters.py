@@ -21,6 +21,7 @@ from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, is_numbe
 AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
 CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that control this choice
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
+NUMBER_OR_WORD = ("contact_compliance", "friction_offset")  # parameters that are one or the other
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
 
 # parameters in rules that relate several

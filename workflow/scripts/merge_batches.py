@@ -1,6 +1,5 @@
-"""Merge the batches of a grid study into one dataset, and list the points that failed, and
-remarks on others. Standard
-input has a `disc_model.studies.batch.MergePlan` as JSON."""
+"""Merge the batches of a grid study into one dataset, and list the points that failed, and remarks on
+others. Standard input has a `disc_model.studies.batch.MergePlan` as JSON."""
 
 import sys
 from pathlib import Path

@@ -284,6 +284,17 @@ def presentation_of(name: str) -> Shown:
     return Shown("", f"{number.symbol}({diameters}, {circles})", number.unit)
 
 
+FOUND_SPEEDS = ("critical_speed", "onset_speed", "offset_speed")
+"""Variables that are speeds of the drive, which were sought."""
+_RANGE_END = re.compile("_(min|max)$")
+
+
+def ranged_variable(name: str) -> str:
+    """The sampled variable whose range a variable is an end of, such as P of P_max; the name itself of
+    any other."""
+    return _RANGE_END.sub("", name)
+
+
 def unit_of_mode(name: str) -> str:
     """Unit for readers of a number of one of a disc's modes, such as omega_2_0; "" of any other."""
     column = name.rsplit("_", 2)[0]
@@ -325,9 +336,14 @@ def _disc_text(frequencies: Sequence[float | None]) -> str:
     known = [omega for omega in frequencies if omega is not None]
     if len(known) < len(frequencies):
         return counted_modes
-    low, high = (f"{omega / math.tau:.4g}" for omega in (min(known), max(known)))
+    return f"{counted_modes} of {frequencies_text(known)}"
+
+
+def frequencies_text(frequencies: Sequence[float]) -> str:
+    """The range of the frequencies of a disc, given in rad/s, in Hz."""
+    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
     extent = low if low == high else f"{low} to {high}"
-    return f"{counted_modes} of {extent} Hz"
+    return f"{extent} Hz"
 
 
 def values_text(

@@ -26,9 +26,7 @@ from disc_model.arrays import Array, Indices
 from disc_model.errors import Fault, ModeError, ParameterError, as_text
 from disc_model.parameters import SURFACE, Disc, Parameters
 
-SAME_AMPLITUDE = (
-    0.05  # of the largest motion of a mode: how far its shape may be from its amplitude
-)
+SAME_AMPLITUDE = 0.05  # of a mode's largest motion: how far its shape may be from its amplitude
 POINTS_PER_ROOT = 6  # grid points per asymptotic root spacing pi/(1 - a/b) when brackets are sought
 WIDEST = 1e11  # greatest ratio of squared frequencies of disc and slider: their error is 1e-5, compared with 60 digits
 
@@ -123,7 +121,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     at_slider = np.array(disc.amplitude)
     if disc.radii[0] <= r_0 <= disc.radii[-1]:
         by_shapes = shapes_at_slider(disc, r_0)
-        at_slider = np.where(are_elsewhere(disc, r_0), by_shapes, at_slider)
+        at_slider = np.where(are_elsewhere(disc, by_shapes), by_shapes, at_slider)
     shapes = np.column_stack([at_slider, disc.shapes])
     _, first = np.unique(
         np.round(radii, 9), return_index=True
@@ -136,12 +134,12 @@ def shapes_at_slider(disc: Disc, r_0: float) -> Array:
     return _spline(np.array(disc.radii), np.array(disc.shapes), np.array([r_0]))[:, 0]
 
 
-def are_elsewhere(disc: Disc, r_0: float) -> np.ndarray:
-    """Whether the amplitude of each mode of a table is not that of its shape at the slider, within
-    a share of the mode's largest motion: (n_modes,)."""
+def are_elsewhere(disc: Disc, by_shapes: Array) -> np.ndarray:
+    """Whether the amplitude of each mode of a table is not that of its shape at the slider, as
+    `shapes_at_slider` has it, within a share of the mode's largest motion: (n_modes,)."""
     amplitude = np.array(disc.amplitude)
     largest = np.abs(np.column_stack([amplitude, disc.shapes])).max(axis=1)
-    return np.abs(shapes_at_slider(disc, r_0) - amplitude) > SAME_AMPLITUDE * largest
+    return np.abs(by_shapes - amplitude) > SAME_AMPLITUDE * largest
 
 
 def _spline(radii: Array, shapes: Array, r: Array) -> Array:

@@ -293,10 +293,10 @@ def _elsewhere(p: Parameters) -> str:
 
 def _unlike_shapes(p: Parameters, disc: Disc) -> str:
     """What is implausible of amplitudes that are not those of the shapes at the slider."""
-    doubted = np.flatnonzero(are_elsewhere(disc, p.r_0))
+    by_shapes = shapes_at_slider(disc, p.r_0)
+    doubted = np.flatnonzero(are_elsewhere(disc, by_shapes))
     if doubted.size == 0:
         return ""
-    by_shapes = shapes_at_slider(disc, p.r_0)
     far = np.abs(by_shapes - disc.amplitude)[doubted]
     i = int(doubted[np.argmax(far)])
     text = f"{_value(p, 'r_0')} is not where the amplitudes of the disc were taken: "

@@ -1,16 +1,15 @@
 """What legends call the discs of several cases on the same axes, which may be plates, or tables of modes."""
 
-import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from disc_model.data.variables import frequencies_text
+from disc_model.display import counted
 from disc_model.modal_disc import Disc
 from disc_model.parameters import DEFAULTS, PLATE
 
 PLATE_NAME = "plate"
 """What a disc is called that is given by its sizes and material, beside discs given by their modes."""
-SHORT = ".4g"
-"""Digits of a frequency."""
 
 
 def disc_name(disc: object, others: Sequence[object]) -> str:
@@ -18,16 +17,14 @@ def disc_name(disc: object, others: Sequence[object]) -> str:
     another one has as many."""
     if disc is None:
         return PLATE_NAME
-    frequencies = _frequencies(disc)
-    name = f"disc of {len(frequencies)} modes"
-    if len(frequencies) == 1:
-        name = "disc of 1 mode"
-    range_text = _range_text(frequencies)
+    frequencies = _as_disc(disc).omega
+    name = f"disc of {counted(len(frequencies), 'mode')}"
+    range_text = frequencies_text(frequencies)
     for other in others:
         if other is None or same_disc(disc, other):
             continue
-        beside = _frequencies(other)
-        if len(beside) == len(frequencies) and _range_text(beside) != range_text:
+        beside = _as_disc(other).omega
+        if len(beside) == len(frequencies) and frequencies_text(beside) != range_text:
             return f"{name} of {range_text}"
     return name
 
@@ -56,15 +53,3 @@ def without_plates(values: Mapping[str, Any], discs: Sequence[object]) -> dict[s
 def _as_disc(disc: Any) -> Disc:
     """A disc, also from the values of a dataset."""
     return disc if isinstance(disc, Disc) else Disc.model_validate(disc)
-
-
-def _frequencies(disc: object) -> Sequence[float]:
-    """The natural frequencies of a disc, Hz."""
-    return [omega / math.tau for omega in _as_disc(disc).omega]
-
-
-def _range_text(frequencies: Sequence[float]) -> str:
-    """The lowest and the highest of frequencies with their unit."""
-    lowest = f"{min(frequencies):{SHORT}}"
-    highest = f"{max(frequencies):{SHORT}}"
-    return f"{lowest} to {highest} Hz" if lowest != highest else f"{lowest} Hz"

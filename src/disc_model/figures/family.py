@@ -110,9 +110,8 @@ def _what_differs(member: Member, family: Sequence[Member]) -> str:
     common = common_values(family)
     said = []
     values = _without_ratios(member, family)
-    for name in sorted(
-        values, key=lambda name: name != DISC
-    ):  # which kind of disc it is comes first
+    # which kind of disc it is comes first
+    for name in sorted(values, key=lambda name: name != DISC):
         if name not in common:
             said.append(member.said.get(name) or _value_said(name, values[name], family))
     if len({each.releases for each in family}) > 1:

@@ -26,9 +26,7 @@ STRIP = "#e6e6e6"  # behind rows, so that nobody takes their marks for values
 MOST = 0.15  # height of all rows above a panel, over that of the page: more of them are nearer
 TEXT = 7.0  # points, size of the words
 LINE = 1.25  # height of one of their lines, over this size
-SHARE = (
-    0.3  # height of all strips and words, over that of a row of panels: more of them are smaller,
-)
+SHARE = 0.3  # height of all strips and words, over that of a row: more of them are smaller,
 SMALL_TEXT = 6.0  # points, with words of this size at most,
 SMALL_APART = 3.2  # points, a height of a row,
 SMALL_BETWEEN = 1.0  # and a gap between words and the next row

@@ -37,12 +37,12 @@ def plot_sweep(  # noqa: PLR0913
 
     Where one of two dimensions has three values or fewer, each of these has a line. Where a variable has
     several values at each point, such as the samples of `bifurcation` or an array that a function of
-    your own returns, all are points over what varies, as in a bifurcation diagram,
-    where a strip says what kind of motion each column is of. Values that vary together,
-    such as paired samples, are points over one of their columns, which may be that of their names. A second
-    dimension of words or of discs, such as the direction of a sweep, gives a line for each. What starts come to
-    is drawn as bars of their shares, at each energy or along a parameter. An axis is logarithmic if three or more
-    positive values span a decade or more and have equal ratios within 1e-6, as those of `numpy.geomspace`.
+    your own returns, all are points over what varies, as in a bifurcation diagram, where a strip says what kind
+    of motion each column is of. Values that vary together, such as paired samples, are points over one of their
+    columns, which may be that of their names. A second dimension of words or of discs, such as the direction of a
+    sweep, gives a line for each. What starts come to is drawn as bars of their shares, at each energy or along a
+    parameter. An axis is logarithmic if three or more positive values span a decade or more and have equal ratios
+    within 1e-6, as those of `numpy.geomspace`.
 
     Rings, filled marks and hatched cells are of values in doubt. A line of growth rates of cycles is open where
     the next point may be of another cycle. Marks on a grey strip above the panel are of points without a value.

@@ -5,20 +5,9 @@ from collections.abc import Mapping
 
 import xarray as xr
 
-from disc_model.data.variables import SERIES, SHOWN
+from disc_model.data.variables import FOUND_SPEEDS, SERIES, SHOWN, ranged_variable
 from disc_model.figures.kinds.general import General
-from disc_model.figures.words import (
-    BORDER,
-    CRITICAL,
-    RANGE_END,
-    UNITS,
-    known_name,
-    label_in,
-    parameter_within,
-)
-
-SPEEDS = ("critical_speed", "onset_speed", "offset_speed")
-"""Speeds of the drive that are found."""
+from disc_model.figures.words import BORDER, CRITICAL, UNITS, known_name, label_in, parameter_within
 
 
 def unit_key(variable: xr.DataArray) -> str:
@@ -32,9 +21,9 @@ def unit_key(variable: xr.DataArray) -> str:
         if parameter:
             return parameter
     name = str(variable.name)
-    if name in SPEEDS:
+    if name in FOUND_SPEEDS:
         return "Omega"
-    base = RANGE_END.sub("", name)
+    base = ranged_variable(name)
     if base == name or base not in SERIES:
         return ""
     same_unit = variable.attrs.get("units") == SERIES[base].attributes.get("units")

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.variables import PHASES, axis_of, flag_names
+from disc_model.data.variables import PHASES, axis_of, flag_names, ranged_variable
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
@@ -46,7 +46,7 @@ def window_of(
     if not (isinstance(name, str) and name in case.children):
         raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
     window = dataset.group(case, name)
-    held = [str(x).removesuffix("_min").removesuffix("_max") for x in window if x != "phase"]
+    held = [ranged_variable(str(x)) for x in window if x != "phase"]
     for argument, variable in variables:
         if not (isinstance(variable, str) and variable in held):
             rule = f"is not in the window {name}{suggestion(variable, dict.fromkeys(held))}"

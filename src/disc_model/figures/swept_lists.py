@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.data.variables import PERTURBATIONS, SHOWN
 from disc_model.figures.sweep_options import list_text
+from disc_model.figures.value_texts import number_or_text
 from disc_model.units import is_number
 
 NUMBER = re.compile(r"-?(\d|\.\d|inf)")
@@ -56,15 +57,7 @@ def _is_list(words: str) -> bool:
 
 def _numbers_of(words: str) -> list[Any]:
     """The numbers of a list by its words; those with units stay texts."""
-    return [_number_or_text(part) for part in words.split(", ")]
-
-
-def _number_or_text(part: str) -> Any:
-    """The number that a text says, or the text."""
-    try:
-        return float(part)
-    except ValueError:
-        return part
+    return [number_or_text(part) for part in words.split(", ")]
 
 
 def _is_start(words: str) -> bool:
@@ -82,7 +75,7 @@ def _perturbation_text(words: str) -> str:
     """A perturbation by its name, with its unit."""
     name, _, text = words.partition(" = ")
     shown = SHOWN[f"perturbation_{name}"]
-    value = _number_or_text(text)
+    value = number_or_text(text)
     if is_number(value):
         text = f"{shown.factor * value:g} {shown.unit}"
     return f"{shown.name.removeprefix(OF_SLIDER)} = {text}"

@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.data.variables import SHOWN, typeset
 from disc_model.figures.words import MISSING, UNITS, WORDS, is_truth, named
+from disc_model.parameters import NUMBER_OR_WORD
 
 KINDS = {
     "stick_slip": "stick-slip cycle",
@@ -30,8 +31,6 @@ AT_ZERO = {
     "friction_offset": "friction in the middle plane",
 }
 """What parameters mean that are zero: they name themselves."""
-NUMBER_OR_WORD = ("contact_compliance", "friction_offset")
-"""Parameters that are a number or a word, and texts along a dimension that has both."""
 BY_SIZE = {"exponent_number": "exponent {}"}
 """Names of the values along a dimension of descending numbers, but for the first, the largest."""
 ROUNDING = 1e-9  # relative, of a number in another unit
@@ -43,7 +42,8 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
     it exactly, as that of a sample."""
     value = data[by].item()
     if isinstance(value, str) and by in NUMBER_OR_WORD:
-        value = _number_or_name(value)
+        value = number_or_text(value)
+        value = MODELS.get(value, value)
     if isinstance(value, str):
         words = KINDS if by == "kind" else WORDS
         return words.get(value, value)
@@ -65,12 +65,12 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
     return f"{number} {unit}".strip()
 
 
-def _number_or_name(text: str) -> float | str:
-    """The number in a text along a dimension that has words as well; a word has its name."""
+def number_or_text(part: str) -> Any:
+    """The number that a text says, or the text."""
     try:
-        return float(text)
+        return float(part)
     except ValueError:
-        return MODELS.get(text, text)
+        return part
 
 
 def _short_number(value: float) -> str:

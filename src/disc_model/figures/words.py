@@ -16,6 +16,7 @@ from disc_model.data.variables import (
     attributes,
     axis_of,
     flag_names,
+    ranged_variable,
     typeset,
 )
 from disc_model.figures.classes import LOOKS, name_of
@@ -84,8 +85,6 @@ IN_THOUSANDTHS = {"period": "ms", "interval": "ms", "range": "mm"}
 """Units of numbers of cycles in all pictures, by the last word of their names, such as `sweep_range`."""
 IN_THOUSANDTH = "in thousandths"
 """Attribute of a variable that is drawn in thousandths of its unit."""
-RANGE_END = re.compile("_(min|max)$")
-"""The end of the name of a bound of a sampled variable's range."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
 """Characters that plain text has as indices."""
 
@@ -141,7 +140,7 @@ def named(variable: xr.DataArray) -> Named:
     phrase = words[0].upper() + words[1:]
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
-    ranged = SHOWN.get(RANGE_END.sub("", str(variable.name)))
+    ranged = SHOWN.get(ranged_variable(str(variable.name)))
     if _is_own(variable):
         ranged = None
     if ranged is not None and ranged.factor != 1.0:  # such as u_min, beside u
@@ -218,7 +217,7 @@ def _is_own(variable: xr.DataArray) -> bool:
     name = str(variable.name)
     if name in (*Parameters.model_fields, *RATIOS) and name not in variable.coords:
         return variable.attrs.get("units") != attributes(name).get("units")
-    sampled = SERIES.get(RANGE_END.sub("", name))
+    sampled = SERIES.get(ranged_variable(name))
     if sampled is None:
         return False
     if variable.attrs.get("units") != sampled.attributes.get("units"):

@@ -18,7 +18,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
 from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import FloquetResult, find_cycle
+from disc_model.stability.cycle import GIVE_A_GUESS, FloquetResult, find_cycle
 from disc_model.stability.floquet import beside_motion
 from disc_model.stability.sliding import steady_sliding
 
@@ -27,11 +27,10 @@ MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
 COUPLED = re.compile(r"coupled_frequency_([1-9]\d*)")
 """Names of natural frequencies with the slider attached, by their number from the lowest on."""
 
-OF_FLOQUET = "give the last state of a longer simulation as guess"
-OF_FUNCTIONS = (
+BY_A_FUNCTION = (
     "measure by a function of the case that calls floquet with a guess and returns the quantity"
 )
-"""Advice on a motion whose cycle is not found, of the search for it and of a fit, which takes no guess."""
+"""Advice on a motion whose cycle is not found, of a fit, which takes no guess."""
 
 TOLERANCE = 1e-12
 """Relative residual of cycles."""
@@ -71,7 +70,7 @@ class Prediction:
         found = self._found
         if math.isnan(found.period):
             reason = found.message.removeprefix(f"{found.status.value}: ")
-            raise Unpredicted(reason.replace(OF_FLOQUET, OF_FUNCTIONS))
+            raise Unpredicted(reason.replace(GIVE_A_GUESS, BY_A_FUNCTION))
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
 
     @cached_property

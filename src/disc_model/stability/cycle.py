@@ -26,6 +26,8 @@ STICK_SLIP = "stick_slip"
 SLIPPING = "slipping"
 KINDS = (STICK_SLIP, SLIPPING)
 """Kinds of cycles, by whether they stick."""
+GIVE_A_GUESS = "give the last state of a longer simulation as guess"
+"""Advice on a motion whose cycle is not found near the static start."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 MOST_RELEASES = (
     60  # after which it is looked whether a motion repeats: paper's cases have periods of up to 45
@@ -279,8 +281,7 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     if solution is not None:
         return cycle_of(map_, run_through_once(map_, solution))
     sought = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start"
-    remedy = "stick-slip goes on: give the last state of a longer simulation as guess"
-    tried = f"{sought} or {followed} releases later, where {remedy}"
+    tried = f"{sought} or {followed} releases later, where stick-slip goes on: {GIVE_A_GUESS}"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 

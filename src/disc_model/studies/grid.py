@@ -19,7 +19,16 @@ from disc_model.data.variables import PERTURBATIONS, START, attributes, values_t
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
-from disc_model.parameters import AUTO, CHOOSING, PLATE, RATIOS, RELATED, Parameters, case_of
+from disc_model.parameters import (
+    AUTO,
+    CHOOSING,
+    NUMBER_OR_WORD,
+    PLATE,
+    RATIOS,
+    RELATED,
+    Parameters,
+    case_of,
+)
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
@@ -34,7 +43,6 @@ GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "
 REQUIRED = ("N", "Omega")  # parameters without a base value
 STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
-WORDED = ("contact_compliance", "friction_offset")  # parameters that are a number or a word
 ALL_MOTIONS = (
     100  # points of a grid up to which a motion of each is stored, some 3 kB of the explorer each
 )
@@ -472,7 +480,7 @@ class GridStudy:
         for name, axis in given_values(axes).items():
             try:
                 blocks = tuple(self._block(name, block) for block in _blocks_of(axis))
-                columns[name] = _in_words(blocks) if name in WORDED else blocks
+                columns[name] = _in_words(blocks) if name in NUMBER_OR_WORD else blocks
             except ParameterError as error:
                 faults += [Fault((*path, name), fault.value, fault.rule) for fault in error.faults]
         return columns
@@ -619,7 +627,7 @@ class GridStudy:
         unused = {name: 0.0 for name in self.options.scanned if name in REQUIRED}
         first = next(self.points_along(self.dims))
         ratios = {RATIOS[name][0]: name for name in self.varied if name in RATIOS}
-        for point in self.points_of((*RELATED, *WORDED)):
+        for point in self.points_of((*RELATED, *NUMBER_OR_WORD)):
             values = case_of({**self.given, **first, **point}, self.discs)
             try:
                 whole = Parameters(**{**unused, **values}).model_dump()

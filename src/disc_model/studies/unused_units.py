@@ -2,11 +2,9 @@
 
 from collections.abc import Collection, Iterator, Mapping
 
+from disc_model.data.variables import FOUND_SPEEDS, ranged_variable
 from disc_model.figures.kinds import General, Plot
 from disc_model.studies.quantity import Quantity
-
-SPEEDS = ("critical_speed", "onset_speed", "offset_speed")
-"""Variables that are speeds of the drive."""
 
 
 def unused_units(
@@ -32,8 +30,7 @@ def unused_units(
 def _shown_by(plot: General) -> set[str]:
     """The parameters and sampled variables in whose units a figure shows anything."""
     variable = plot.variable
-    base = variable.removesuffix("_min").removesuffix("_max")
-    found = {variable, base, *plot.axes.values(), *plot.at}
-    if variable in SPEEDS:
+    found = {variable, ranged_variable(variable), *plot.axes.values(), *plot.at}
+    if variable in FOUND_SPEEDS:
         found.add("Omega")
     return found

@@ -162,7 +162,7 @@ def stated_doubts(lines: list[str]) -> Iterator[str]:
 
 
 def _with_units(values: Mapping[str, Any]) -> Iterator[Fault]:
-    """Yield faults of single cells with units, which the head of their column has for all."""
+    """Yield faults of cells with a unit that the head of their column does not take."""
     for name in UNCERTAIN:
         for i, value in enumerate(values.get(name, [])):
             if isinstance(value, str) and begins_a_number(value):

@@ -76,6 +76,9 @@ function gapAt(study, variable, place) {
   return code ? variable.gaps.looks[code - 1] : null;
 }
 
+/** The variable with the words of outcomes; undefined in studies without one. */
+const outcomeOf = (study) => study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+
 const EXCLUDED = "excluded"; // the status of a point that the rule of its study leaves out
 
 /** Whether the rule of a study leaves a point out. */

@@ -19,7 +19,7 @@ const motionsAt = (place) =>
 
 /** What becomes of a point, as far as its study says: its outcome, or else the stability or lack of its cycle; in words. */
 function fateOf(study, place) {
-  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  const outcome = outcomeOf(study);
   if (outcome) return shown(study, outcome, place);
   const rate = study.variables.find(growth);
   if (!rate) return study.status ? shown(study, study.status, place) : "";
@@ -34,7 +34,7 @@ function fateOf(study, place) {
 /** What a stored motion is, as a sentence: that of its outcome or of its cycle's stability, as far as the quantity has one. */
 function saidOfMotion(study, motion) {
   const place = { ...view.place, ...motionPlaces(study, motion) };
-  const outcome = study.variables.find((variable) => variable.name === "outcome" && variable.flags);
+  const outcome = outcomeOf(study);
   const word = outcome ? outcome.flags[value(study, outcome, place)] : fateOf(study, place);
   return study.motions.text_by[word] ?? study.motions.text;
 }

@@ -227,7 +227,7 @@ const LONGEST_CASE = 120; // characters of a case that is written twice: a sampl
 
 /** Whether a motion is known to separate within the horizon of a study. */
 function isSeparating(study, place) {
-  const outcome = study.variables.find((one) => one.name === "outcome" && one.flags);
+  const outcome = outcomeOf(study);
   return Boolean(outcome) && outcome.flags[value(study, outcome, place)] === "separation";
 }
 

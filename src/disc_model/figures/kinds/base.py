@@ -12,7 +12,7 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from disc_model.data.variables import SERIES, SHOWN
+from disc_model.data.variables import SERIES, SHOWN, ranged_variable
 from disc_model.errors import Fault, raise_faults, require, suggestion
 from disc_model.figures.sizes import WIDTHS
 from disc_model.parameters import Parameters
@@ -41,7 +41,7 @@ def _known_units(units: dict[str, str]) -> dict[str, str]:
         if name in known:
             in_si(f"1 {unit}", si_unit(name), faults, (name,))
         else:
-            base = name.removesuffix("_min").removesuffix("_max")
+            base = ranged_variable(name)
             meant = f", did you mean {base}?" if base in known else suggestion(name, known)
             rule = f"no parameter or variable with a unit{meant}"
             faults.append(Fault.of((name,), unit, rule))

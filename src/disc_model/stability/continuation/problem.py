@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from disc_model.errors import Fault, ModeError, ParameterError
-from disc_model.mode_units import unit_of_mode
+from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
@@ -98,7 +98,7 @@ def value_text(name: str, value: float) -> str:
 
 def unit_text(name: str) -> str:
     """The SI unit of a parameter, also of a number of a mode; "" of a number without one."""
-    return Parameters.unit(name).removeprefix("1") or unit_of_mode(name)
+    return Parameters.unit(name).removeprefix("1") or si_unit_of_mode(name)
 
 
 class CycleProblem:

@@ -201,6 +201,7 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
         for l in range(1, int(cell["diameters"].max()) + 1):
             lines.append(Line("rotation", l, l * turns, l * turns))
         for line in lines:
+            joined_detuning = of_mode - line.joined
             for index, part in _changes_of_sign(of_mode - line.frequency):
                 yield {
                     "Omega": _between(speeds, index, part),
@@ -208,8 +209,8 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
                     "mode": int(mode),
                     "line": line.kind,
                     "multiple": float(line.multiple),
-                    "step": _step_of(of_mode - line.joined, speeds, index, options),
-                    **effect_of(of_mode - line.joined, index, rates, options),
+                    "step": _step_of(joined_detuning, speeds, index, options),
+                    **effect_of(joined_detuning, index, rates, options),
                 }
 
 
