@@ -438,9 +438,10 @@ def _with_variables(data: Any, names: str) -> Any:
 
 def _refuse_several_tables(data: Any) -> None:
     """Refuse a dataset that is more than one table, and name the option that chooses one."""
+    from disc_model.data.branch_table import has_branches
     from disc_model.data.point_table import rule_of_rows, without_place
 
-    if getattr(data, "children", None):
+    if getattr(data, "children", None) or has_branches(data):
         return
     others = without_place(data)
     if not others:

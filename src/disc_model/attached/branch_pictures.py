@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from disc_model.attached.drawing import draw
-from disc_model.data.swept_branches import OF_SWEEPS, is_of_sweep
+from disc_model.data.swept_branches import OF_SWEEPS, is_of_sweep, points_of_sweep
 from disc_model.errors import Fault, ParameterError, require
 
 if TYPE_CHECKING:
@@ -57,7 +54,7 @@ def plot_branches(
     from disc_model.stability.continuation import Branch
 
     _refuse_others(swept)
-    points = [*_points(swept)]
+    points = [*points_of_sweep(swept)]
     whole = [point for point in points if not _has_failed(point)]
     failed = [_name_of(point, swept) for point in points if _has_failed(point)]
     *before, last = whole
@@ -82,13 +79,6 @@ def _refuse_others(swept: Any) -> None:
         rule = f"must have a branch, but all of its points failed, the first with {message}"
         raise ParameterError(Fault(("swept",), "", rule))
     require((is_of_sweep(swept), "swept", swept, "must be a sweep of continue_cycle"))
-
-
-def _points(swept: xr.Dataset) -> Iterator[xr.Dataset]:
-    """Yield the points of a sweep in their order."""
-    status = swept["status"]
-    for place in np.ndindex(status.shape):
-        yield swept.isel(dict(zip(status.dims, place, strict=True)))
 
 
 def _has_failed(point: xr.Dataset) -> bool:

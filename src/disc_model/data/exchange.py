@@ -12,6 +12,8 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
+from disc_model.data.branch_table import has_branches, save_branches
+from disc_model.data.complex_parts import joined, with_parts
 from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.data.matlab import load_mat, save_mat
 from disc_model.data.point_table import save_points
@@ -19,11 +21,6 @@ from disc_model.data.tables import check_suffix
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.parameters import Disc
 
-PARTS = ("real", "imag")
-"""Ends of the names of variables that are parts of a complex one in netCDF, which has no complex
-numbers."""
-COMPLEX_PART = "complex_part"
-"""Attribute of such a variable: which part it is."""
 DISCS = "json_of_disc"
 """Attribute of a variable of texts, each of which is a disc in JSON: yes."""
 TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
@@ -55,7 +52,8 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
         the heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`; a variable with further
         dimensions has a column for each place along them, such as `multipliers_real[0]`, and a row for each place if
         only such variables are chosen, as by ``data[["crossing_Omega", "crossing_effect"]]``. Places at which nothing
-        was found, such as those after the last crossing, are left out. It is for other programs: `load` reads no tables
+        was found, such as those after the last crossing, are left out. A branch, and a sweep of branches, has a row for each of
+        its points and special points, without its attributes. It is for other programs: `load` reads no tables
 
     Returns
     -------
@@ -89,12 +87,20 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
     groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
     if file.suffix == ".nc":
-        parts = {path: _with_parts(group) for path, group in groups.items()}
+        parts = {path: with_parts(group) for path, group in groups.items()}
         dataset.save(xr.DataTree.from_dict(parts), file)
     elif file.suffix == TABLE:
-        save_points(_with_parts(_only(groups)), file)
+        _save_table(_only(groups), file)
     else:
         save_mat(groups, file)
+
+
+def _save_table(data: xr.Dataset, file: Path) -> None:
+    """Write a dataset as a table of text: of branches a row for each of their points."""
+    if has_branches(data):
+        save_branches(data, file)
+    else:
+        save_points(with_parts(data), file)
 
 
 def _only(groups: Mapping[str, xr.Dataset]) -> xr.Dataset:
@@ -239,65 +245,7 @@ def _replaced(group: xr.Dataset, others: Mapping[Any, xr.Variable]) -> xr.Datase
 # ---- netCDF
 
 
-def _with_parts(group: xr.Dataset) -> xr.Dataset:
-    """A dataset with the real and the imaginary part in place of each complex variable."""
-    variables: dict[str, xr.Variable] = {}
-    coordinates: list[str] = []
-    for key, variable in group.variables.items():
-        parts = {str(key): variable}
-        if variable.dtype.kind == "c":
-            parts = _parts_of(str(key), variable)
-        for name in parts.keys() & group.variables.keys() - {key}:
-            rule = f"must have another name, because it is a part of {key} in the file"
-            raise ParameterError(Fault((name,), "", rule))
-        variables.update(parts)
-        if key in group.coords:
-            coordinates += parts
-    return xr.Dataset(variables, attrs=group.attrs).set_coords(coordinates)
-
-
-def _parts_of(name: str, variable: xr.Variable) -> dict[str, xr.Variable]:
-    """The parts of a complex variable by their names."""
-    parts = {}
-    for part in PARTS:
-        attrs = {**variable.attrs, COMPLEX_PART: part}
-        values = getattr(variable.values, part)
-        parts[f"{name}_{part}"] = xr.Variable(variable.dims, values, attrs)
-    return parts
-
-
 def _load_netcdf(file: Path) -> dict[str, xr.Dataset]:
     """The groups of a netCDF file by their paths."""
     tree = dataset.read_tree(file)
-    return {node.path: _joined(node.to_dataset(inherit=False)) for node in tree.subtree}
-
-
-def _joined(group: xr.Dataset) -> xr.Dataset:
-    """A dataset with a complex variable in place of two that are its parts, and words as text of
-    numpy's own."""
-    variables: dict[str, xr.Variable] = {}
-    coordinates = []
-    for key, variable in group.variables.items():
-        name = str(key)
-        read = variable
-        if COMPLEX_PART in variable.attrs:
-            whole, _, _ = name.rpartition("_")
-            names = [f"{whole}_{part}" for part in PARTS]
-            if group.variables.keys() >= {*names}:
-                name = whole
-                read = _whole(*(group.variables[part] for part in names))
-        elif variable.dtype.kind == "O":
-            read = variable.astype(str)
-        variables[name] = read
-        if key in group.coords:
-            coordinates.append(name)
-    return xr.Dataset(variables, attrs=group.attrs).set_coords(coordinates)
-
-
-def _whole(real: xr.Variable, imaginary: xr.Variable) -> xr.Variable:
-    """The complex variable of two parts."""
-    values = np.empty(real.shape, complex)
-    values.real = real.values
-    values.imag = imaginary.values
-    attrs = {name: value for name, value in real.attrs.items() if name != COMPLEX_PART}
-    return xr.Variable(real.dims, values, attrs)
+    return {node.path: joined(node.to_dataset(inherit=False)) for node in tree.subtree}

@@ -36,6 +36,16 @@ def save_points(data: xr.Dataset, file: Path) -> None:
     WriteError
         If the file cannot be written.
     """
+    write_table(table_of(data), file)
+
+
+def write_table(table: pd.DataFrame, file: Path) -> None:
+    """Write a table to a file; raises `WriteError` if that fails."""
+    write_atomically(file, partial(table.to_csv, index=False))
+
+
+def table_of(data: xr.Dataset) -> pd.DataFrame:
+    """The table that `save_points` writes; raises `ParameterError` as it does."""
     worded = words(data)
     points = _dimensions_of_points(worded)
     _check_dimensions(worded)
@@ -45,8 +55,7 @@ def save_points(data: xr.Dataset, file: Path) -> None:
     for name in (*worded.coords, *worded.data_vars):
         for head, column in _columns(worded, str(name), sizes):
             columns[head] = column.set_dims(sizes).values.ravel()
-    table = pd.DataFrame(columns)[_has_numbers(worded, sizes)]
-    write_atomically(file, partial(table.to_csv, index=False))
+    return pd.DataFrame(columns)[_has_numbers(worded, sizes)]
 
 
 def _numbers_along(data: xr.Dataset, dim: str) -> list[xr.DataArray]:

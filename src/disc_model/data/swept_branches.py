@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 import xarray as xr
 
@@ -46,6 +48,13 @@ def variables_of_branch(branch: xr.Dataset) -> xr.Dataset:
 def is_of_sweep(data: object) -> bool:
     """Whether these are branches of a sweep, or one of them."""
     return isinstance(data, xr.Dataset) and NEEDED.issubset(data.variables)
+
+
+def points_of_sweep(swept: xr.Dataset) -> Iterator[xr.Dataset]:
+    """Yield the points of a sweep in their order."""
+    status = swept["status"]
+    for place in np.ndindex(status.shape):
+        yield swept.isel(dict(zip(status.dims, place, strict=True)))
 
 
 def selected_text(data: xr.Dataset, name: str) -> str:
