@@ -499,8 +499,13 @@ def test_a_case_without_a_cycle_is_told_what_to_do() -> None:
     rule = "^case: must have a cycle of one release"
     with refusal(rule) as raised:
         continue_cycle(case, "Omega", (14, 16))
-    advice = "; start from another value of Omega, or give a state near a cycle as guess"
-    assert str(raised.value).endswith(advice)
+    advice = (
+        "where stick-slip goes on; start from another value of Omega, or give a state near a cycle"
+        " as guess, such as the last one of a longer simulation"
+    )
+    message = str(raised.value)
+    assert message.endswith(advice)
+    assert message.count("as guess") == 1
 
 
 @pytest.mark.parametrize(("value", "text"), [(17, "17"), ("13 rad/s", "'13 rad/s'")])

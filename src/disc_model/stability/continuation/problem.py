@@ -18,7 +18,7 @@ from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
-from disc_model.stability.cycle import FloquetResult
+from disc_model.stability.cycle import GIVE_A_GUESS, FloquetResult
 from disc_model.stability.return_map import (
     ENDS,
     PARAMETERS,
@@ -284,7 +284,8 @@ class CycleProblem:
     def place(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
         if cycle.state is None or (cycle.releases > 1 and not self.order):
-            found = f"that can be followed, but the search ended with {cycle.message}"
+            ended = cycle.message.removesuffix(f": {GIVE_A_GUESS}")  # `another_start` says it
+            found = f"that can be followed, but the search ended with {ended}"
             rule = f"must have a cycle of one release {found}; {another_start(self.names)}"
             fault = Fault(("case",), "", rule)
             if self.order:
@@ -331,7 +332,8 @@ class CycleProblem:
 def another_start(names: Sequence[str]) -> str:
     """What to do where a case has no cycle to start from, in the free parameters `names`."""
     return (
-        f"start from another value of {' or '.join(names)}, or give a state near a cycle as guess"
+        f"start from another value of {' or '.join(names)}, or give a state near a cycle as guess,"
+        " such as the last one of a longer simulation"
     )
 
 
