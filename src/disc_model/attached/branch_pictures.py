@@ -31,7 +31,7 @@ def plot_branches(
     Parameters
     ----------
     swept : what ``sweep(continue_cycle, ...)`` returns, or a selection of it
-    y : growth_rate, period, stick_fraction or range, as in `Branch.plot`
+    y : growth_rate, period, stick_fraction, range, u_min or u_max, as in `Branch.plot`
     ax, legend, labels, title : as in `Result.plot`
 
     Returns

@@ -52,8 +52,9 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
         the heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`; a variable with further
         dimensions has a column for each place along them, such as `multipliers_real[0]`, and a row for each place if
         only such variables are chosen, as by ``data[["crossing_Omega", "crossing_effect"]]``. Places at which nothing
-        was found, such as those after the last crossing, are left out. A branch, and a sweep of branches, has a row for each of
-        its points and special points, without its attributes. It is for other programs: `load` reads no tables
+        was found, such as those after the last crossing, are left out. A branch, and a sweep of branches, has a row
+        for each of its points and special points, without its attributes. It is for other programs: `load` reads no
+        tables
 
     Returns
     -------

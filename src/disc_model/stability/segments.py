@@ -81,15 +81,33 @@ def final_segment(
     return result, segment_of(result)
 
 
+class Extremes(NamedTuple):
+    """Least and greatest height of the slider over static equilibrium, m."""
+
+    u_min: float
+    u_max: float
+
+    @property
+    def range(self) -> float:
+        """Range of the height, m."""
+        return self.u_max - self.u_min
+
+
 def range_of_cycle(p: Parameters, state: State, period: float) -> float:
     """Range of the slider's height over a period (s) from a state of a cycle, m; nan if it cannot be
+    simulated."""
+    return extremes_of_cycle(p, state, period).range
+
+
+def extremes_of_cycle(p: Parameters, state: State, period: float) -> Extremes:
+    """Extremes of the slider's height over a period (s) from a state of a cycle; nan if it cannot be
     simulated."""
     window = Window(start=state.time, rate=SAMPLES_OF_CYCLE / period)
     result = simulate(p, state.time + period, {"cycle": window}, tol=RANGE_TOL, initial_state=state)
     if not result.status.complete:
-        return float("nan")
-    height = result.samples["cycle"]["u"]
-    return _peak(height) + _peak(-height)
+        return Extremes(float("nan"), float("nan"))
+    height = result.samples["cycle"]["u"] - result.u_0
+    return Extremes(-_peak(-height), _peak(height))
 
 
 def _peak(samples: Array) -> float:

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.compiled
 
 WORDS = ("kind", "label", "phase")
 """Variables of words, which have no unit."""
-OF_BOTH = ("growth_rate", "period", "stick_fraction", "range")
+OF_BOTH = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
 """Variables of cycles and of special points."""
 OF_CYCLES = (*OF_BOTH, "separations", "diameters", "multipliers")
 OF_POINTS = (*OF_BOTH, "kind", "label", "multiplier", "after", "changes_stability")

@@ -14,12 +14,18 @@ from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
-from disc_model.stability.continuation.data import VARIABLES, StoredBranch, dataset_of
+from disc_model.stability.continuation.data import (
+    VARIABLES,
+    StoredBranch,
+    attributes_of,
+    dataset_of,
+    stored_extremes,
+)
 from disc_model.stability.continuation.problem import unit_text
 from disc_model.stability.continuation.special_kinds import CHANGES
 from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
-from disc_model.stability.segments import range_of_cycle
+from disc_model.stability.segments import extremes_of_cycle
 from disc_model.units import in_si
 
 if TYPE_CHECKING:
@@ -108,20 +114,23 @@ class Branch:
         rows: list[tuple[object, ...]] = []
         for special in self.special:
             values = [f"{value:.9g}" for value in special.values]
-            rates = (number_text(special.growth_rate), number_text(special.period))
-            rows.append((special.kind, special.label, *values, *rates))
+            numbers = (special.growth_rate, special.period, special.range)
+            rows.append((special.kind, special.label, *values, *map(number_text, numbers)))
         rows.append((f"{len(self)} cycles", "", self._end_text()))
-        return html_table(("kind", "label", *head, "growth rate (1/s)", "period (s)"), rows)
+        heads = ("growth rate (1/s)", "period (s)", "range of the height (m)")
+        return html_table(("kind", "label", *head, *heads), rows)
 
     @property
     def special_points(self) -> pd.DataFrame:
         """The special points as a table, in their order along the branch.
 
         Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
-        by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`,
+        by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`, of the slider's
+        height in a period `range`, and the extremes over static equilibrium `u_min` and `u_max` (m),
         `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
         cycle to simulate and draw, of which the printed table shows time and phase. Its method `to_csv`
-        writes a file, with the same words for a state.
+        writes a file, with the same words for a state, and with units in the heads; ``attrs["units"]``
+        has them by the names of the columns.
 
         Examples
         --------
@@ -133,7 +142,7 @@ class Branch:
         1  fold    LP  15.094912
         2   end    EP  14.800000
         """
-        from disc_model.stability.continuation.special_table import SpecialTable
+        from disc_model.stability.continuation.special_table import special_table
 
         columns: dict[str, list[object]] = {
             "kind": [special.kind for special in self.special],
@@ -141,18 +150,20 @@ class Branch:
         }
         for i, name in enumerate(self.parameters):
             columns[name] = [float(special.values[i]) for special in self.special]
-        for name in ("growth_rate", "period", "stick_fraction"):
+        for name in VARIABLES:
             columns[name] = [getattr(special, name) for special in self.special]
         columns["multiplier"] = [special.multiplier for special in self.special]
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
-        return SpecialTable(columns)
+        described = {name: attributes_of(name) for name in self.parameters}
+        described |= {name: known.attributes for name, known in VARIABLES.items()}
+        return special_table(columns, described)
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
 
         Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
-        `stick_fraction`, `range` (m, for which each cycle is simulated for a period),
+        `stick_fraction`, `range`, `u_min` and `u_max` (m, for which each cycle is simulated for a period),
         `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
         `multipliers`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
         `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
@@ -215,7 +226,8 @@ class Branch:
             not_reached=stored.not_reached,
             _make_map=stored.make_map,
         )
-        vars(branch)["range"] = data["range"].values  # which takes a simulation of each cycle
+        # which take a simulation of each cycle
+        vars(branch)["_extremes"] = stored_extremes(data)
         return branch
 
     def at(self, value: Quantity) -> list[int]:
@@ -287,13 +299,28 @@ class Branch:
         return own.state(point)
 
     @cached_property
-    def range(self) -> Array:
-        """Ranges of the slider's height over a period, m, shape (n_points,); each cycle is simulated
-        for a period when they are asked for."""
-        ranges = []
+    def _extremes(self) -> Array:
+        """`u_min` and `u_max` of each cycle, shape (n_points, 2)."""
+        extremes = []
         for i, period in enumerate(self.period.tolist()):
-            ranges.append(range_of_cycle(self.case_at(i), self.state(i), period))
-        return np.array(ranges)
+            extremes.append(extremes_of_cycle(self.case_at(i), self.state(i), period))
+        return np.array(extremes)
+
+    @property
+    def u_min(self) -> Array:
+        """Least heights of the slider over static equilibrium in a period, m, shape (n_points,); each
+        cycle is simulated for a period when they, `u_max` or `range` are asked for."""
+        return self._extremes[:, 0]
+
+    @property
+    def u_max(self) -> Array:
+        """Greatest heights of the slider over static equilibrium in a period, m, shape (n_points,)."""
+        return self._extremes[:, 1]
+
+    @property
+    def range(self) -> Array:
+        """Ranges of the slider's height over a period, m, shape (n_points,)."""
+        return self.u_max - self.u_min
 
     @property
     def changes(self) -> list[SpecialPoint]:
@@ -344,11 +371,12 @@ class Branch:
         labels: dict[str, str] | None = None,
         title: str | bool | None = None,
     ) -> Any:
-        """Draw growth_rate, period, stick_fraction, or range of the slider's height over the
-        parameter, thick where the cycle is stable, and the special points. Dots are cycles that were
-        computed; of those that would touch on the page only some are drawn.
+        """Draw growth_rate, period, stick_fraction, or of the slider's height the range, u_min or u_max
+        (extremes over static equilibrium) over the parameter, thick where the cycle is stable, and
+        the special points. Dots are cycles that were computed; of those that would touch on the page
+        only some are drawn.
 
-        The period is drawn in ms, the range in mm, all else in the units of its name: labels of your
+        The period is drawn in ms, range and extremes in mm, all else in the units of its name: labels of your
         own need the same unit, such as `labels={"y": "Range (mm)"}`. The axis of growth rates is
         linear near 0 and logarithmic beyond, on both sides. A wide range is drawn on a logarithmic axis.
 

@@ -25,8 +25,12 @@ VARIABLES = {
     "period": Variable("s", "period of the cycle"),
     "stick_fraction": Variable("1", "share of the period spent sticking"),
     "range": Variable("m", "range of the slider's height over a period"),
+    "u_min": Variable("m", "least height over static equilibrium in a period"),
+    "u_max": Variable("m", "greatest height over static equilibrium in a period"),
 }
 """What is known of each cycle of a branch, and of each special point."""
+EXTREMES = ("u_min", "u_max")
+"""Those of them between which the height lies."""
 POINTS = {
     "largest_multiplier": Variable("1", "modulus of the largest multiplier"),
     "stable": Variable("1", "whether the cycle is stable"),
@@ -94,6 +98,13 @@ def dataset_of(branch: Branch) -> xr.Dataset:
     return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
 
 
+def attributes_of(name: str) -> dict[str, Any]:
+    """Unit and meaning of a free parameter; only a name of a number of a mode of a disc."""
+    if name in (*Parameters.model_fields, *RATIOS):
+        return attributes(name)
+    return {"long_name": name}
+
+
 class StoredBranch:
     """What a dataset of a branch holds, or a point of a sweep; raises `ParameterError` if it is of
     something else."""
@@ -102,7 +113,7 @@ class StoredBranch:
         refuse_failed(data)
         if is_of_sweep(data):
             data = branch_of_sweep(data)
-        names = ["multipliers", "releases", "special_kind", "a", "special_a"]
+        names = ["multipliers", "releases", "special_kind", "u_max", "a", "special_a"]
         known = isinstance(data, xr.Dataset) and all(name in data for name in names)
         known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
         rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"
@@ -151,6 +162,11 @@ class StoredBranch:
         return points
 
 
+def stored_extremes(data: xr.Dataset, begin: str = "") -> np.ndarray:
+    """The extremes of the height that a dataset has, shape (n, 2)."""
+    return np.column_stack([data[f"{begin}{name}"].values for name in EXTREMES])
+
+
 class _Columns:
     """Variables along a dimension, whose names have a beginning."""
 
@@ -163,10 +179,8 @@ class _Columns:
     def add_parameters(self, names: Iterable[str], values: np.ndarray) -> None:
         """Add the free parameters as coordinates, from their values, (n, n_parameters)."""
         for i, name in enumerate(names):
-            described: dict[str, Any] = {"long_name": name}  # as of a mode of a disc
-            if name in (*Parameters.model_fields, *RATIOS):
-                described = attributes(name)
-            self.coordinates[self.begin + name] = xr.Variable(self.dim, values[:, i], described)
+            column = xr.Variable(self.dim, values[:, i], attributes_of(name))
+            self.coordinates[self.begin + name] = column
 
     def add(self, columns: dict[str, Variable], values_of: Callable[[str], Any]) -> None:
         """Add columns by their names; a second dimension is that of the multipliers or modes."""

@@ -11,10 +11,10 @@ from disc_model.data.variables import values_text
 from disc_model.display import Summarised, number_text
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.data import StoredBranch
+from disc_model.stability.continuation.data import StoredBranch, stored_extremes
 from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
 from disc_model.stability.return_map import MapFactory, ReturnMap
-from disc_model.stability.segments import range_of_cycle
+from disc_model.stability.segments import Extremes, extremes_of_cycle
 
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
 
@@ -73,10 +73,25 @@ class SpecialPoint(Summarised):
         return self.make_map(self.case).state(self.point)
 
     @cached_property
+    def _extremes(self) -> Extremes:
+        """Extremes of the slider's height over a period of the cycle."""
+        return extremes_of_cycle(self.case, self.state, self.period)
+
+    @property
+    def u_min(self) -> float:
+        """Least height of the slider over static equilibrium in a period of the cycle, m; simulated
+        when it, `u_max` or `range` is asked for."""
+        return self._extremes.u_min
+
+    @property
+    def u_max(self) -> float:
+        """Greatest height of the slider over static equilibrium in a period of the cycle, m."""
+        return self._extremes.u_max
+
+    @property
     def range(self) -> float:
-        """Range of the slider's height over a period of the cycle, m; simulated when it is asked
-        for."""
-        return range_of_cycle(self.case, self.state, self.period)
+        """Range of the slider's height over a period of the cycle, m."""
+        return self._extremes.range
 
     def __repr__(self) -> str:
         values = ", ".join(f"{value:.9g}" for value in self.values)
@@ -98,6 +113,7 @@ def stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
     data = stored.data
     points = []
     modal = stored.modal("special_")
+    extremes = stored_extremes(data, "special_")
     for i, values in enumerate(stored.values("special_")):
         point = SpecialPoint(
             kind=str(data["special_kind"].values[i]),
@@ -111,6 +127,6 @@ def stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
             modal=modal[i],
             make_map=stored.make_map,
         )
-        vars(point)["range"] = float(data["special_range"].values[i])
+        vars(point)["_extremes"] = Extremes(*extremes[i].tolist())
         points.append(point)
     return tuple(points)
