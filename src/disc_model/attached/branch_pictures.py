@@ -22,6 +22,7 @@ def plot_branches(
     legend: bool | dict[str, Any] = True,
     labels: dict[str, str] | None = None,
     title: str | bool | None = None,
+    looks: dict[str, dict[str, Any]] | None = None,
 ) -> Axes:
     """Draw all branches of a sweep of `continue_cycle` on the same axes, as `Branch.plot` draws one.
 
@@ -33,6 +34,7 @@ def plot_branches(
     swept : what ``sweep(continue_cycle, ...)`` returns, or a selection of it
     y : growth_rate, period, stick_fraction, range, u_min or u_max, as in `Branch.plot`
     ax, legend, labels, title : as in `Result.plot`
+    looks : as in `Branch.plot`, such as ``{"stable": {"linestyle": "-"}, "unstable": {"linestyle": "--"}}``
 
     Returns
     -------
@@ -58,7 +60,7 @@ def plot_branches(
     whole = [point for point in points if not _has_failed(point)]
     failed = [_name_of(point, swept) for point in points if _has_failed(point)]
     *before, last = whole
-    options: dict[str, Any] = {"legend": legend, "title": title}
+    options: dict[str, Any] = {"legend": legend, "title": title, "looks": looks}
     for point in before:
         named = _with_name(point, swept, labels)
         ax = Branch.from_dataset(point).plot(y, ax=ax, labels=named, **options)

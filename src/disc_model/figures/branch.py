@@ -8,13 +8,17 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from disc_model.data.variables import axis_of, presentation_of, typeset
-from disc_model.figures.branch_family import NAME, NO_FURTHER, SPECIAL_MARKS, join_family, next_look
+from disc_model.figures.branch_family import (
+    NAME,
+    NO_FURTHER,
+    SPECIAL_MARKS,
+    join_family,
+    line_in_legend,
+    next_look,
+)
 from disc_model.figures.branch_heights import axis_upward, refined_upward, upward_of
 from disc_model.figures.branch_lines import (
     FLOOR,
-    NARROW,
-    STABLE,
-    THIN,
     Look,
     above_floor,
     dot_in_legend,
@@ -22,10 +26,13 @@ from disc_model.figures.branch_lines import (
     draw_branch,
     draw_dots,
     set_margins,
+    stable_line,
     stable_segments,
+    unstable_line,
 )
+from disc_model.figures.branch_wishes import PartLooks, part_looks
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import BLACK, COLUMN, mark, sample, wide
+from disc_model.figures.drawing import BLACK, COLUMN, mark, sample
 from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import scale_rates
@@ -46,11 +53,13 @@ def plot_branch(
     legend: Any = True,
     labels: Any = None,
     title: str | bool | None = None,
+    looks: Any = None,
     failed: Sequence[str] = (),
 ) -> Axes:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
     its first; returns the axes.
 
+    looks : of the stable and unstable parts and of the cycles, as `part_looks` reads them
     failed : names of points of its sweep without a branch, which the legend says
     """
     first, *second = branch.parameters
@@ -60,25 +69,25 @@ def plot_branch(
     values = upward_of(branch, branch, y) * upward
     case = stated(branch.case, *branch.parameters)
     name, labels = name_in(labels, NAME)
+    wished = part_looks(looks)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.8, title=case) as page:
         page.show(Quantities(across, label))
         axes = page.ax
-        look = next_look(axes)
+        look = next_look(axes, wished)
         # the stability changes at special points, which lie between the others
         stable = stable_segments(branch.refined_growth_rate())
         refined_x = branch.refined("values")[:, 0] * factor
         refined_values = refined_upward(branch, y) * upward
-        thin = NARROW if y == "growth_rate" and not second else THIN
-        draw_branch(axes, refined_x, above_floor(refined_values), stable, look, thin=thin)
+        draw_branch(axes, refined_x, above_floor(refined_values), stable, look, wished=wished)
         # what lies between is not computed
-        draw_dots(axes, x, above_floor(values), look)
-        lowest = draw_at_floor(axes, x, look, np.isneginf(values))
+        draw_dots(axes, x, above_floor(values), look, wished)
+        lowest = draw_at_floor(axes, x, look, np.isneginf(values), wished)
         if y == "growth_rate" and not second:
             scale_rates(axes)
         heights = axes.dataLim  # of all branches on the axes
         if y == "range" and not second and heights.y1 > WIDE * heights.minposy:
             axes.set_yscale("log")
-        handles = _stability_samples(stable, thin)
+        handles = _stability_samples(stable, wished)
         handles += lowest
         special = _mark_special_points(axes, branch, y, (factor, upward))
         set_margins(axes)
@@ -88,7 +97,8 @@ def plot_branch(
         page.joins = True
         values_of_case = stated_values(branch.case, *branch.parameters)
         member = Member(name, values_of_case, int(branch.releases[0]), handles, special)
-        member.width = None if stable.any() else thin
+        member.line = line_in_legend(look, stable, wished)
+        member.coloured = wished.coloured
         join_family(page, member)
         without = _no_branch(failed)
         page.explain([*page.handles, *without])
@@ -97,18 +107,19 @@ def plot_branch(
     return page.ax
 
 
-def _stability_samples(stable: Mask, thin: float) -> list[Artist]:
-    """Entries of the legend for the widths of lines: a branch that is unstable throughout is a thin line
-    with dots in the legend too.
+def _stability_samples(stable: Mask, wished: PartLooks) -> list[Artist]:
+    """Entries of the legend for the lines: a branch that is unstable throughout is a thin line with dots
+    in the legend too.
 
     stable : whether the branch is stable between points
-    thin : width of the line where it is not, points
     """
+    black = Look(BLACK)
+    unstable = unstable_line(black, wished)
     if not stable.any():
-        return [sample(**Look(BLACK).line(thin), **dot_in_legend(), label="unstable")]
-    samples = [sample(color=BLACK, linewidth=wide(STABLE), label="stable")]
+        return [sample(**{**unstable, **dot_in_legend(wished)}, label="unstable")]
+    samples = [sample(**stable_line(black, wished), label="stable")]
     if not stable.all():
-        samples.append(sample(color=BLACK, linewidth=wide(thin), label="unstable"))
+        samples.append(sample(**unstable, label="unstable"))
     return samples
 
 

@@ -4,13 +4,14 @@ from collections.abc import Sequence
 from typing import Any
 from weakref import WeakKeyDictionary
 
-from disc_model.figures.branch_lines import Look, dot_in_legend
+from disc_model.figures.branch_lines import Look, dot_in_legend, stable_line, unstable_line
+from disc_model.figures.branch_wishes import AS_USUAL, PartLooks
 from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, sample
 from disc_model.figures.family import LOOKS, Member, names_of
 from disc_model.figures.family_titles import retitle
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
-from disc_model.figures.types import Axes
+from disc_model.figures.types import Axes, Mask
 
 NAME = "branch"
 """The label by which a reader names a branch."""
@@ -39,9 +40,18 @@ def _branches_on(ax: Axes) -> list[Member]:
     return _BRANCHES.get(ax, []) if shown_on(ax).labels else []
 
 
-def next_look(ax: Axes) -> Look:
-    """The look of the next branch on axes."""
-    return LOOKS[len(_branches_on(ax)) % len(LOOKS)]
+def next_look(ax: Axes, wished: PartLooks = AS_USUAL) -> Look:
+    """The look of the next branch on axes, without dashes of its own where those that a reader wishes
+    tell its stability."""
+    look = LOOKS[len(_branches_on(ax)) % len(LOOKS)]
+    return Look(look.colour) if wished.tell_stability else look
+
+
+def line_in_legend(look: Look, stable: Mask, wished: PartLooks) -> dict[str, Any]:
+    """Options of the line of a branch in a legend of several; with dots where it is unstable throughout."""
+    if stable.any():
+        return stable_line(look, wished, WIDTH)
+    return {**unstable_line(look, wished), **dot_in_legend(wished)}
 
 
 def join_family(page: Page, new: Member) -> None:
@@ -63,23 +73,22 @@ def _explain(page: Page, family: Sequence[Member]) -> None:
     replaced |= {*names_of(family[:-1], NAME)}  # a further branch may differ in something else
 
     handles: list[Any] = []
-    for number, text in enumerate(names_of(family, NAME)):
-        look = LOOKS[number % len(LOOKS)]
-        width = family[number].width
-        dot = dot_in_legend() if width else {}
-        handles.append(sample(label=text, **look.line(width or WIDTH), **dot))
+    for each, text in zip(family, names_of(family, NAME), strict=True):
+        handles.append(sample(label=text, **each.line))
     looks: dict[str, Any] = {}
     marks: dict[str, Any] = {}
     for each in family:
         looks |= {str(handle.get_label()): handle for handle in each.looks}
-    for handle in looks.values():
-        handle.set_color(GREY)  # black would be that of a branch
+    coloured = {label for each in family for label in each.coloured}
+    for label in looks.keys() - coloured:
+        looks[label].set_color(GREY)  # black would be that of a branch
     for each in family:
         marks |= {str(handle.get_marker()): handle for handle in each.special}
     for sign, _, name in SPECIAL_MARKS.values():
         if sign in marks:
             marks[sign].set_label(name)
 
-    handles += [*looks.values(), *marks.values()]
+    stable_first = sorted(looks, key=lambda label: label != "stable")
+    handles += [*(looks[label] for label in stable_first), *marks.values()]
     page.replaced = replaced | {str(handle.get_label()) for handle in handles}
     page.explain(handles)

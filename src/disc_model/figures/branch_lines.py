@@ -4,6 +4,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from disc_model.figures.branch_wishes import AS_USUAL, PartLooks
 from disc_model.figures.drawing import BLACK, mark, sample, wide
 from disc_model.figures.selection import broken, stretches
 from disc_model.figures.types import Array, Artist, Axes, Mask
@@ -11,7 +12,6 @@ from disc_model.figures.words import BELOW_ANY
 
 STABLE = 2.0  # width of lines of stable motions, points,
 THIN = 0.7  # and of unstable ones; dashes of two branches that nearly meet would look like a whole line
-NARROW = 0.4  # of those of growth rates: both sides of a narrow peak touch, and must not look thick
 DOT = 3.0  # points, size of the mark of a cycle computed
 # least distance of such marks along the branch, over the panel's diagonal: nearer ones would make a
 # thin line look like a thick one
@@ -48,9 +48,10 @@ class Look(NamedTuple):
         return options
 
 
-def dot_in_legend() -> dict[str, Any]:
+def dot_in_legend(wished: PartLooks = AS_USUAL) -> dict[str, Any]:
     """Options of a line in a legend that has the mark of a cycle."""
-    return {"marker": ".", "markersize": mark(DOT)}
+    marks = {name: value for name, value in wished.cycles.items() if name.startswith("marker")}
+    return {"marker": ".", "markersize": mark(DOT), **marks}
 
 
 def draw_branch(
@@ -61,32 +62,43 @@ def draw_branch(
     look: Look,
     factor: float = np.inf,
     *,
-    thin: float = THIN,
+    wished: PartLooks = AS_USUAL,
 ) -> None:
     """Draw a line along a branch, with gaps where its height jumps by more than a factor.
 
     x, y : (n,), points; those behind the last one are nan
     stable : (n - 1,), whether the branch is stable, and its line thick, between each point and the
         next one
-    thin : width of the line of unstable motions, points
+    wished : what a reader wishes of both parts
     """
     known = np.isfinite(x)
     x = x[known]
     y = y[known]
     stable = stable[known[1:]]
     height = np.log(y) if factor < np.inf else None
-    if look.dashes:  # thin dashes would fill the gaps between thick ones
-        _draw_stretches(ax, x, y, ~stable, look.line(thin))
+    if look.dashes or wished != AS_USUAL:  # thin dashes would fill the gaps between thick ones
+        _draw_stretches(ax, x, y, ~stable, unstable_line(look, wished))
     else:
-        ax.plot(*broken(x, y, np.log(factor), height), **look.line(thin))
-    _draw_stretches(ax, x, y, stable, {**look.line(STABLE), "solid_capstyle": "butt"})
+        ax.plot(*broken(x, y, np.log(factor), height), **unstable_line(look))
+    _draw_stretches(ax, x, y, stable, stable_line(look, wished))
 
 
-def draw_dots(ax: Axes, x: Array, y: Array, look: Look) -> None:
+def stable_line(look: Look, wished: PartLooks = AS_USUAL, width: float = STABLE) -> dict[str, Any]:
+    """Options of the line of stable motions, of a width in points."""
+    return {**look.line(width), "solid_capstyle": "butt", **wished.stable}
+
+
+def unstable_line(look: Look, wished: PartLooks = AS_USUAL) -> dict[str, Any]:
+    """Options of the line of unstable motions."""
+    return {**look.line(THIN), **wished.unstable}
+
+
+def draw_dots(ax: Axes, x: Array, y: Array, look: Look, wished: PartLooks = AS_USUAL) -> None:
     """Draw the cycles of a branch as dots, but for those whose height is nan."""
     known = np.isfinite(y)
     if known.any():  # without one matplotlib has no distances
-        ax.plot(x[known], y[known], ".", **look.dot())
+        dots = {"marker": ".", "linestyle": "", **look.dot(), **wished.cycles}
+        ax.plot(x[known], y[known], **dots)
 
 
 def _draw_stretches(ax: Axes, x: Array, y: Array, chosen: Mask, line: dict[str, Any]) -> None:
@@ -119,7 +131,9 @@ def above_floor(values: Array) -> Array:
     return np.where(np.isneginf(values), np.nan, values)
 
 
-def draw_at_floor(ax: Axes, x: Array, look: Look, place: Mask) -> list[Artist]:
+def draw_at_floor(
+    ax: Axes, x: Array, look: Look, place: Mask, wished: PartLooks = AS_USUAL
+) -> list[Artist]:
     """Draw points of a branch whose value is -inf as triangles at the lower edge of a panel, joined
     by a thick line, since they are stable; returns the entry of the legend, if there are any.
 
@@ -129,7 +143,7 @@ def draw_at_floor(ax: Axes, x: Array, look: Look, place: Mask) -> list[Artist]:
         return []
     edge = np.full(x.size, FLOOR)
     at_edge: dict[str, Any] = {"transform": ax.get_xaxis_transform(), "gid": BELOW_ANY}
-    _draw_stretches(ax, x, edge, between(place), {**look.line(STABLE), **at_edge})
+    _draw_stretches(ax, x, edge, between(place), {**stable_line(look, wished), **at_edge})
     triangles: dict[str, Any] = {"marker": "v", "linestyle": "", "markersize": mark(4)}
     ax.plot(x[place], edge[place], color=look.colour, **triangles, **at_edge)
     return [sample(color=BLACK, label=BELOW_ANY, **triangles)]

@@ -56,7 +56,8 @@ class Member:
     releases : of stick in a period of its cycles
     looks : its entries of the legend when it is alone
     special : those of its special points
-    width : of a line that is as thin throughout, points
+    line : options of its line in the legend
+    coloured : labels of those of its looks whose colour is the reader's own
     said : words for values of which names of parameters say nothing
     selected : words for those at which a study was selected, which titles have as well
     """
@@ -66,7 +67,8 @@ class Member:
     releases: int = 0
     looks: list[Any] = field(default_factory=list)
     special: list[Any] = field(default_factory=list)
-    width: float | None = None
+    line: dict[str, Any] = field(default_factory=dict)
+    coloured: Sequence[str] = ()
     said: Mapping[str, str] = field(default_factory=dict)
     selected: Mapping[str, str] = field(default_factory=dict)
 

@@ -370,6 +370,7 @@ class Branch:
         legend: bool | dict[str, Any] = True,
         labels: dict[str, str] | None = None,
         title: str | bool | None = None,
+        looks: dict[str, dict[str, Any]] | None = None,
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or of the slider's height the range, u_min or u_max
         (extremes over static equilibrium) over the parameter, thick where the cycle is stable, and
@@ -385,6 +386,11 @@ class Branch:
         parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
         as in `Result.plot`. Several branches on the same axes have a colour each, and are named in
         the legend by what differs between their cases, or as `labels={"branch": "upper sheet"}` says.
+        `looks` has properties of matplotlib's lines for what is "stable", for what is "unstable", and for the dots,
+        "cycles": ``looks={"stable": {"linestyle": "-"}, "unstable": {"linestyle": "--"}}`` draws as AUTO does, and
+        ``"cycles": {"marker": ""}`` leaves the dots out. The legend shows the same. Where dashes tell the stability,
+        branches on the same axes differ in colour alone.
+
         Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
         understood.
 
@@ -394,4 +400,6 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        return draw("plot_branch", self, y, ax=ax, legend=legend, labels=labels, title=title)
+        return draw(
+            "plot_branch", self, y, ax=ax, looks=looks, legend=legend, labels=labels, title=title
+        )
