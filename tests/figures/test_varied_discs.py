@@ -44,3 +44,12 @@ def test_amplitudes_have_one_unit() -> None:
     """The tangential one had kg^-1/2 where the other one had 1/√kg."""
     label, _ = axis_of("tangential_2_0")
     assert label == "t(2, 0) (1/√kg)"
+
+
+def test_a_title_without_room_still_names_the_disc() -> None:
+    """It was only counted among further parameters, behind values of the friction."""
+    friction = {"mu_s": 0.45, "mu_k": 0.35, "friction_decay": 1.0, "viscous_friction": 0.01}
+    said = stated(CASE.replace(**friction))
+    title = head_text(2.3, "", said, most=3)
+    assert "a disc given by 3 modes" in title
+    assert title.endswith("further parameters")

@@ -23,19 +23,21 @@ OF_FRICTION = ("mu_s", "mu_k", "mu_k_over_mu_s", "friction_decay", "viscous_fric
 """Parameters of the law of friction."""
 OF_DAMPING = ("D_star", "damping_ratio", "c", "c_p", "c_p_over_c")
 OF_CONTACT = ("friction_offset", "contact_arc", "contact_compliance")
-IDENTIFYING = ("disc", "E", "h", "h_over_b", "m", "k")
+FIRST = ("N", "Omega", "disc")
+"""What is said where there is room for little else: a table of modes replaces the whole disc."""
+IDENTIFYING = ("E", "h", "h_over_b", "m", "k")
 """What tells a disc and a slider from others first."""
 OF_DISC = ("nu", "rho", "a", "b", "r_0", "a_over_b", "r_0_over_b")
 """The rest of the material and of the size of the disc."""
-ORDERED = ("N", "Omega", *OF_FRICTION, *IDENTIFYING, *OF_DAMPING, *OF_CONTACT, *OF_DISC, *OF_MODES)
+ORDERED = (*FIRST, *OF_FRICTION, *IDENTIFYING, *OF_DAMPING, *OF_CONTACT, *OF_DISC, *OF_MODES)
 """Parameters that have a place of their own in a title."""
 CHARACTER = 0.06  # inch, mean width of a character of a figure's head
 
 
 def what_case(values: Mapping[str, Any], selected: Mapping[str, str] = MappingProxyType({})) -> str:
     """Values of parameters for titles: N, Omega, and those that differ from Table 1; and the stays of a
-    sweep, in words. What identifies a case comes first: its friction, and what tells its disc and slider
-    from others. How the disc is computed comes last, as a title may have no room for all.
+    sweep, in words. What identifies a case comes first: a disc given by its modes, its friction, and what tells
+    its disc and slider from others. How the disc is computed comes last, as a title may have no room for all.
 
     selected : words for others of the values, by their names
     """
@@ -43,7 +45,8 @@ def what_case(values: Mapping[str, Any], selected: Mapping[str, str] = MappingPr
         MODELS[value] for value in values.values() if isinstance(value, str) and value in MODELS
     ]
     numbers = {name: value for name, value in values.items() if not isinstance(value, str)}
-    said = [_numbers_text(numbers, ("N", "Omega", *OF_FRICTION))]
+    said = [_numbers_text(numbers, (name,)) for name in FIRST]
+    said.append(_numbers_text(numbers, OF_FRICTION))
     said += [text for name, text in selected.items() if name in values]
     said += words
     said += [_numbers_text(numbers, IDENTIFYING)]
