@@ -37,13 +37,11 @@ TITLE = 6.0  # points, distance of a title from what stands above a panel
 class Rows:
     """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
 
-    reason : the words in one line
     kept : all rows, also those that others of the same marks stand for
     """
 
     words: Text
     strip: Rectangle
-    reason: str
     kept: list[Row] = field(default_factory=list)
 
     @property
@@ -110,7 +108,7 @@ def add_row(
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[reason] = Rows(words, strip, reason)
+        reasons[reason] = Rows(words, strip)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
@@ -135,18 +133,6 @@ def add_column(ax: Axes, heights: Array, **look: Any) -> None:
     transform = blended_transform_factory(beside, ax.transData)
     ones = [1.0] * len(heights)
     ax.plot(ones, heights, transform=transform, clip_on=False, linestyle="", **look)
-
-
-def silence_rows(ax: Axes) -> None:
-    """Take the words of rows away, which keep their marks; strips have them as labels for a legend of the
-    reader."""
-    host = _host_of(ax)
-    found = rows_above(host)
-    for number, each in enumerate(found, start=1):
-        strip = f"strip {number}" if len(found) > 1 else "strip"
-        each.strip.set_label(f"{strip} above: {each.reason}")
-        each.words.set_text("")
-    stack_rows(host)
 
 
 def tell_rows_apart(ax: Axes, sweeps: Collection[int]) -> None:
@@ -258,8 +244,7 @@ def _stack(ax: Axes, found: Sequence[Rows], sizes: Sizes) -> float:
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
         each.words.set_transform(up)
         each.words.set_fontsize(sizes.text)
-        said = each.words.get_text()
-        lines = said.count("\n") + 1 if said else 0
+        lines = each.words.get_text().count("\n") + 1
         top = height + lines * LINE * sizes.text
         height = top + first + sizes.between
     return top
