@@ -186,7 +186,10 @@ def test_a_combination_is_known_beside_a_large_chi_squared() -> None:
     assert found.indistinct == ("mu_s", "mu_k")
     assert found.case.mu_s == pytest.approx(0.4, abs=0.03)
     assert [*found.determined] == ["mu_s - mu_k"]
-    for words in ("determine mu_s and mu_k apart", "model or uncertainties are wrong"):
+    for words in (
+        "determine mu_s and mu_k apart",
+        "model, fixed parameters or uncertainties are wrong",
+    ):
         assert words in found.doubt
         assert words in repr(found)
 
