@@ -175,6 +175,7 @@ def test_limits_that_begin_at_zero_have_a_neutral_zero() -> None:
     assert scale.cmap(scale.norm(0.0)) == pytest.approx(cm.vik(0.5), abs=0.02)
     assert scale.places[-1] == 0.08
     assert scale.open_ends == (True, True)
+    assert growth_colours(GROWTH, ColourWishes(limits=(0.0, 0.6))).open_ends == (True, False)
 
 
 def test_zeros_of_undamped_modes_do_not_set_the_scale_of_rates() -> None:

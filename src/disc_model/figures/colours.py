@@ -161,8 +161,10 @@ def growth_colours(rates: Array, wishes: ColourWishes = USUAL) -> Scale:
     if wishes.limits is not None:
         norm = _growth_norm_to(max(map(abs, wishes.limits)))
     end = float(norm.vmax or GREATEST)
-    open_ends = (bool((rates < -end).any()), bool((rates > end).any()))
     low, high = _ends_of_bar(rates, end, wishes)
+    below = rates < low - ROUNDING
+    above = rates > high + ROUNDING
+    open_ends = (bool(below.any()), bool(above.any()))
     shown = AsinhNorm(linear_width=norm.linear_width, vmin=low, vmax=high)
     part = np.linspace(float(norm(low)), float(norm(high)), COLOURS)
     cmap = _chosen(wishes, cm.vik)
