@@ -3,6 +3,7 @@
 import numpy as np
 import xarray as xr
 
+from disc_model.data.variables import typeset
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
 
@@ -16,7 +17,7 @@ def say_without_place(ax: Axes, coordinate: xr.DataArray) -> list[str]:
     missing = 0
     if coordinate.dtype.kind == "f":
         missing = int(np.isnan(coordinate.values).sum())
-    words = f"not drawn: {missing} of {coordinate.size} without {named(coordinate).name}"
+    words = f"not drawn: {missing} of {coordinate.size} without {typeset(named(coordinate).name)}"
     if missing and words not in _notes_on(ax):
         ax.plot([], [], linestyle="", label=words, gid=NOTE)
     return _notes_on(ax)
