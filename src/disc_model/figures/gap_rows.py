@@ -37,11 +37,13 @@ TITLE = 6.0  # points, distance of a title from what stands above a panel
 class Rows:
     """The rows of one reason, from the lowest on, the words above them, and the strip behind them.
 
+    reason : the words in one line
     kept : all rows, also those that others of the same marks stand for
     """
 
     words: Text
     strip: Rectangle
+    reason: str
     kept: list[Row] = field(default_factory=list)
 
     @property
@@ -108,7 +110,7 @@ def add_row(
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)
         ax.add_artist(strip)
-        reasons[reason] = Rows(words, strip)
+        reasons[reason] = Rows(words, strip, reason)
     if not ax.spines["top"].get_visible():  # else the lowest row would pass for values
         ax.spines["top"].set(visible=True, color=GREY, linewidth=wide(0.5))
     transform = ax.get_xaxis_transform()
