@@ -17,7 +17,7 @@ import disc_model as dm
 from disc_model.explorer import LEVELS, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, lightness
-from disc_model.figures.colours import growth_norm
+from disc_model.figures.colours import growth_colours, growth_norm
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, motions, plane
 from tests.workflow.browser import Page, browser
@@ -241,6 +241,25 @@ def test_bars_say_where_growth_rates_lie_beyond_them(tmp_path: Path) -> None:
         assert opened.run(beyond, [-3.0, *few[:-1]], scale) == ["≤ −0.3", ""]
         assert opened.run(beyond, most, scale) == ["", "≥ 99"]
         assert Explorer(opened).ask("wordsOfBar", few, scale)[-1] == "≥ 0.3"
+
+
+def test_bars_have_the_signs_that_growth_rates_have(tmp_path: Path) -> None:
+    """They went as far to the other side, and had no numbers at their ends, unlike those of figures."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents(), []), encoding="utf-8")
+    scale = {"width": 0.01, "end": 0.3}
+    ends = "return coloursOfRates(...arguments).ticks().map(([at, rate]) => rate)"
+    zero = "return [coloursOfRates(...arguments).colour(0), contents.maps.diverging[128]]"
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        for rates in ([0.01, 0.2], [-0.2, -0.01], [-0.2, 1e-12], [-0.2, 0.1], [0.0, 0.0]):
+            expected = growth_colours(np.array(rates)).places
+            assert opened.run(ends, rates, scale) == pytest.approx(expected), rates
+            found, neutral = opened.run(zero, rates, scale)
+            assert found == neutral
+        words = Explorer(opened).ask("wordsOfBar", [0.01, 0.2], scale)
+        assert words == ["0", "0.01", "0.1", "0.3"]
 
 
 def view_call() -> dict[str, Any]:

@@ -91,5 +91,5 @@ def test_looks_that_cannot_be_understood_are_refused(branch: dm.Branch, looks: A
 
 def test_a_unit_of_amplitudes_is_a_root_in_labels() -> None:
     values = xr.DataArray(np.zeros(2), name="amplitude", attrs={"units": "kg^-1/2"})
-    assert label_of(values)[0].endswith("(1/√kg)")
-    assert axis_of("amplitude_2_0")[0].endswith("(1/√kg)")
+    assert label_of(values)[0].endswith("(kg^-1/2)")
+    assert axis_of("amplitude_2_0")[0].endswith("(kg^-1/2)")

@@ -8,7 +8,13 @@ from matplotlib import colormaps
 from matplotlib.colors import AsinhNorm, LogNorm
 
 from disc_model.figures.colour_wishes import ColourWishes, is_diverging
-from disc_model.figures.colours import colours_of, counted, growth_colours, within_a_decade
+from disc_model.figures.colours import (
+    colours_of,
+    counted,
+    growth_colours,
+    growth_norm,
+    within_a_decade,
+)
 
 RATE = xr.DataArray(0.0, name="growth_rate")
 PERIOD = xr.DataArray(0.0, name="period")
@@ -103,9 +109,9 @@ GROWTH = np.array([-0.2, 0.05, 0.1])
 @pytest.mark.parametrize(
     ("rates", "wishes", "ends"),
     [
-        (DECAY, ColourWishes(), (-1.13, 1.13)),
+        (DECAY, ColourWishes(), (-1.13, 0.0)),
         (DECAY, ColourWishes(cmap="viridis"), (-1.13, -0.29)),
-        (DECAY, ColourWishes(cmap="RdBu_r"), (-1.13, -0.29)),
+        (DECAY, ColourWishes(cmap="RdBu_r"), (-1.13, 0.0)),
         (DECAY, ColourWishes(log=True), (-1.13, -0.29)),
         (DECAY, ColourWishes(limits=(-1.0, -0.5)), (-1.0, -0.5)),
         (GROWTH, ColourWishes(), (-0.3, 0.3)),
@@ -122,6 +128,60 @@ def test_growth_rates_fill_a_scale_that_is_not_around_zero(
     """Rates of one sign in other colours were one dark colour, and `log` changed nothing."""
     scale = growth_colours(rates, wishes)
     assert (scale.norm.vmin, scale.norm.vmax) == pytest.approx(ends)
+
+
+@pytest.mark.parametrize(
+    ("rates", "places", "open_ends"),
+    [
+        ([0.002, 0.2], [0, 0.01, 0.1, 0.3], (False, False)),
+        ([-0.002, -0.2], [-0.3, -0.1, -0.01, 0], (False, False)),
+        ([1e-12, -0.2], [-0.3, -0.1, -0.01, 0], (False, False)),
+        ([-0.2, 0.01], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (False, False)),
+        ([0.01, 0.02, 44.0], [0, 0.01, 0.1, 0.3], (False, True)),
+        ([-5.0, 0.01, 0.02], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (True, False)),
+        ([0.05, 0.05], [0, 0.01, 0.1, 0.3], (False, False)),
+        ([0.0, 0.0], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (False, False)),
+        ([np.nan, -0.05], [-0.3, -0.1, -0.01, 0], (False, False)),
+        ([0.9, 1.0, 1.1], [0, 0.1, 1.1], (False, False)),
+    ],
+)
+def test_the_bar_of_growth_rates_has_the_signs_that_they_have(
+    rates: list[float], places: list[float], open_ends: tuple[bool, bool]
+) -> None:
+    """It went as far to the other side, had no numbers at its ends, and arrows beyond which no rate lay."""
+    scale = growth_colours(np.array(rates))
+    assert scale.places == pytest.approx(places)
+    assert scale.open_ends == open_ends
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_rates_of_one_sign_have_the_colours_that_they_have_beside_others(sign: float) -> None:
+    rates = sign * np.array([0.0, 0.01, 0.1, 0.2])
+    alone = growth_colours(rates)
+    beside = growth_colours(np.append(rates, -0.1 * sign))
+    for rate in rates:
+        colour = alone.cmap(alone.norm(rate))
+        assert colour == pytest.approx(beside.cmap(beside.norm(rate)), abs=0.02)
+
+
+def test_the_half_of_other_colours_has_a_neutral_zero() -> None:
+    scale = growth_colours(DECAY, ColourWishes(cmap="RdBu_r"))
+    middle = colormaps.get_cmap("RdBu_r")(0.5)
+    assert scale.cmap(scale.norm(0.0)) == pytest.approx(middle, abs=0.02)
+
+
+def test_limits_that_begin_at_zero_have_a_neutral_zero() -> None:
+    scale = growth_colours(GROWTH, ColourWishes(limits=(0.0, 0.08)))
+    assert scale.cmap(scale.norm(0.0)) == pytest.approx(cm.vik(0.5), abs=0.02)
+    assert scale.places[-1] == 0.08
+    assert scale.open_ends == (True, True)
+    assert growth_colours(GROWTH, ColourWishes(limits=(0.0, 0.6))).open_ends == (True, False)
+
+
+def test_zeros_of_undamped_modes_do_not_set_the_scale_of_rates() -> None:
+    """That of the explorer's maps left them out, that of figures did not."""
+    rates = np.concatenate([np.zeros(120), np.linspace(1.0, 3.0, 100)])
+    assert growth_norm(rates).vmax == growth_norm(rates[120:]).vmax
 
 
 def test_a_logarithmic_scale_of_decays_differs_from_a_linear_one() -> None:

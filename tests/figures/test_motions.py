@@ -742,7 +742,7 @@ def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     *lines_of_modes, below_the_axis = labels(sliding_modes())
     assert lines_of_modes == ["mode decays", "mode grows"]
     assert below_the_axis == "decays faster than 0.9/s: l = 1, l = 3"
-    assert {"all of its values", "95 % interval"} <= {*labels(sensitivity())}
+    assert "all of its values" in labels(sensitivity())
 
 
 def test_lines_of_sliding_modes_are_as_wide_as_in_the_legend() -> None:

@@ -90,7 +90,7 @@ def test_cases_have_looks_names_and_common_limits(name: str, own: bool) -> None:
     first = np.ravel(axes)[0]
     DRAWN[name](SPEEDS[1], ax=axes)
     places = [text for ax in np.ravel(axes) for text in legend_texts(ax)]
-    common = ["filled: converged; ± standard error"] if name == "exponents" else []
+    common = ["filled: not converged; ± standard error"] if name == "exponents" else []
     assert [*dict.fromkeys(text.replace("\n", " ") for text in places)] == [*NAMES, *common]
     slack = 0.16 * np.ptp(ends)  # an axis alone has room for names
     assert first.get_ylim()[0] <= min(low for low, _ in ends) + slack

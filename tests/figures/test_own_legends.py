@@ -6,6 +6,7 @@ from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
+from disc_model.figures.gap_rows import rows_above
 from tests.figures.reading import as_map
 
 SPEEDS = np.array([10.0, 12.0, 14.0, 16.0])  # rad/s
@@ -37,18 +38,13 @@ def words_in_legend(ax: Axes) -> list[str]:
     return [text.get_text() for text in legend.get_texts()]
 
 
-def test_strips_without_words_are_entries_of_a_legend() -> None:
-    """Nothing told what the marks above the panel stand for."""
+def test_strips_keep_their_words_without_a_legend() -> None:
+    """Nothing on the picture told what the marks above the panel stand for."""
     ax = dm.plot_sweep(rates(), "stick_fraction", lines="N", legend=False)
-    assert entries(ax)[:2] == ["Preload N = 200 N", "385 N"]
-    strips = ["strip 1 above: no cycle found", "strip 2 above: immediate separation"]
-    assert entries(ax)[2:] == strips
-
-
-def test_a_single_strip_needs_no_number() -> None:
-    study = rates().isel(Omega=[0, 1, 3])
-    ax = dm.plot_sweep(study, "stick_fraction", lines="N", legend=False)
-    assert entries(ax)[-1] == "strip above: no cycle found"
+    words = [each.words.get_text() for each in rows_above(ax)]
+    assert words == ["no cycle found", "immediate separation"]
+    assert entries(ax) == ["Preload N = 200 N", "385 N"]
+    assert not ax.figure.legends
 
 
 def test_classes_of_a_map_are_entries_of_a_legend() -> None:

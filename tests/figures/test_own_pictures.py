@@ -831,5 +831,10 @@ def test_exponents_that_have_not_converged_are_told_from_others() -> None:
     for bars in ax.containers:
         [points, *_] = bars
         numbers[bars.get_label()] = points.get_xdata().tolist()
-    assert numbers == {"converged, ± standard error": [1], "not converged, ± standard error": [2]}
+        is_filled = points.get_markerfacecolor() != "white"
+        assert is_filled is bars.get_label().startswith("filled"), "as in sweeps"
+    assert numbers == {
+        "converged, ± standard error": [1],
+        "filled: not converged, ± standard error": [2],
+    }
     assert ax.get_title(loc="left") == "over 20 s, 1 separation"

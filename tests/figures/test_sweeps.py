@@ -1403,10 +1403,10 @@ def test_growth_rates_have_a_linear_scale_on_request() -> None:
     assert (norm.vmin, norm.vmax) == (-5, 5)
 
 
-def test_a_picture_without_legend_has_no_words_above_it() -> None:
+def test_a_picture_without_legend_keeps_the_words_above_it() -> None:
     found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
     ax = dm.plot_sweep(found, "period", legend=False)
-    assert said_above(ax) == [""]
+    assert said_above(ax) == ["no cycle found"]
     [row] = rows_above(ax)[0].rows
     assert [*row.get_xdata()] == [15.5]
 

@@ -1,10 +1,13 @@
 """Titles of what is computed over a frequency of a disc given by its modes."""
 
+import pytest
+
 import disc_model as dm
-from disc_model.data.variables import axis_of
+from disc_model.data.variables import axis_of, unit_of_parameter
 from disc_model.figures.head_texts import head_text, what_case
 from disc_model.figures.stated_case import stated
 from disc_model.figures.sweep_titles import values_of
+from disc_model.mode_units import si_unit_of_mode
 
 DISC = dm.Disc.from_csv("config/discs/brake_3_modes.csv")
 PAD = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "m": 0.5}
@@ -40,12 +43,6 @@ def test_parameters_that_are_counted_are_called_so() -> None:
     assert head_text(3.5, "", values, most=2).endswith(" further parameters")
 
 
-def test_amplitudes_have_one_unit() -> None:
-    """The tangential one had kg^-1/2 where the other one had 1/√kg."""
-    label, _ = axis_of("tangential_2_0")
-    assert label == "t(2, 0) (1/√kg)"
-
-
 def test_a_title_without_room_still_names_the_disc() -> None:
     """It was only counted among further parameters, behind values of the friction."""
     friction = {"mu_s": 0.45, "mu_k": 0.35, "friction_decay": 1.0, "viscous_friction": 0.01}
@@ -53,3 +50,11 @@ def test_a_title_without_room_still_names_the_disc() -> None:
     title = head_text(2.3, "", said, most=3)
     assert "a disc given by 3 modes" in title
     assert title.endswith("further parameters")
+
+
+@pytest.mark.parametrize("name", ["tangential_2_0", "amplitude_2_0", "omega_2_0"])
+def test_numbers_of_modes_have_one_unit_in_pictures_and_texts(name: str) -> None:
+    """Pictures and fits had 1/√kg where branches and critical values had kg^-1/2."""
+    label, _ = axis_of(name)
+    assert label.endswith(f"({unit_of_parameter(name)})")
+    assert unit_of_parameter(name) == si_unit_of_mode(name)

@@ -202,7 +202,7 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert fit.freedom == 1
     assert not fit.consistent
     said = dict(fit.summary())
-    doubt = f"model or uncertainties are wrong, chi squared is {fit.chi_squared:.3g} times its"
+    doubt = f"model, fixed parameters or uncertainties are wrong, chi squared is {fit.chi_squared:.3g} times its"
     assert fit.doubt == f"{doubt} degrees of freedom, and frequency_0_0 deviates most"
     assert said["consistent"] == f"no: {fit.doubt}"
     assert said["intervals"] == f"none: {fit.doubt}"
@@ -212,7 +212,7 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     unlucky = dataclasses.replace(fit, chi_squared=4.2)
     assert not unlucky.consistent
     assert unlucky.doubt == (
-        "model or uncertainties may be wrong, chi squared is 4.2 times its degrees of freedom: "
+        "model, fixed parameters or uncertainties may be wrong, chi squared is 4.2 times its degrees of freedom: "
         "4 % of right ones have as much, and frequency_0_0 deviates most"
     )
 
@@ -638,7 +638,11 @@ def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
     assert fit.chi_squared > 1000 * fit.freedom
     least = fit.chi_squared - fit.excess
     reduced = f"the least chi squared is {least / fit.freedom:.3g} times its degrees of freedom"
-    for words in ("determine mu_s and mu_k apart", "model or uncertainties are wrong", reduced):
+    for words in (
+        "determine mu_s and mu_k apart",
+        "model, fixed parameters or uncertainties are wrong",
+        reduced,
+    ):
         assert words in fit.doubt
         assert words in repr(fit)
 

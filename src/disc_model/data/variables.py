@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from disc_model.display import counted
 from disc_model.errors import Status, StatusBase
+from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import RATIOS, Parameters
 
 # in the order of the engine's numbers for them
@@ -258,19 +259,17 @@ for _name, (_upper, _lower) in RATIOS.items():
 
 
 class OfMode(NamedTuple):
-    """A number that the table of a disc states of each mode: its symbol and unit for readers, and what
-    it is."""
+    """A number that the table of a disc states of each mode: its symbol for readers, and what it is."""
 
     symbol: str
-    unit: str
     variable: Variable
 
 
 _OF_A_MODE = {
-    "omega": OfMode("ω", "rad/s", Variable("rad s-1", "natural frequency")),
-    "amplitude": OfMode("Ψ", "1/√kg", Variable("kg^-1/2", "amplitude")),
-    "damping_ratio": OfMode("ζ", "", Variable("1", "damping ratio")),
-    "tangential": OfMode("t", "1/√kg", Variable("kg^-1/2", "tangential amplitude")),
+    "omega": OfMode("ω", Variable("rad s-1", "natural frequency")),
+    "amplitude": OfMode("Ψ", Variable("kg^-1/2", "amplitude")),
+    "damping_ratio": OfMode("ζ", Variable("1", "damping ratio")),
+    "tangential": OfMode("t", Variable("kg^-1/2", "tangential amplitude")),
 }
 
 
@@ -281,7 +280,7 @@ def presentation_of(name: str) -> Shown:
         return SHOWN[name]
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column]
-    return Shown("", f"{number.symbol}({diameters}, {circles})", number.unit)
+    return Shown("", f"{number.symbol}({diameters}, {circles})", si_unit_of_mode(name))
 
 
 FOUND_SPEEDS = ("critical_speed", "onset_speed", "offset_speed")
@@ -295,15 +294,9 @@ def ranged_variable(name: str) -> str:
     return _RANGE_END.sub("", name)
 
 
-def unit_of_mode(name: str) -> str:
-    """Unit for readers of a number of one of a disc's modes, such as omega_2_0; "" of any other."""
-    column = name.rsplit("_", 2)[0]
-    return _OF_A_MODE[column].unit if column in _OF_A_MODE else ""
-
-
 def unit_of_parameter(name: str) -> str:
     """Return the unit of a parameter or of a number of a disc's table for readers; "" without one."""
-    unit = Parameters.unit(name) or unit_of_mode(name)
+    unit = Parameters.unit(name) or si_unit_of_mode(name)
     return "" if unit == "1" else unit
 
 

@@ -13,7 +13,7 @@ from matplotlib.colors import Colormap, to_hex
 
 from disc_model.explorer.embedding import embedded
 from disc_model.figures.classes import WEIGHTS
-from disc_model.figures.colours import COMMON, LINEAR_OF_MEDIAN, LINEAR_SHARE, ROUNDING
+from disc_model.figures.colours import COMMON, LINEAR_OF_MEDIAN, LINEAR_SHARE, NEAR_END, ROUNDING
 from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.figures.selection import WITHOUT_CYCLE
 from disc_model.parameters import RATIOS, Parameters
@@ -47,6 +47,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
             "common": COMMON,
             "linear_share": LINEAR_SHARE,
             "linear_of_median": LINEAR_OF_MEDIAN,
+            "near_end": NEAR_END,
         },
         "phases": PHASE_COLOURS,
         "weights": WEIGHTS,

@@ -33,6 +33,8 @@ GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates a
 COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 LINEAR_OF_MEDIAN = 0.2  # of the median rate, up to which it is nearly linear at most
+COLOURS = 256  # of a part of a map of colours
+NEAR_END = 0.06  # of a bar of growth rates, within which a number would meet that of its end
 EXTENDS = {
     (False, False): "neither",
     (True, False): "min",
@@ -131,6 +133,8 @@ def growth_norm(rates: Array) -> AsinhNorm:
     """A colour scale that is nearly linear near 0 and nearly logarithmic beyond a thirtieth of its
     end, or beyond a part of the median size where a few rates are much larger."""
     sizes = np.abs(rates[np.isfinite(rates)])
+    # the zeros of undamped modes say nothing of the others
+    sizes = sizes[sizes > ROUNDING]
     if not sizes.size or np.median(sizes) <= GREATEST:
         return _growth_norm_to(GREATEST)
     greatest = float(np.quantile(sizes, COMMON, method="higher"))
@@ -146,29 +150,58 @@ def _growth_norm_to(greatest: float, linear: float = np.inf) -> AsinhNorm:
 
 def growth_colours(rates: Array, wishes: ColourWishes = USUAL) -> Scale:
     """Colours of growth rates (1/s): those of all figures, around zero, whose scale is nearly
-    logarithmic on both sides.
+    logarithmic on both sides. Rates of one sign have the half of it from zero on.
 
-    Other colours than these, limits on one side of zero, a linear scale, and a logarithmic one of rates
+    Colours without a middle, limits that leave out zero, a linear scale, and a logarithmic one of rates
     of one sign have the scale of any other number.
     """
-    if not _is_around_zero(rates, wishes):
+    if not _has_scale_of_rates(rates, wishes):
         return colours_of(rates, xr.DataArray(0.0, name="growth_rate"), wishes)
     norm = growth_norm(rates)
     if wishes.limits is not None:
         norm = _growth_norm_to(max(map(abs, wishes.limits)))
-    largest = float(10.0 ** np.floor(np.log10(norm.vmax or GREATEST)))
+    end = float(norm.vmax or GREATEST)
+    low, high = _ends_of_bar(rates, end, wishes)
+    below = rates < low - ROUNDING
+    above = rates > high + ROUNDING
+    open_ends = (bool(below.any()), bool(above.any()))
+    shown = AsinhNorm(linear_width=norm.linear_width, vmin=low, vmax=high)
+    part = np.linspace(float(norm(low)), float(norm(high)), COLOURS)
+    cmap = _chosen(wishes, cm.vik)
+    if low == 0 or high == 0:
+        cmap = ListedColormap(cmap(part))
+    return Scale(cmap, shown, places=_places_of_rates(shown), open_ends=open_ends)
+
+
+def _ends_of_bar(rates: Array, end: float, wishes: ColourWishes) -> tuple[float, float]:
+    """The rates at the ends of the bar: zero at one end where no rate has that sign, but for
+    rounding, unless a reader has set limits on both sides."""
+    low, high = wishes.limits or _ends_of(rates[np.isfinite(rates)], log=False)
+    if low >= -ROUNDING and high > ROUNDING:
+        return 0.0, end
+    if high <= ROUNDING and low < -ROUNDING:
+        return -end, 0.0
+    return -end, end
+
+
+def _places_of_rates(norm: AsinhNorm) -> list[float]:
+    """Ticks of the bar of growth rates: both ends, zero, and two powers of ten on each side that are
+    not near an end."""
+    low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
+    largest = float(10.0 ** np.floor(np.log10(max(-low, high))))
     places = [-largest, -largest / 10, 0.0, largest / 10, largest]
-    return Scale(_chosen(wishes, cm.vik), norm, places=places, open_ends=(True, True))
+    inside = [place for place in places if NEAR_END < float(norm(place)) < 1 - NEAR_END]
+    return [low, *inside, high]
 
 
-def _is_around_zero(rates: Array, wishes: ColourWishes) -> bool:
-    """Whether the scale of growth rates is that of all figures, with zero in its middle."""
-    if wishes.limits is not None and not wishes.limits[0] < 0 < wishes.limits[1]:
+def _has_scale_of_rates(rates: Array, wishes: ColourWishes) -> bool:
+    """Whether the scale of growth rates is that of all figures, with a neutral zero."""
+    if wishes.limits is not None and not wishes.limits[0] <= 0 <= wishes.limits[1]:
         return False
     if wishes.has_no_middle or wishes.linear:
         return False
     both = (rates < 0).any() and (rates > 0).any()
-    return bool(both) or not (wishes.log or wishes.cmap is not None)
+    return bool(both) or not wishes.log
 
 
 # ---- Scales through zero

@@ -5,7 +5,6 @@ from weakref import WeakKeyDictionary
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
-from disc_model.figures.gap_rows import silence_rows
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Artist, Axes
 
@@ -21,8 +20,6 @@ def keep_entries(page: Page) -> None:
     for handle in page.handles:
         if str(handle.get_label()) not in known:
             _keep(page.ax, handle)
-    for ax in page.axes:
-        silence_rows(ax)
 
 
 def _remove_replaced(page: Page) -> None:

@@ -9,6 +9,7 @@ import numpy as np
 from disc_model.display import counted
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.case_lines import Lines, Style, limits_of
+from disc_model.figures.classes import FILLED_MARK
 from disc_model.figures.drawing import BLUE, COLUMN, GREY, mark, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import case_of_result, draw_case, name_of_case
@@ -29,8 +30,8 @@ def plot_exponents(
     labels: Any = None,
     title: str | bool | None = None,
 ) -> Axes:
-    """Draw the exponents with their errors, those that have converged filled; what has vanished is
-    left out."""
+    """Draw the exponents with their errors, those that have not converged filled, as in sweeps; what has
+    vanished is left out."""
     name, labels = name_of_case(labels)
     lost = counted(lyapunov.separations, "separation")
     note = f"over {lyapunov.duration:g} s, {lost}"
@@ -38,7 +39,7 @@ def plot_exponents(
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.6, title=overlaid.title) as page:
         page.show(Quantities("Number", EXPONENT))
         look: dict[str, Any] = {"marker": "o", "linestyle": "", "markersize": mark(4)}
-        filled = sample(label="filled: converged; ± standard error", color=GREY, **look)
+        filled = sample(label="filled: not converged; ± standard error", color=GREY, **look)
         alone = draw_case(
             page, overlaid, [_marks(lyapunov)], lambda: _draw_alone(page, lyapunov), [filled]
         )
@@ -54,8 +55,8 @@ def _draw_alone(page: Page, lyapunov: Lyapunov) -> None:
     number = np.arange(1, len(lyapunov.exponents) + 1)
     finite = np.isfinite(lyapunov.exponents)
     for mask, face, word in (
-        (lyapunov.converged & finite, BLUE, "converged, ± standard error"),
-        (~lyapunov.converged & finite, "white", "not converged, ± standard error"),
+        (lyapunov.converged & finite, "white", "converged, ± standard error"),
+        (~lyapunov.converged & finite, BLUE, FILLED_MARK.format("not converged, ± standard error")),
     ):
         if not mask.any():
             continue
@@ -79,12 +80,12 @@ def _draw_alone(page: Page, lyapunov: Lyapunov) -> None:
 
 
 def _marks(lyapunov: Lyapunov) -> Lines:
-    """How exponents are drawn beside others: with their errors, those that have converged filled."""
+    """How exponents are drawn beside others: with their errors, those that have not converged filled."""
     finite = np.isfinite(lyapunov.exponents)
     number = np.arange(1, len(finite) + 1)[finite]
     exponents = lyapunov.exponents[finite]
     errors = lyapunov.errors[finite]
-    converged = lyapunov.converged[finite]
+    moving = ~lyapunov.converged[finite]
 
     def draw(ax: Axes, style: Style) -> Artist:
         look = style.marks(4)
@@ -93,7 +94,7 @@ def _marks(lyapunov: Lyapunov) -> Lines:
         ax.errorbar(places, exponents, errors, linewidth=wide(0.8), **bars)
         ax.plot(places, exponents, **look)
         filled = {**look, "markerfacecolor": style.look.colour}
-        ax.plot(places[converged], exponents[converged], **filled)
+        ax.plot(places[moving], exponents[moving], **filled)
         ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
         ax.set_xlabel("Number")
         ax.set_ylabel(EXPONENT)

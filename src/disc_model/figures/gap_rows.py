@@ -137,18 +137,6 @@ def add_column(ax: Axes, heights: Array, **look: Any) -> None:
     ax.plot(ones, heights, transform=transform, clip_on=False, linestyle="", **look)
 
 
-def silence_rows(ax: Axes) -> None:
-    """Take the words of rows away, which keep their marks; strips have them as labels for a legend of the
-    reader."""
-    host = _host_of(ax)
-    found = rows_above(host)
-    for number, each in enumerate(found, start=1):
-        strip = f"strip {number}" if len(found) > 1 else "strip"
-        each.strip.set_label(f"{strip} above: {each.reason}")
-        each.words.set_text("")
-    stack_rows(host)
-
-
 def tell_rows_apart(ax: Axes, sweeps: Collection[int]) -> None:
     """Show whose marks stand in rows above a panel that has lines of several sweeps, by the numbers of
     these: lines of the same dashes lie below marks. Rows that all sweeps have alike stand there
@@ -258,8 +246,7 @@ def _stack(ax: Axes, found: Sequence[Rows], sizes: Sizes) -> float:
         up = ax.transAxes + ScaledTranslation(0, height / 72, page.dpi_scale_trans)
         each.words.set_transform(up)
         each.words.set_fontsize(sizes.text)
-        said = each.words.get_text()
-        lines = said.count("\n") + 1 if said else 0
+        lines = each.words.get_text().count("\n") + 1
         top = height + lines * LINE * sizes.text
         height = top + first + sizes.between
     return top

@@ -80,8 +80,8 @@ def plot_sweep(  # noqa: PLR0913
         and the legend names all by what differs; words along the axis are those of all. Bars and maps are not drawn
         over each other. Usual labels are the attributes `long_name` and `units` of a variable, which are yours to
         set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as
-        by ``figure.subplots_adjust``, until labels, bar and legend lie on the page. With ``legend=False`` no words
-        stand above strips, and a legend of your own names these as well, counted from the panel upward
+        by ``figure.subplots_adjust``, until labels, bar and legend lie on the page. Strips keep
+        their words with ``legend=False``
 
     Returns
     -------
@@ -111,7 +111,7 @@ def plot_sweep(  # noqa: PLR0913
     >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N", legend=False)
     >>> legend = ax.figure.legend(loc="outside lower center", ncols=2)
     >>> [text.get_text() for text in legend.get_texts()]
-    ['Preload N = 300 N', '400 N', 'strip above: no cycle found']
+    ['Preload N = 300 N', '400 N']
     """
     looks = {"lines": lines, "points": points, "log": log, "cmap": cmap, "limits": limits}
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}

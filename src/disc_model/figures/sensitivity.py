@@ -15,6 +15,7 @@ from disc_model.data.variables import (
     presentation_of,
     typeset,
 )
+from disc_model.display import counted
 from disc_model.figures.drawing import BLACK, BLUE, GREY, mark, row_of_panels, sample, wide
 from disc_model.figures.kinds.motions import Sensitivity
 from disc_model.figures.legends import figure_legend
@@ -22,6 +23,7 @@ from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.value_texts import named_value
 
 BINS = 3  # number of parts, with equal numbers of draws, of a parameter's distribution
+FAILED = "failed"  # word of a sample whose search for a cycle failed
 ASIDE = 0.12  # of a row, by which both ends of a parameter lie above and below it
 
 
@@ -57,9 +59,18 @@ def draw(plot: Sensitivity, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     axes[0].set_yticks(range(len(names)), labels=labels)
     axes[0].minorticks_off()
     handles = axes[0].get_legend_handles_labels()[0]
-    handles.append(sample(color=BLUE, linewidth=wide(0.8), label="95 % interval"))
+    handles.append(sample(color=BLUE, linewidth=wide(0.8), label=_interval_text(cells)))
     figure_legend(figure, handles, loc="outside lower center", columns=4)
     return figure
+
+
+def _interval_text(cells: Sequence[Cell]) -> str:
+    """What the legend says of intervals: also how many samples failed, if any did."""
+    words = np.concatenate([flag_names(cell.samples["cycle"]) for cell in cells])
+    failed = int((words == FAILED).sum())
+    if not failed:
+        return "95 % interval"
+    return f"95 % interval, which holds {failed} failed of {counted(words.size, 'sample')}"
 
 
 def _draw_rows(ax: Axes, thirds: Array, at_all: float) -> None:
@@ -97,17 +108,18 @@ def _draw_rows(ax: Axes, thirds: Array, at_all: float) -> None:
 
 def probabilities(samples: xr.Dataset, name: str) -> Array:
     """Probability of instability in each part of a parameter's values, and the ends of its
-    interval: (parts, 3)."""
+    interval, in which failed samples count as either: (parts, 3)."""
     values = samples["parameter_values"].sel(parameter=name).values
     words = flag_names(samples["cycle"])
-    known = words != "failed"
+    known = words != FAILED
     unstable = known & ~np.isin(words, STABLE_CYCLES)
     borders = np.quantile(values, np.linspace(0, 1, BINS + 1))
     part = np.clip(np.searchsorted(borders, values, side="right") - 1, 0, BINS - 1)
     rows = []
     for i in range(BINS):
         inside = part == i
-        rows.append(share(int((unstable & inside).sum()), int((known & inside).sum())))
+        hits = int((unstable & inside).sum())
+        rows.append(share(hits, int((known & inside).sum()), int((inside & ~known).sum())))
     return np.array(rows)
 
 

@@ -36,6 +36,7 @@ from disc_model.figures.sweep_parts import parts_beside
 from disc_model.figures.sweep_titles import said_of, title_of, values_of
 from disc_model.figures.truths import are_of_classes, as_classes
 from disc_model.figures.types import Axes
+from disc_model.figures.without_place import say_without_place
 from disc_model.figures.words import are_counts, label_in, label_of
 
 OUTCOMES = "Outcome of starts"  # what the colours of bars show
@@ -198,6 +199,8 @@ def _draw_lines(page: Page, study: xr.Dataset, drawn: Drawn, log: bool, lines: L
     lines.number = len(before)
     taken = sum(len(each.parts) for each in before)
     found = draw_each(page.ax, study, drawn, log, lines.number, taken)
+    # a legend is written more than once
+    page.replaced = [*page.replaced, *say_without_place(page.ax, study[drawn.across])]
     page.ax.set_ylabel(quantities.y)
     lines.parts = [(part, ref(line)) for part, line in found]
     tell_rows_apart(page.ax, join_lines(page, lines))

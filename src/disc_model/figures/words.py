@@ -239,8 +239,6 @@ def label_in(study: xr.Dataset, name: str) -> str:
 
 def unit_text(units: str) -> str:
     """A unit of a dataset, such as ``kg m s-2``, as labels have it: ``kg m/s²``; "" for none."""
-    if units == "kg^-1/2":
-        return "1/√kg"
     above: list[str] = []
     below: list[str] = []
     for part in units.split():

@@ -25,6 +25,7 @@ from disc_model.display import (
 from disc_model.fitting.data import dataset_of
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.problem import Problem
+from disc_model.fitting.sign_pattern import sign_pattern
 from disc_model.parameters import Parameters
 
 UNLIKELY = 0.05
@@ -34,7 +35,8 @@ ALL_BUT_IMPOSSIBLE = 1e-3
 VALUE_DIGITS = 6
 NAMED = 3
 """Largest number of unstable cycles that a note names before others that it counts."""
-WRONG = "model or uncertainties"
+WRONG = "model, fixed parameters or uncertainties"
+UNTESTED = "yes, but nothing tests it: there are no more measurements than fitted parameters"
 STILL_FALLING = "Chi squared still falls from where the search has ended."
 """Message of a search that has not ended at a minimum."""
 
@@ -112,7 +114,8 @@ class Fit(Summarised, Drawn, EqualByValue):
     unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
         0.01/s; a period, for example, cannot be measured for long there
     elsewhere : names of those of these measurements near whose cycle the motion from the static start is not
-    note : says so, and what is `determined`; "" where there is neither
+    note : says so, what is `determined`, and where the signs of deviations follow a pattern over what was set, such as
+        the speed: scatter makes hardly any like it; "" where there is nothing of this
 
     Examples
     --------
@@ -231,9 +234,10 @@ class Fit(Summarised, Drawn, EqualByValue):
     @property
     def note(self) -> str:
         """Which combinations of indistinct parameters the measurements determine, and which measured cycles
-        are unstable, with their growth rates; "" where there are none. The fit may be consistent although
-        cycles are unstable: the values are right if the motion was still on these."""
-        said = [*self._combination_texts(), self._instability]
+        are unstable, with their growth rates, and whether signs of deviations follow a pattern; "" where
+        there are none. The fit may be consistent although cycles are unstable: the values are right if the
+        motion was still on these."""
+        said = [*self._combination_texts(), self._pattern_of_signs, self._instability]
         if not self._none_is_near:
             said.append(self._distance)
         return "; ".join(filter(None, said))
@@ -245,6 +249,19 @@ class Fit(Summarised, Drawn, EqualByValue):
             deviation = rounded_text(known.deviation, DEVIATION_DIGITS)
             text = f"the measurements determine {formula} = {value} ± {deviation}"
             yield text if known.unit in ("", "1") else f"{text} {known.unit}"
+
+    @property
+    def _pattern_of_signs(self) -> str:
+        """That deviations keep their sign over long stretches, in words."""
+        found = sign_pattern(self.measurements, self.deviations)
+        if self.gap or not self.converged or not found.is_systematic:
+            return ""
+        changes = counted(found.changes, "time") if found.changes else "never"
+        share = f"{100 * found.chance:.2g} % of fits of the right model"
+        steps = (
+            f"deviations change sign {changes} in {found.steps} steps from one setting to the next"
+        )
+        return f"{steps}, as rarely as in {share}: the model or a fixed parameter may be wrong"
 
     @property
     def _instability(self) -> str:
@@ -403,7 +420,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         intervals = "; ".join([confidence, *self._passed_texts()])
         yield "intervals", f"none: {doubt}" if doubt else intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
-        yield "consistent", f"no: {doubt}" if doubt else "yes"
+        tested = "yes" if self.freedom else UNTESTED
+        yield "consistent", f"no: {doubt}" if doubt else tested
         if self.note:
             yield "note", self.note
         yield "search", self.message

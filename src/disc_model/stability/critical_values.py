@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disc_model.arrays import Array, EqualByValue, Mask
+from disc_model.data.variables import unit_of_parameter
 from disc_model.display import Drawn, counted, html_table
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation.problem import unit_text, value_text
+from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import STICK_SLIP
 from disc_model.stability.parameter_scan import SLIDING
 
@@ -82,7 +83,7 @@ class Critical(Drawn, EqualByValue):
     _sliding_growth_rate: Array = field(default_factory=lambda: np.zeros(0))
 
     def __repr__(self) -> str:
-        unit = unit_text(self.name)
+        unit = unit_of_parameter(self.name)
         found = self._without_loss or f"unstable from {self.value:.6g} {unit}".rstrip()
         first = "; ".join(filter(None, (found, self._in_sliding, self._elsewhere)))
         crossings = counted(len(self.crossings), "crossing")
@@ -92,7 +93,7 @@ class Critical(Drawn, EqualByValue):
 
     def _repr_html_(self) -> str:
         """The intervals of one stability in a notebook, and what may have been overlooked."""
-        unit = unit_text(self.name)
+        unit = unit_of_parameter(self.name)
         edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
         unstable = {float(low) for low, _ in self.unstable}
         rows = []
@@ -193,7 +194,7 @@ class Critical(Drawn, EqualByValue):
     @property
     def _range_searched(self) -> str:
         """The bounds of the search, in the unit of the parameter."""
-        unit = unit_text(self.name)
+        unit = unit_of_parameter(self.name)
         return f"from {self.values[0]:.6g} to {self.values[-1]:.6g} {unit}".rstrip()
 
     @property

@@ -58,6 +58,8 @@ def test_every_draw_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     known = words[words != "failed"]
     assert len(known) < len(words) == 64
     assert found["n_known_cycles"] == len(known)
+    assert found["n_failed_cycles"] == len(words) - len(known)
+    assert found["n_failed_outcomes"] == 0
     unstable = np.isin(known, ("unstable", "no_cycle", "separates", "unstable_sliding"))
     assert found["probability_unstable"] == unstable.mean()
     assert found["probability_unstable_low"] < 4 / 7 < found["probability_unstable_high"]

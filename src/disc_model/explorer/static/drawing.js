@@ -128,16 +128,38 @@ const wholeTicks = (least, greatest, pixels) =>
 
 const colourAt = (map, share) => map[Math.round(Math.min(1, Math.max(0, share)) * (map.length - 1))];
 
-/** Colours of growth rates in ascending order, on a scale that ends at a rate of either sign. */
+/** Colours of growth rates in ascending order, on a scale that ends at a rate of either sign, or at zero where no rate has one of
+ * the signs. */
 function coloursOfRates(rates, usual) {
   const { width, end } = scaleOfColours(rates, usual);
-  const map = contents.maps.diverging;
-  const place = (x) => (1 + Math.asinh(x / width) / Math.asinh(end / width)) / 2;
-  const largest = 10 ** Math.floor(log10(end));
-  const marked = [-largest, -largest / 10, 0, largest / 10, largest];
+  const share = (x) => (1 + Math.asinh(x / width) / Math.asinh(end / width)) / 2;
+  const [low, high] = endsOfRates(rates, end);
+  const place = (x) => (share(x) - share(low)) / (share(high) - share(low));
+  const all = contents.maps.diverging;
+  const map = all.slice(low === 0 ? all.length / 2 : 0, high === 0 ? all.length / 2 : all.length);
   const beyond = [rates[0] < -end ? `≤ ${number(-end, 3)}` : "", rates.at(-1) > end ? `≥ ${number(end, 3)}` : ""];
-  return { map, beyond, colour: (x) => colourAt(map, place(x)), ticks: () => marked.map((rate) => [place(rate), rate]) };
+  const marked = ratesOnBar(low, high).filter((rate) => isAwayFromEnds(place(rate)));
+  const ticks = () => [low, ...marked, high].map((rate) => [place(rate), rate]);
+  return { map, beyond, colour: (x) => colourAt(all, share(x)), ticks };
 }
+
+/** The rates at the ends of a bar of rates in ascending order: zero at one end where no rate has that sign, but for rounding. */
+function endsOfRates(rates, end) {
+  const { rounding } = contents.rates;
+  const [least, greatest] = [rates[0], rates.at(-1)];
+  if (least >= -rounding && greatest > rounding) return [0, end];
+  if (greatest <= rounding && least < -rounding) return [-end, 0];
+  return [-end, end];
+}
+
+/** Zero and two powers of ten on each side of it, up to the larger end of a bar of growth rates. */
+function ratesOnBar(low, high) {
+  const largest = 10 ** Math.floor(log10(Math.max(-low, high)));
+  return [-largest, -largest / 10, 0, largest / 10, largest];
+}
+
+/** Whether a number at this share of a bar does not meet those of its ends. */
+const isAwayFromEnds = (share) => share > contents.rates.near_end && share < 1 - contents.rates.near_end;
 
 /** The scale that figures have for a variable; that of the rates of the map alone where most of them lie beyond it. */
 function scaleOfColours(rates, usual) {

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
+from disc_model.data.variables import unit_of_parameter
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
@@ -21,7 +22,6 @@ from disc_model.stability.continuation.data import (
     dataset_of,
     stored_extremes,
 )
-from disc_model.stability.continuation.problem import unit_text
 from disc_model.stability.continuation.special_kinds import CHANGES
 from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
 from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
@@ -92,7 +92,7 @@ class Branch:
         reached = np.vstack([self.values, *(special.values for special in self.special)])
         spans = []
         for name, values in zip(self.parameters, reached.T, strict=True):
-            unit = unit_text(name)
+            unit = unit_of_parameter(name)
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip())
         folds = counted(len(self.folds), "fold")
         return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; {self._end_text()})"
@@ -103,12 +103,12 @@ class Branch:
         if not len(self.not_reached):
             return text
         missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
-        unit = unit_text(self.parameters[0])
+        unit = unit_of_parameter(self.parameters[0])
         return f"{text}; not reached: {self.parameters[0]} = {missed} {unit}".rstrip()
 
     def _repr_html_(self) -> str:
         """The special points in a notebook, and why the branch ends."""
-        units = [unit_text(name) for name in self.parameters]
+        units = [unit_of_parameter(name) for name in self.parameters]
         named = zip(self.parameters, units, strict=True)
         head = [f"{name} ({unit})" if unit else name for name, unit in named]
         rows: list[tuple[object, ...]] = []

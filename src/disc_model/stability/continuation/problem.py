@@ -13,8 +13,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from disc_model.data.variables import unit_of_parameter
 from disc_model.errors import Fault, ModeError, ParameterError
-from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
@@ -93,12 +93,7 @@ def has_own_vibration(p: Parameters) -> bool:
 
 def value_text(name: str, value: float) -> str:
     """A value of a parameter with its name and unit."""
-    return f"{name} = {value:.6g} {unit_text(name)}".strip()
-
-
-def unit_text(name: str) -> str:
-    """The SI unit of a parameter, also of a number of a mode; "" of a number without one."""
-    return Parameters.unit(name).removeprefix("1") or si_unit_of_mode(name)
+    return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()
 
 
 class CycleProblem:

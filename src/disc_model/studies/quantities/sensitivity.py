@@ -115,6 +115,12 @@ class Sensitivity(Quantity):
     SUMMARY_COLUMNS: ClassVar = {
         "n_known_cycles": Variable("1", "number of samples whose cycle is known", whole=True),
         "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
+        "n_failed_cycles": Variable(
+            "1", "number of failed searches for cycles, which intervals hold", whole=True
+        ),
+        "n_failed_outcomes": Variable(
+            "1", "number of failed simulations, which intervals hold", whole=True
+        ),
         **_with_interval(
             "probability_unstable", "probability that the static start is near no stable motion"
         ),
@@ -218,6 +224,8 @@ class Sensitivity(Quantity):
         return {
             "n_known_cycles": int((cycles != FAILED).sum()),
             "n_known_outcomes": int((simulated != FAILED).sum()),
+            "n_failed_cycles": int((cycles == FAILED).sum()),
+            "n_failed_outcomes": int((simulated == FAILED).sum()),
             **with_ends("probability_unstable", _probability(cycles, UNSTABLE)),
             **with_ends("probability_separation", _probability(simulated, ("separation",))),
         }
