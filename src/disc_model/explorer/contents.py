@@ -67,6 +67,7 @@ class Stated(NamedTuple):
     variable : the variable of its first figure that shows one, "" without
     at : values of its figures along dimensions that they do not show, those of earlier ones first
     has_figures : whether there is a figure of it
+    tables : files of its discs, by their names along an axis; "" is that of all points
     """
 
     motion: str = ""
@@ -77,6 +78,7 @@ class Stated(NamedTuple):
     variable: str = ""
     at: Mapping[str, Any] = MappingProxyType({})
     motion_by: Mapping[str, str] = MappingProxyType({})
+    tables: Mapping[str, str] = MappingProxyType({})
 
 
 NOTHING_STATED = Stated()
@@ -128,6 +130,7 @@ def _study_contents(
         "title": str(study.attrs.get("title", "")) or name,
         "call": call,
         "discs": stated_in(study, "discs"),
+        "tables": dict(stated.tables),
         "starts": stated_in(study, "starts"),
         "start": _start_of_all(study),
         "where": rule_of(study),

@@ -18,6 +18,7 @@ from pydantic import (
     BeforeValidator,
     Field,
     PlainValidator,
+    PrivateAttr,
     WithJsonSchema,
     create_model,
 )
@@ -359,6 +360,7 @@ class Study(Strict):
     overrides: dict[str, dict[str, Any]] = Field(
         {}
     )  # of values in these files, by the name of the study
+    _tables: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -383,6 +385,11 @@ class Study(Strict):
     @property
     def name(self) -> str:
         return self.study
+
+    @property
+    def tables(self) -> Mapping[str, str]:
+        """The files of the grid's discs, by their names along an axis; that of `base` is ""."""
+        return self._tables
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -541,10 +548,13 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
     except ParameterError as error:
         raise StudyError(*error.faults, source=source) from None
     try:
-        return _validated(content)
+        study = _validated(content)
     except ParameterError as error:
         faults = all_faults(content, error.faults, _validated)
         raise StudyError(*faults, source=source) from None
+    if folder is not None:
+        study._tables = _tables_of(raw, folder)
+    return study
 
 
 def _validated(content: Any) -> Study:
@@ -595,14 +605,30 @@ def _with_discs(raw: Any, folder: Path) -> Any:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
     content = mapping(raw)
+    varied = _varied_discs(content)
+    if not varied:
+        return read(raw, ())
+    return read({**content, "discs": {**varied, **mapping(content.get("discs"))}}, ())
+
+
+def _varied_discs(content: Mapping[str, Any]) -> dict[str, str]:
+    """The discs along an axis of a file, each a table of its own name."""
     varied: dict[str, str] = {}
     for group in (content.get("axes"), *_several(content.get("zip"))):
         axis = mapping(group).get("disc")
         if isinstance(axis, list):
             varied.update((name, name) for name in axis if isinstance(name, str))
-    if not varied:
-        return read(raw, ())
-    return read({**content, "discs": {**varied, **mapping(content.get("discs"))}}, ())
+    return varied
+
+
+def _tables_of(raw: Any, folder: Path) -> dict[str, str]:
+    """The tables of the discs that a file names, by their names along an axis; that of `base` is ""."""
+    content = mapping(raw)
+    named = {**_varied_discs(content), **mapping(content.get("discs"))}
+    named[""] = mapping(content.get("base")).get("disc")
+    return {
+        name: _shown(folder / table) for name, table in named.items() if isinstance(table, str)
+    }
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
