@@ -34,7 +34,7 @@ def test_a_call_reads_the_disc_from_its_table(
     monkeypatch.chdir(tmp_path)
     Path("one.csv").write_text(TABLE)
     Path("other.csv").write_text(TABLE.replace("1200", "1500"))
-    options = "{}" if quantity == "floquet" else "{horizon: 0.2, transient: 0.1}"
+    options = "{}" if quantity == "floquet" else "{transient: 0.1, duration: 0.1}"
     head = f"study: mine\nquantity: {quantity}\noptions: {options}\n"
     Path("mine.yaml").write_text(head + grid)
     study = load_study("mine.yaml")
@@ -44,8 +44,9 @@ def test_a_call_reads_the_disc_from_its_table(
         "mine", dm.run_study("mine.yaml"), stated=Stated(call=call, tables=study.tables)
     )
     with opened([contents]) as shown:
-        for i, point in enumerate(study.grid.points_along(study.grid.dims)):
-            shown.page.run("choose({[view.x]: arguments[0]})", i)
+        [along] = study.grid.dims
+        for i, point in enumerate(study.grid.points_along([along])):
+            shown.page.run("choose({...view.place, [arguments[0]]: arguments[1]})", along.name, i)
             lines = shown.text("call").split("\n")
             assert 'dm.Disc.from_csv("o' in lines[0]
             assert "omega" not in "".join(lines)

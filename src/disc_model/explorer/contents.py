@@ -60,7 +60,7 @@ class Stated(NamedTuple):
     Attributes
     ----------
     motion : what its stored motions are
-    motion_by : the same more exactly, by the outcome of a point or the stability of its cycle
+    motion_by : the same more exactly, by the outcome or kind of a point, or the stability of its cycle
     call : how its points are computed in Python, as `disc_model.studies.point_calls.Call.plain`
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both

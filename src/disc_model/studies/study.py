@@ -626,9 +626,7 @@ def _tables_of(raw: Any, folder: Path) -> dict[str, str]:
     content = mapping(raw)
     named = {**_varied_discs(content), **mapping(content.get("discs"))}
     named[""] = mapping(content.get("base")).get("disc")
-    return {
-        name: _shown(folder / table) for name, table in named.items() if isinstance(table, str)
-    }
+    return {name: _shown(folder / table) for name, table in named.items() if isinstance(table, str)}
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
