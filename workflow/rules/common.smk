@@ -66,8 +66,8 @@ try:
     from disc_model.studies.messages import RunMessages
     from disc_model.studies.older_page import line_of_older_page
     from disc_model.studies.point_calls import call_of
+    from disc_model.studies.point_lists import closing_lines
     from disc_model.studies.study import (
-        closing_lines,
         mapping,
         read_file,
         read_files,

@@ -5,7 +5,7 @@ right.
 """
 
 import json
-from collections import ChainMap, Counter
+from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
@@ -23,13 +23,7 @@ from pydantic import (
     create_model,
 )
 
-from disc_model.data.variables import (
-    BESIDE_WINDOWS,
-    SCALARS,
-    WITHOUT_CYCLE,
-    rule_of_taken,
-    values_text,
-)
+from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
@@ -683,29 +677,3 @@ def _normalizations(grid: GridStudy) -> set[str]:
 
 
 # ---- What a finished run says
-
-
-def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    """Grids with points that have no result, no cycle, which is an answer, or a remark on the
-    result, and where these are listed."""
-    for name, grid in grids.items():
-        file = Path(f"results/{name}/{name}.failed.txt")
-        remarks = file.with_name(f"{name}.remarks.txt")
-        lines = file.read_text(encoding="utf-8").splitlines()
-        answers = Counter(filter(None, map(_answer_in, lines)))
-        said = ", ".join(f"{count} {word}" for word, count in answers.most_common())
-        told = (
-            (len(lines) - answers.total(), "no result", file),
-            (answers.total(), f"no stick-slip cycle ({said})", file),
-            (len(remarks.read_text(encoding="utf-8").splitlines()), "a remark", remarks),
-        )
-        for count, have, listed in told:
-            if count:
-                yield f"{name}: {count} of {grid.n_points} points have {have}, see {listed}"
-
-
-def _answer_in(line: str) -> str:
-    """What the motion does in place of a stick-slip cycle, by the line of a point; "" if the line
-    does not say so."""
-    said = line.split(": ")[1:2]  # after the point, whose values have no such sign
-    return said[0] if said and said[0] in WITHOUT_CYCLE.values() else ""
