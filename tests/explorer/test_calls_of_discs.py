@@ -17,10 +17,10 @@ pytestmark = [pytest.mark.slow, pytest.mark.compiled, needs.BROWSER.mark]
 __all__ = ["opened"]  # a fixture
 
 TABLE = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n2,1200,0.5\n"
-ONE_DISC = "base: {N: 200, Omega: 15, disc: one.csv}\naxes: {mu_k: [0.2, 0.25]}\n"
-TWO_DISCS = "base: {N: 200, Omega: 15}\naxes: {disc: [one.csv, other.csv]}\n"
+ONE_DISC = "base: {N: 200, r_0: 0.1, Omega: 15, disc: one.csv}\naxes: {mu_k: [0.2, 0.25]}\n"
+TWO_DISCS = "base: {N: 200, r_0: 0.1, Omega: 15}\naxes: {disc: [one.csv, other.csv]}\n"
 NAMED_DISCS = (
-    "base: {N: 200, Omega: 15}\naxes: {disc: [soft, stiff]}\n"
+    "base: {N: 200, r_0: 0.1, Omega: 15}\naxes: {disc: [soft, stiff]}\n"
     "discs: {soft: one.csv, stiff: other.csv}\n"
 )
 
@@ -49,6 +49,7 @@ def test_a_call_reads_the_disc_from_its_table(
             shown.page.run("choose({...view.place, [arguments[0]]: arguments[1]})", along.name, i)
             lines = shown.text("call").split("\n")
             assert 'dm.Disc.from_csv("o' in lines[0]
+            assert "r_0=0.1" in lines[0], "a case without it is doubted"
             assert "omega" not in "".join(lines)
             names = {"dm": dm}
             exec("\n".join(lines[:-1]), names)

@@ -1,5 +1,6 @@
 """What a careful reader of the explorer's page sees of motions, marks, ends of axes and scales."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -203,3 +204,14 @@ def test_a_motion_is_simulated_until_it_separates(opened: Open, word: str, time:
     with opened([contents_of("plane", study, None, stated)]) as shown:
         call = shown.text("motion-call")
     assert call.endswith(f", {time}).plot()")
+
+
+def test_a_word_among_the_fixed_values_has_no_unit(opened: Open) -> None:
+    """It read "friction on the surface mm"."""
+    study = plane()
+    study.attrs["base"] = json.dumps({"friction_offset": "surface", "friction_decay": "inf"})
+    with opened([contents_of("plane", study)]) as shown:
+        rows = shown.page.run(
+            "return [...document.querySelectorAll('#fixed td')].map(x => x.textContent)"
+        )
+    assert rows == ["friction on the surface", "inf s/m"]

@@ -25,9 +25,9 @@ def save_points(data: xr.Dataset, file: Path) -> None:
 
     Heads of columns have units, such as ``Omega (rad s-1)``, and words stand in place of their
     numbers. A variable that has further dimensions has a column for each place along these, such as
-    ``multipliers_real[0]``; these columns are the last ones. Where a dimension has room for more than was found, such as that of
-    crossings, places without a number have neither a row nor a column; modes that no point has have none
-    either.
+    ``multipliers_real[0]``; these columns are the last ones. Where a dimension has room for more than was
+    found, such as that of crossings, places without a number have neither a row nor a column; modes that no
+    point has have none either.
 
     Raises
     ------

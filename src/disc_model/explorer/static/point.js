@@ -90,9 +90,15 @@ function discOf(study, name, given) {
   return table ? new Read(`dm.Disc.from_csv(${python(table)})`) : given;
 }
 
-/** The values of parameters that a study does not vary and that differ from the paper's Table 1, by name. */
+/** Whether the discs of a study are given by their modes. */
+const hasDiscs = (study) =>
+  study.fixed.some((one) => one.name === "disc" && one.value) || study.dims.some((dim) => "disc" in dim.parts);
+
+/** The values of parameters that a study does not vary and that differ from the paper's Table 1, by name; and where the slider
+ * runs on a disc that is not the paper's, of which the package asks. */
 function unusualOf(study) {
-  const values = Object.fromEntries(study.fixed.filter((one) => !one.usual).map((one) => [one.name, one.value]));
+  const stated = study.fixed.filter((one) => !one.usual || (one.name === "r_0" && hasDiscs(study)));
+  const values = Object.fromEntries(stated.map((one) => [one.name, one.value]));
   if (values.disc) values.disc = discOf(study, "", values.disc);
   return values;
 }
@@ -323,7 +329,12 @@ function showPoint() {
   const sampled = Object.entries(sampledAt(study, place)).map(([name, one]) => [{ name, title: "value of the sample, SI units" }, number(one)]);
   const others = study.variables.filter((one) => one.name !== study.call.sampled);
   fillTable("values", [...others.map((one) => [one, shownWithin(study, one, place)]), ...sampled]);
-  fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.shown), one.unit)]));
+  fillTable("fixed", study.fixed.map((one) => [one, fixedText(one)]));
+}
+
+/** The value of a parameter that does not vary, with its unit unless it is a word. */
+function fixedText({ shown, unit }) {
+  return typeof shown === "string" && !isNumber(shown) ? shown : withUnit(number(shown), unit);
 }
 
 /** The value of a variable at a point; of one that has several there, such as one for each speed of a scan, with the place of it. */
