@@ -21,7 +21,8 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.point_lists import closing_lines, listed_in, point_list
+from disc_model.studies.closing import closing_lines
+from disc_model.studies.point_lists import listed_in, point_list
 from disc_model.studies.study import StudyError, parse_study, read_file
 from tests.studies.refused import faults_of
 

@@ -63,10 +63,10 @@ try:
         quantity_file,
         source_hash,
     )
+    from disc_model.studies.closing import closing_lines
     from disc_model.studies.messages import RunMessages
     from disc_model.studies.older_page import line_of_older_page
     from disc_model.studies.point_calls import call_of
-    from disc_model.studies.point_lists import closing_lines
     from disc_model.studies.study import (
         mapping,
         read_file,
