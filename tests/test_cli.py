@@ -465,6 +465,37 @@ def test_a_study_that_was_made_says_where_its_results_are(
     assert found[:2] == (code, "" if code else says)
 
 
+@pytest.mark.parametrize("older", ["mine.nc", "figures/growth.png"])
+def test_a_run_says_that_it_leaves_an_older_page_of_all_points(
+    command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path, older: str
+) -> None:
+    """A page of former values stayed without a word."""
+
+    def ends(arguments: list[str]) -> None:
+        sys.exit(0)
+
+    monkeypatch.setattr("snakemake.cli.main", ends)
+    folder = mine.parent / "results" / mine.stem
+    made = ["mine.nc", "figures/growth.png", "explorer.html"]
+    for time, name in enumerate(made):
+        _touched(folder / name, time)
+    ran = ["study", str(mine), "-d", str(mine.parent)]
+    assert "explorer.html" not in command.out(*ran)
+    _touched(folder / older, len(made))
+    remedy = f"disc-model study {mine} --directory {mine.parent} --target explorer"
+    page = folder / "explorer.html"
+    said = f"{page} is of an older state of the study; to make it anew: {remedy}"
+    assert command.out(*ran).splitlines()[-1] == said
+    assert "older state" not in command.out(*ran, "--target", "explorer")
+
+
+def _touched(file: Path, time: float) -> None:
+    """Make a file, and set its time."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    file.touch()
+    os.utime(file, (time, time))
+
+
 def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> None:
     """A kernel in another environment chooses a module that is not here."""
     picture = tmp_path / "run.png"

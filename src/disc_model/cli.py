@@ -517,6 +517,8 @@ def study(
     except SystemExit as ended:
         if not (ended.code or dry_run or unlock):
             _say_where(directory / "results" / chosen.name, target or [])
+            if not target:
+                _say_of_older_page(chosen, grids, requested, directory / "results")
         raise
 
 
@@ -533,6 +535,17 @@ def _say_where(folder: Path, targets: Sequence[str]) -> None:
         names = [*names[:MOST_FILES], "..."]
     listed = f" ({', '.join(names)})" if names else ""
     typer.echo(f"results: {folder}{listed}")
+
+
+def _say_of_older_page(
+    chosen: Study, grids: Mapping[str, GridStudy], requested: Sequence[str], results: Path
+) -> None:
+    """Print that the page of all points shows older results than those of a run, if it does."""
+    from disc_model.studies.older_page import line_of_older_page
+
+    command = f"{os.environ[RUN_BY]} --target {EXPLORER}"
+    if line := line_of_older_page(chosen, grids, requested, results, command):
+        typer.echo(line)
 
 
 def _command_of(files: Sequence[Path], directory: Path) -> str:

@@ -53,7 +53,13 @@ BATCHES = (
     "studies/shares_of_starts.py",
 )
 """Parts on which every batch depends, beside the file of its quantity."""
-MERGING = ("data", "studies/batch.py", "studies/merge.py", "studies/run.py")
+MERGING = (
+    "data",
+    "studies/batch.py",
+    "studies/merge.py",
+    "studies/point_lists.py",
+    "studies/run.py",
+)
 """Parts on which merged datasets depend, beside their batches and cases."""
 HASH_LENGTH = 64  # hexadecimal digits
 

@@ -32,6 +32,15 @@ def test_modes_that_do_not_exist_have_no_columns(tmp_path: Path) -> None:
     assert [head for head in heads if "diameters" in head] == ["diameters[1]", "diameters[2]"]
 
 
+def test_columns_of_one_number_a_point_come_first(tmp_path: Path) -> None:
+    """Dozens of multipliers stood before the growth rate."""
+    study = of_modes().assign(status=("Omega", ["ok", "ok"]), growth_rate=("Omega", [1.0, 2.0]))
+    dm.save(study, tmp_path / "modes.csv")
+    heads = [*pd.read_csv(tmp_path / "modes.csv").columns]
+    assert heads[:3] == ["Omega", "status", "growth_rate"]
+    assert all("[" in head for head in heads[3:])
+
+
 def test_modes_that_do_not_exist_have_no_rows(tmp_path: Path) -> None:
     dm.save(of_modes(), tmp_path / "modes.csv")
     table = pd.read_csv(tmp_path / "modes.csv")

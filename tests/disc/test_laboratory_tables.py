@@ -400,3 +400,14 @@ def test_a_frequency_in_another_unit_is_doubted(
         with pytest.warns(dm.ImplausibleValue, match=phrase):
             dm.Disc.from_csv(path)
     read(tmp_path, text + rows((1, 2, 3, 4), (12, 100, 2000, 9000), (1, 1, 1, 1)))
+
+
+def test_frequencies_in_two_units_are_doubted(tmp_path: Path) -> None:
+    """Two modes of kHz in a column of Hz were read without a word, or one was called too low."""
+    path = tmp_path / "disc.csv"
+    for low in ("1.2", "13"):
+        rows = [f"2; {low}; 0.5", "3; 2.1; 0.5", "4; 3900; 0.5", "5; 5900; 0.5"]
+        path.write_text("\n".join(["diameters; f (Hz); amplitude (kg^-1/2)", *rows]))
+        with pytest.warns(dm.ImplausibleValue, match="lie far apart, .* kHz among others") as told:
+            dm.Disc.from_csv(path)
+        assert len(told) == 1

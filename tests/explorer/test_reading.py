@@ -1,5 +1,6 @@
 """What a careful reader of the explorer's page sees of motions, marks, ends of axes and scales."""
 
+import json
 from typing import Any
 
 import numpy as np
@@ -38,6 +39,30 @@ def test_the_page_says_what_a_motion_is(opened: Open, word: str) -> None:
     with opened([contents_of("plane", study, motions(), stated)]) as shown:
         said = shown.text("motion-note")
     assert said.endswith(f" {SENTENCES[word]}")
+
+
+KINDS = "failed quiet separating irregular"
+
+
+@pytest.mark.parametrize("word", ["quiet", "separating", "irregular"])
+def test_the_page_says_what_a_motion_comes_to_after_its_transient(opened: Open, word: str) -> None:
+    """Samples of a bifurcation diagram have a kind, which the sentence on the motion did not say."""
+    study = plane().drop_vars(["outcome", "growth_rate"])
+    code = KINDS.split().index(word)
+    study["kind"] = study["status"].copy(data=np.full(study["status"].shape, code, np.int8))
+    study["kind"].attrs = flagged(KINDS)
+    quantity = quantity_of("bifurcation")
+    stated = Stated(quantity.motion, motion_by=quantity.motion_by)
+    with opened([contents_of("plane", study, motions(), stated)]) as shown:
+        said = shown.text("motion-note")
+    assert said.endswith(quantity.motion_by[word])
+
+
+def test_every_word_of_what_a_motion_comes_to_has_its_sentence() -> None:
+    for name in ("outcome", "regions", "bifurcation"):
+        quantity = quantity_of(name)
+        words = quantity.COLUMNS["kind" if name == "bifurcation" else "outcome"].flags
+        assert {*words} - {"failed"} <= {*quantity.motion_by}
 
 
 def test_the_page_says_whether_the_cycle_that_it_shows_is_stable(opened: Open) -> None:
@@ -179,3 +204,14 @@ def test_a_motion_is_simulated_until_it_separates(opened: Open, word: str, time:
     with opened([contents_of("plane", study, None, stated)]) as shown:
         call = shown.text("motion-call")
     assert call.endswith(f", {time}).plot()")
+
+
+def test_a_word_among_the_fixed_values_has_no_unit(opened: Open) -> None:
+    """It read "friction on the surface mm"."""
+    study = plane()
+    study.attrs["base"] = json.dumps({"friction_offset": "surface", "friction_decay": "inf"})
+    with opened([contents_of("plane", study)]) as shown:
+        rows = shown.page.run(
+            "return [...document.querySelectorAll('#fixed td')].map(x => x.textContent)"
+        )
+    assert rows == ["friction on the surface", "inf s/m"]

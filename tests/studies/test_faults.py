@@ -21,7 +21,9 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.study import StudyError, closing_lines, parse_study, read_file
+from disc_model.studies.closing import closing_lines
+from disc_model.studies.point_lists import listed_in, point_list
+from disc_model.studies.study import StudyError, parse_study, read_file
 from tests.studies.refused import faults_of
 
 ROOT = Path(__file__).parents[2]
@@ -322,7 +324,7 @@ def test_a_run_says_in_the_end_what_has_no_result(
     folder = tmp_path / "results" / "s"
     folder.mkdir(parents=True)
     (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
-    (folder / "s.remarks.txt").touch()
+    (folder / "s.remarks.txt").write_text(point_list([]))
     file = Path("results/s/s.failed.txt")
     assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]
     # a motion that has not settled has its samples all the same
@@ -335,6 +337,17 @@ def test_a_run_says_in_the_end_what_has_no_result(
     ]
 
 
+def test_a_file_that_lists_no_point_says_so(tmp_path: Path) -> None:
+    """Each folder of results had two empty files."""
+    file = tmp_path / "s.failed.txt"
+    file.write_text(point_list([]))
+    assert file.read_text() == "no point\n"
+    assert listed_in(file) == []
+    lines = ["Omega = 10: paradox", "Omega = 20: paradox"]
+    file.write_text(point_list(lines))
+    assert listed_in(file) == lines
+
+
 def test_no_cycle_is_an_answer_and_no_failure(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -343,7 +356,7 @@ def test_no_cycle_is_an_answer_and_no_failure(
     grids = parse_study(GRID).grids()[0]
     file = Path("results/s/s.failed.txt")
     file.parent.mkdir(parents=True)
-    file.with_name("s.remarks.txt").touch()
+    file.with_name("s.remarks.txt").write_text(point_list([]))
     file.write_text(
         "Omega = 10: no cycle found: The slider moves on\nOmega = 15: no cycle found\n"
         "Omega = 20: steady sliding: it does not stick\nOmega = 25: failed: no cycle found\n"
@@ -360,7 +373,7 @@ def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.M
     grids = parse_study(GRID).grids()[0]
     folder = tmp_path / "results" / "s"
     folder.mkdir(parents=True)
-    (folder / "s.remarks.txt").touch()
+    (folder / "s.remarks.txt").write_text(point_list([]))
     file = folder / "s.failed.txt"
     file.write_text("start = broken: paradox\nstart = smoke: failed: no steps\n")
     [line] = closing_lines(grids)

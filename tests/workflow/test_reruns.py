@@ -154,8 +154,13 @@ def test_the_explorer_computes_motions_of_what_changed(project: Project) -> None
     assert explored() == ["build_explorer"]
     project.change("src/disc_model/studies/motions.py")
     assert explored() == ["build_explorer", "compute_motions"]
-    # and a plain run knows nothing of it
+    # and a plain run only says that it leaves the page as it was
     assert "compute_motions" not in project.complete("-n")
+    said = "results/small/explorer.html is of an older state of the study"
+    assert said in project.complete("-j2")
+    project.complete("-j2", "explorer")
+    project.edit(SMALL, "title: quiet", "title: calm")
+    assert said in project.complete("-j2")
 
 
 def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(

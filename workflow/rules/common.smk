@@ -54,6 +54,7 @@ if LOCAL and sys.platform == "linux":
 
 try:
     from disc_model.figures.kinds import Plot
+    from disc_model.data.files import RUN_BY
     from disc_model.errors import DiscModelError
     from disc_model.sources import (
         BATCHES,
@@ -62,10 +63,11 @@ try:
         quantity_file,
         source_hash,
     )
+    from disc_model.studies.closing import closing_lines
     from disc_model.studies.messages import RunMessages
+    from disc_model.studies.older_page import line_of_older_page
     from disc_model.studies.point_calls import call_of
     from disc_model.studies.study import (
-        closing_lines,
         mapping,
         read_file,
         read_files,

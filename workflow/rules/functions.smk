@@ -89,4 +89,5 @@ def stated_of(grid):
         "axes": [*maps[0].values()] if maps else [],
         "variable": shown[0] if shown else "",
         "at": places,
+        "tables": dict(grid.file.tables),
     }

@@ -10,6 +10,7 @@ from disc_model.data.dataset import load_result, save
 from disc_model.errors import script
 from disc_model.studies.batch import MergePlan
 from disc_model.studies.merge import failures, merge_batches, remarks
+from disc_model.studies.point_lists import point_list
 
 
 @script
@@ -18,5 +19,5 @@ def main(output: str, failed: str, remarked: str, folder: str) -> None:
     batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
     for path, lines in ((failed, failures(study)), (remarked, remarks(study))):
-        Path(path).write_text("".join(f"{line}\n" for line in lines), encoding="utf-8")
+        Path(path).write_text(point_list(lines), encoding="utf-8")
     save(xr.DataTree(study), output)

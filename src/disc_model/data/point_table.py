@@ -25,9 +25,9 @@ def save_points(data: xr.Dataset, file: Path) -> None:
 
     Heads of columns have units, such as ``Omega (rad s-1)``, and words stand in place of their
     numbers. A variable that has further dimensions has a column for each place along these, such as
-    ``multipliers_real[0]``. Where a dimension has room for more than was found, such as that of
-    crossings, places without a number have neither a row nor a column; modes that no point has have none
-    either.
+    ``multipliers_real[0]``; these columns are the last ones. Where a dimension has room for more than was
+    found, such as that of crossings, places without a number have neither a row nor a column; modes that no
+    point has have none either.
 
     Raises
     ------
@@ -52,10 +52,17 @@ def table_of(data: xr.Dataset) -> pd.DataFrame:
     worded = _without_empty_places(worded)
     sizes = {dim: worded.sizes[dim] for dim in points}
     columns = {}
-    for name in (*worded.coords, *worded.data_vars):
+    for name in _names_in_order(worded, points):
         for head, column in _columns(worded, str(name), sizes):
             columns[head] = column.set_dims(sizes).values.ravel()
     return pd.DataFrame(columns)[_has_numbers(worded, sizes)]
+
+
+def _names_in_order(data: xr.Dataset, points: Sequence[str]) -> list[str]:
+    """Coordinates and variables, those last that have several columns: a reader looks for one number
+    of each point first."""
+    names = [str(name) for name in (*data.coords, *data.data_vars)]
+    return sorted(names, key=lambda name: not {*data[name].dims} <= {*points})
 
 
 def _numbers_along(data: xr.Dataset, dim: str) -> list[xr.DataArray]:

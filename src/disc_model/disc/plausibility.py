@@ -25,6 +25,7 @@ MOST_DAMPED = 0.05
 _TOO_DAMPED = f"more than {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
 TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a mode is doubted
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
+WIDE = 50.0  # ratio of neighbouring frequencies beyond which those below are taken for kHz
 
 FAR = 100.0  # ratio of a measured value to a computed one, or the inverse, beyond which its unit is doubted
 NEAR = 4.0  # and up to which one with another unit would be near it
@@ -224,7 +225,7 @@ def _deflected(p: Parameters) -> str:
 
 def _pitch(disc: Disc) -> str:
     lowest = min(disc.omega) / math.tau
-    if 10.0 <= lowest <= 1e5 or _alone(disc):  # Hz
+    if 10.0 <= lowest <= 1e5 or _alone(disc) or _mixed(disc):  # Hz
         return ""
     text = f"the lowest mode of the disc has {lowest:.3g} Hz: "
     return f"{text}a table has frequencies in Hz or rad/s, by its column"
@@ -245,6 +246,26 @@ def _alone(disc: Disc) -> str:
             text += f"{others.min():.4g} to {others.max():.4g} Hz: "
             return f"{text}{meant:.4g} Hz, with another unit, would be among them"
     return ""
+
+
+def _mixed(disc: Disc) -> str:
+    """Two groups of frequencies that would be one if the lower ones were in kHz."""
+    ordered = np.sort(disc.omega) / math.tau
+    if len(ordered) < 2 or _alone(disc):
+        return ""
+    gaps = ordered[1:] / ordered[:-1]
+    widest = int(gaps.argmax())
+    low, high = np.split(ordered, [widest + 1])
+    if gaps[widest] < WIDE or 1000 * low[-1] < high[0] / 3 or 1000 * low[0] > 3 * high[-1]:
+        return ""
+    text = f"frequencies of the disc lie far apart, {_extent(low)} Hz and {_extent(high)} Hz: "
+    return f"{text}some seem to be in kHz among others in Hz"
+
+
+def _extent(values: np.ndarray) -> str:
+    """The least and the greatest of some values in order."""
+    low, high = (f"{value:.4g}" for value in (values[0], values[-1]))
+    return low if low == high else f"{low} to {high}"
 
 
 def _modal_mass(disc: Disc) -> str:
@@ -328,6 +349,7 @@ def _of_disc(doubt: Callable[[Disc], str], p: Parameters) -> str:
 DISC_RULES: dict[str, Callable[[Disc], str]] = {
     "frequencies of the disc": _pitch,
     "a frequency of the disc": _alone,
+    "units of frequencies": _mixed,
     "amplitudes of the disc": _modal_mass,
     "damping of the disc": _overdamped,
 }

@@ -60,13 +60,14 @@ class Stated(NamedTuple):
     Attributes
     ----------
     motion : what its stored motions are
-    motion_by : the same more exactly, by the outcome of a point or the stability of its cycle
+    motion_by : the same more exactly, by the outcome or kind of a point, or the stability of its cycle
     call : how its points are computed in Python, as `disc_model.studies.point_calls.Call.plain`
     units : units of its figures, by parameter
     axes : dimensions across and up in its first figure that has both
     variable : the variable of its first figure that shows one, "" without
     at : values of its figures along dimensions that they do not show, those of earlier ones first
     has_figures : whether there is a figure of it
+    tables : files of its discs, by their names along an axis; "" is that of all points
     """
 
     motion: str = ""
@@ -77,6 +78,7 @@ class Stated(NamedTuple):
     variable: str = ""
     at: Mapping[str, Any] = MappingProxyType({})
     motion_by: Mapping[str, str] = MappingProxyType({})
+    tables: Mapping[str, str] = MappingProxyType({})
 
 
 NOTHING_STATED = Stated()
@@ -128,6 +130,7 @@ def _study_contents(
         "title": str(study.attrs.get("title", "")) or name,
         "call": call,
         "discs": stated_in(study, "discs"),
+        "tables": dict(stated.tables),
         "starts": stated_in(study, "starts"),
         "start": _start_of_all(study),
         "where": rule_of(study),

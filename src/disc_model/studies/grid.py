@@ -519,7 +519,7 @@ class GridStudy:
         for path, *others in given.values():
             for other in others:
                 rule = f"is given by {' '.join(other)} as well, and must be given once"
-                yield Fault(path, "", rule)
+                yield Fault(path, "", f"{rule}: {self._remedy_of_twice(path, other)}")
         if "disc" in given:
             for name in self.varied:
                 if not {name, *RATIOS.get(name, ())}.isdisjoint((*PLATE, "damping_ratio")):
@@ -535,6 +535,18 @@ class GridStudy:
             yield Fault.of(
                 ("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})"
             )
+
+    def _remedy_of_twice(self, path: tuple[str, str], other: tuple[str, str]) -> str:
+        """What to do about a parameter that two parts of the file give: the part that varies it
+        stays."""
+        parts = (path[0], other[0])
+        if parts[0] == parts[1]:
+            return "keep one of them"
+        if "base" not in parts:
+            return "leave it out of axes"
+        if self.file.cases:
+            return "leave it out of base, and give it under parameters of each case"
+        return "leave it out of base"
 
     def _places_of_names(self) -> dict[str, list[tuple[str, str]]]:
         """Return, by parameter, the parts of the file that give it, with the name there; a ratio

@@ -5,7 +5,7 @@ right.
 """
 
 import json
-from collections import ChainMap, Counter
+from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
@@ -18,17 +18,12 @@ from pydantic import (
     BeforeValidator,
     Field,
     PlainValidator,
+    PrivateAttr,
     WithJsonSchema,
     create_model,
 )
 
-from disc_model.data.variables import (
-    BESIDE_WINDOWS,
-    SCALARS,
-    WITHOUT_CYCLE,
-    rule_of_taken,
-    values_text,
-)
+from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
 from disc_model.disc.files.table import read_disc
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
@@ -359,6 +354,7 @@ class Study(Strict):
     overrides: dict[str, dict[str, Any]] = Field(
         {}
     )  # of values in these files, by the name of the study
+    _tables: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -383,6 +379,11 @@ class Study(Strict):
     @property
     def name(self) -> str:
         return self.study
+
+    @property
+    def tables(self) -> Mapping[str, str]:
+        """The files of the grid's discs, by their names along an axis; that of `base` is ""."""
+        return self._tables
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -541,10 +542,13 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
     except ParameterError as error:
         raise StudyError(*error.faults, source=source) from None
     try:
-        return _validated(content)
+        study = _validated(content)
     except ParameterError as error:
         faults = all_faults(content, error.faults, _validated)
         raise StudyError(*faults, source=source) from None
+    if folder is not None:
+        study._tables = _tables_of(raw, folder)
+    return study
 
 
 def _validated(content: Any) -> Study:
@@ -595,14 +599,28 @@ def _with_discs(raw: Any, folder: Path) -> Any:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
     content = mapping(raw)
+    varied = _varied_discs(content)
+    if not varied:
+        return read(raw, ())
+    return read({**content, "discs": {**varied, **mapping(content.get("discs"))}}, ())
+
+
+def _varied_discs(content: Mapping[str, Any]) -> dict[str, str]:
+    """The discs along an axis of a file, each a table of its own name."""
     varied: dict[str, str] = {}
     for group in (content.get("axes"), *_several(content.get("zip"))):
         axis = mapping(group).get("disc")
         if isinstance(axis, list):
             varied.update((name, name) for name in axis if isinstance(name, str))
-    if not varied:
-        return read(raw, ())
-    return read({**content, "discs": {**varied, **mapping(content.get("discs"))}}, ())
+    return varied
+
+
+def _tables_of(raw: Any, folder: Path) -> dict[str, str]:
+    """The tables of the discs that a file names, by their names along an axis; that of `base` is ""."""
+    content = mapping(raw)
+    named = {**_varied_discs(content), **mapping(content.get("discs"))}
+    named[""] = mapping(content.get("base")).get("disc")
+    return {name: _shown(folder / table) for name, table in named.items() if isinstance(table, str)}
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -659,29 +677,3 @@ def _normalizations(grid: GridStudy) -> set[str]:
 
 
 # ---- What a finished run says
-
-
-def closing_lines(grids: Mapping[str, GridStudy]) -> Iterator[str]:
-    """Grids with points that have no result, no cycle, which is an answer, or a remark on the
-    result, and where these are listed."""
-    for name, grid in grids.items():
-        file = Path(f"results/{name}/{name}.failed.txt")
-        remarks = file.with_name(f"{name}.remarks.txt")
-        lines = file.read_text(encoding="utf-8").splitlines()
-        answers = Counter(filter(None, map(_answer_in, lines)))
-        said = ", ".join(f"{count} {word}" for word, count in answers.most_common())
-        told = (
-            (len(lines) - answers.total(), "no result", file),
-            (answers.total(), f"no stick-slip cycle ({said})", file),
-            (len(remarks.read_text(encoding="utf-8").splitlines()), "a remark", remarks),
-        )
-        for count, have, listed in told:
-            if count:
-                yield f"{name}: {count} of {grid.n_points} points have {have}, see {listed}"
-
-
-def _answer_in(line: str) -> str:
-    """What the motion does in place of a stick-slip cycle, by the line of a point; "" if the line
-    does not say so."""
-    said = line.split(": ")[1:2]  # after the point, whose values have no such sign
-    return said[0] if said and said[0] in WITHOUT_CYCLE.values() else ""

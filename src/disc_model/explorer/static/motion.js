@@ -17,9 +17,14 @@ const motionsAt = (place) =>
     Object.entries(motionPlaces(view.study, motion)).every(([name, at]) => at === place[name]),
   );
 
-/** What becomes of a point, as far as its study says: its outcome, or else the stability or lack of its cycle; in words. */
+/** The variable with the words of what a point comes to: its outcome, or else its kind; undefined without one. */
+const wordsOfFate = (study) =>
+  outcomeOf(study) ??
+  study.variables.find((one) => one.name === "kind" && one.flags && one.dims.every((name) => study.status?.dims.includes(name)));
+
+/** What becomes of a point, as far as its study says: its outcome or kind, or else the stability or lack of its cycle; in words. */
 function fateOf(study, place) {
-  const outcome = outcomeOf(study);
+  const outcome = wordsOfFate(study);
   if (outcome) return shown(study, outcome, place);
   const rate = study.variables.find(growth);
   if (!rate) return study.status ? shown(study, study.status, place) : "";
@@ -31,10 +36,10 @@ function fateOf(study, place) {
   return stable && value(study, stable, place) ? stable.look.label : "unstable";
 }
 
-/** What a stored motion is, as a sentence: that of its outcome or of its cycle's stability, as far as the quantity has one. */
+/** What a stored motion is, as a sentence: that of its outcome or kind or of its cycle's stability, as far as the quantity has one. */
 function saidOfMotion(study, motion) {
   const place = { ...view.place, ...motionPlaces(study, motion) };
-  const outcome = outcomeOf(study);
+  const outcome = wordsOfFate(study);
   const word = outcome ? outcome.flags[value(study, outcome, place)] : fateOf(study, place);
   return study.motions.text_by[word] ?? study.motions.text;
 }

@@ -77,8 +77,35 @@ const variedAt = (dims, place) =>
 
 const CONSTANTS = new Map([[null, "None"], [true, "True"], [false, "False"]]);
 
+/** A value that a call reads from a file, as it is written in Python. */
+class Read {
+  constructor(text) {
+    this.text = text;
+  }
+}
+
+/** The disc of a name along an axis, or that of all points, as a call has it: read from its table, if it has one. */
+function discOf(study, name, given) {
+  const table = study.tables[name];
+  return table ? new Read(`dm.Disc.from_csv(${python(table)})`) : given;
+}
+
+/** Whether the discs of a study are given by their modes. */
+const hasDiscs = (study) =>
+  study.fixed.some((one) => one.name === "disc" && one.value) || study.dims.some((dim) => "disc" in dim.parts);
+
+/** The values of parameters that a study does not vary and that differ from the paper's Table 1, by name; and where the slider
+ * runs on a disc that is not the paper's, of which the package asks. */
+function unusualOf(study) {
+  const stated = study.fixed.filter((one) => !one.usual || (one.name === "r_0" && hasDiscs(study)));
+  const values = Object.fromEntries(stated.map((one) => [one.name, one.value]));
+  if (values.disc) values.disc = discOf(study, "", values.disc);
+  return values;
+}
+
 /** A value in Python. */
 function python(value) {
+  if (value instanceof Read) return value.text;
   if (CONSTANTS.has(value)) return CONSTANTS.get(value);
   if (Array.isArray(value)) return `[${value.map(python).join(", ")}]`;
   if (typeof value !== "object") return JSON.stringify(value);
@@ -113,14 +140,13 @@ const argumentsOf = (values) => values.map(([name, one]) => `${name}=${python(on
 /** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; a parameter that the
  * quantity varies by itself has its value at the point, or else that where its range begins. */
 function caseOf(study, place, variable) {
-  const unusual = study.fixed.filter((one) => !one.usual).map((one) => [one.name, one.value]);
   const scanned = { ...study.call.begins, ...scannedAt(study, place, variable) };
-  const values = { ...Object.fromEntries([...unusual, ...variedAt(gridOf(study), place)]), ...scanned };
+  const values = { ...unusualOf(study), ...Object.fromEntries(variedAt(gridOf(study), place)), ...scanned };
   if (study.call.lifts_mu_s) {
     const least = values.mu_s ?? study.fixed.find((one) => one.name === "mu_s")?.value;
     if (least < values.mu_k) values.mu_s = values.mu_k;
   }
-  if (typeof values.disc === "string") values.disc = study.discs[values.disc] ?? values.disc;
+  if (typeof values.disc === "string") values.disc = discOf(study, values.disc, study.discs[values.disc] ?? values.disc);
   const known = Object.entries(values).filter(([name]) => contents.parameters.includes(name));
   // numbers of a disc's modes, and what is drawn about the values of a point
   const ofModes = Object.entries(scanned).filter(([name]) => !contents.parameters.includes(name));
@@ -150,14 +176,13 @@ function startOf(study, place) {
 
 /** A study of the point alone, as it was computed; what it has of a variable is a code where that is a flag. */
 function studyOf(study, place, variable) {
-  const unusual = study.fixed.filter((one) => !one.usual).map((one) => [one.name, one.value]);
   const axes = variedAt(gridOf(study), place);
   const given = {
-    study: "point", quantity: study.call.quantity, options: study.call.options, base: Object.fromEntries(unusual),
+    study: "point", quantity: study.call.quantity, options: study.call.options, base: unusualOf(study),
     axes: Object.fromEntries(axes.map(([name, one]) => [name, [one]])),
   };
   const { disc, start } = Object.fromEntries(axes);
-  if (study.discs[disc]) given.discs = { [disc]: study.discs[disc] };
+  if (study.discs[disc]) given.discs = { [disc]: discOf(study, disc, study.discs[disc]) };
   if (study.starts[start]) given.starts = { [start]: study.starts[start] };
   const stored = `found["${variable.name}"]`;
   const one = `${stored}${placeWithin(study, place, variable)}.item()`;
@@ -304,7 +329,12 @@ function showPoint() {
   const sampled = Object.entries(sampledAt(study, place)).map(([name, one]) => [{ name, title: "value of the sample, SI units" }, number(one)]);
   const others = study.variables.filter((one) => one.name !== study.call.sampled);
   fillTable("values", [...others.map((one) => [one, shownWithin(study, one, place)]), ...sampled]);
-  fillTable("fixed", study.fixed.map((one) => [one, withUnit(number(one.shown), one.unit)]));
+  fillTable("fixed", study.fixed.map((one) => [one, fixedText(one)]));
+}
+
+/** The value of a parameter that does not vary, with its unit unless it is a word. */
+function fixedText({ shown, unit }) {
+  return typeof shown === "string" && !isNumber(shown) ? shown : withUnit(number(shown), unit);
 }
 
 /** The value of a variable at a point; of one that has several there, such as one for each speed of a scan, with the place of it. */
