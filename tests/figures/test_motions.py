@@ -21,13 +21,13 @@ from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
 from disc_model.figures.branches import LOWEST, Sweep
 from disc_model.figures.branches import _draw_sweep as draw_sweep
-from disc_model.figures.campbell_legend import ALONE
 from disc_model.figures.campbell_peaks import Column, Peak, peaks, unjoined
 from disc_model.figures.classes import LOOKS, lightness
-from disc_model.figures.drawing import BLACK, GREY, OPEN_STEP, SEPARATED
+from disc_model.figures.drawing import BLACK, GREY, OPEN_RING, OPEN_STEP, SEPARATED
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
 from disc_model.figures.names import Names
+from disc_model.figures.rate_scale import ANOTHER_CYCLE
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
@@ -668,8 +668,8 @@ def test_marks_of_a_sweep_differ_in_grey_print() -> None:
 def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
     said = labels(campbell())
     assert r"multiple of $f_s$ or $f_Ω$" in said
-    assert "speed of a peak" in said
-    assert "no growth rate: no cycle found" in said
+    assert "peak at a crossing" in said
+    assert "no cycle found" in said
 
 
 def test_marks_and_multiples_of_a_campbell_diagram_are_those_that_there_are() -> None:
@@ -700,18 +700,18 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
 @pytest.mark.parametrize(
     ("highest", "cut", "peak", "triangles", "multiples"),
     [
-        ("200 Hz", [], "peak of growth, crossing at it", [], ["multiple of $f_s$ or $f_Ω$"]),
+        ("200 Hz", [], "peak at a crossing", [], ["multiple of $f_s$ or $f_Ω$"]),
         (
             "145 Hz",
             ["cut at 145 Hz: 2 modes above"],
-            "peak of growth, crossing at it",
+            "peak at a crossing",
             [],
             ["multiple of $f_s$ or $f_Ω$"],
         ),
         (
             "100 Hz",
             ["cut at 100 Hz: 2 modes above"],
-            "peak of growth, crossing at it",
+            "peak at a crossing",
             [10.52],
             ["multiple of $f_Ω$"],
         ),
@@ -816,8 +816,8 @@ CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
     ("rates", "name"),
     [
         ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
-        ([-0.05, -0.05, -0.30, -0.05, -0.05], ALONE),
-        ([-0.05, -0.05, -0.30, -0.30, -0.30], "line open: a step of over 0.1/s"),
+        ([-0.05, -0.05, -0.30, -0.05, -0.05], ANOTHER_CYCLE),
+        ([-0.05, -0.05, -0.30, -0.30, -0.30], ANOTHER_CYCLE),
     ],
 )
 def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
@@ -834,10 +834,11 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
     assert name in shown
     [legend] = figure.legends
     samples = dict(zip(shown, legend.legend_handles, strict=True))
-    if name.startswith("line open"):
+    if name == ANOTHER_CYCLE:
         shape = samples[name].get_marker()
-        assert np.array_equal(shape.vertices, OPEN_STEP.vertices), "there was no sample of it"
-    assert "speed of a peak" not in shown
+        expected = OPEN_RING if unjoined(np.array(rates)).any() else OPEN_STEP
+        assert np.array_equal(shape.vertices, expected.vertices), "there was no sample of it"
+    assert not [text for text in shown if text.startswith("peak")]
     figure = Figure(figsize=(7, 4))
     campbell_diagram._legend(figure, columns[:1])
     assert name not in labels(figure)
@@ -850,11 +851,15 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
         ([0.00, 0.05, 0.20], [False, False, True]),
         ([0.00, 0.05, 0.00], [False, False, False]),
         ([0.00, np.nan, 0.00], [True, False, True]),
+        ([8.0, 9.0, 10.0], [False, False, False]),
+        ([8.0, 9.0, 40.0], [False, False, True]),
+        ([-1.5, -0.5, 0.5, 1.5], [False, False, False, False]),
     ],
 )
-def test_rates_that_differ_by_more_than_a_tenth_are_not_joined(
+def test_rates_that_no_line_of_a_sweep_joins_are_alone(
     rates: list[float], alone: list[bool]
 ) -> None:
+    """Large ones were alone at any step over 0.1/s, as of a disc that squeals."""
     found = unjoined(np.array(rates))
     assert found.tolist() == alone
 
@@ -941,10 +946,8 @@ def test_a_legend_has_marks_of_peaks_as_they_are_drawn(alone: bool) -> None:
     column = meetings(peak)
     entries = campbell_diagram.entries_of([column], 700)
     said = [entry.get_label() for entry in entries]
-    filled = "peak of growth, crossing at it"
-    hollow = f"speed of a {filled}"
-    assert (filled in said) is not alone
-    assert (hollow in said) is alone
+    entry = entries[said.index("peak at a crossing")]
+    assert entry.get_marker() == ("None" if alone else "o")
 
 
 def test_names_of_crossings_cover_no_line() -> None:

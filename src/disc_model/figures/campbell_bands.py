@@ -39,7 +39,7 @@ def entries_of_bands(studies: Sequence[xr.Dataset]) -> list[Artist]:
     others = [word for word in found if word not in SLIDING]
     if others:
         reasons = [name_of(word) for word in others if word != NO_VALUE]
-        label = f"{WITHOUT}: {', '.join(reasons)}" if reasons else WITHOUT
+        label = ",\n".join(reasons) or WITHOUT
         handles.append(Patch(label=label, **PLAIN))
     return handles
 

@@ -13,6 +13,7 @@ from disc_model.figures.types import Array, Artist, Mask
 
 SYMBOLS = ("$f_s$", "$f_Ω$")
 """Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
+MANY_TIMES = 10  # from which ratio of the steps that crossings need two are named
 UNKNOWN = ("unresolved", "beyond_scan")
 """Effects of crossings at which it is not known what growth rates do."""
 
@@ -33,34 +34,45 @@ def symbol_of_line(crossing: xr.Dataset) -> str:
     return SYMBOLS[0 if by_slips else 1]
 
 
-def entries_of_unknown(studies: Sequence[xr.Dataset]) -> list[Artist]:
-    """Entries of a legend for crossings at which it is not known what growth rates do, with the remedy:
-    smaller steps, or a wider scan."""
+def entries_of_counts(studies: Sequence[xr.Dataset], unmarked: int) -> list[Artist]:
+    """The entry of a legend that counts crossings: so many without a mark, and those at which it is not
+    known what growth rates do, with the remedy: smaller steps, or a wider scan."""
+    every = sum(int(_are_there(study).sum()) for study in studies)
     unresolved = _count_of(studies, "unresolved")
     beyond = _count_of(studies, "beyond_scan")
-    labels = []
+    said = []
+    if unmarked:
+        said.append(f"{_share_of(unmarked, every)} not marked")
     if unresolved:
-        labels.append(f"{_share_of(unresolved, studies)} unresolved{_steps_needed(studies)}")
+        said.append(f"{_share_of(unresolved, every)} {_steps_needed(studies, unresolved)}")
     if beyond:
-        labels.append(f"{_share_of(beyond, studies)}: window leaves the scan: widen it")
-    return [sample(label=label, linestyle="") for label in labels]
+        said.append(f"{_share_of(beyond, every)} {_needs(beyond)} a wider scan")
+    if not said:
+        return []
+    lines = ",\n".join(said)
+    return [sample(label=f"{counted(every, 'crossing')}: {lines}", linestyle="")]
 
 
-def _share_of(count: int, studies: Sequence[xr.Dataset]) -> str:
-    """So many crossings, of all if there are others."""
-    every = sum(int(_are_there(study).sum()) for study in studies)
-    if count < every:
-        return f"{count} of {counted(every, 'crossing')}"
-    return counted(count, "crossing")
+def _share_of(count: int, every: int) -> str:
+    """How many of all crossings, as a word where these are all of several."""
+    return "all" if count == every > 1 else str(count)
 
 
-def _steps_needed(studies: Sequence[xr.Dataset]) -> str:
-    """What the legend says of the steps that resolve crossings, rounded down; nothing where the steps are
-    as small already."""
+def _needs(count: int) -> str:
+    """The verb of so many crossings."""
+    return "needs" if count == 1 else "need"
+
+
+def _steps_needed(studies: Sequence[xr.Dataset], count: int) -> str:
+    """What the legend says of unresolved crossings: the steps that resolve them, rounded down, for all
+    and for the first one where these differ much; nothing of steps that are as small already."""
     steps = [step for study in studies for step in _steps_of(study)]
     if not steps:
-        return ""
-    return f": need steps of {rounded_down(min(steps)):g} rad/s"
+        return "unresolved"
+    least = f"{rounded_down(min(steps)):g}"
+    if max(steps) < MANY_TIMES * min(steps):
+        return f"{_needs(count)} steps of {least} rad/s"
+    return f"{_needs(count)} steps of\n{least} to {rounded_down(max(steps)):g} rad/s"
 
 
 def _steps_of(study: xr.Dataset) -> Array:

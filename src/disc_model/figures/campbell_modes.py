@@ -6,11 +6,13 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.campbell_looks import growing_look
 from disc_model.figures.campbell_peaks import growing_modes
-from disc_model.figures.drawing import BLACK, large, say_beside, wide
-from disc_model.figures.names import named_modes
-from disc_model.figures.types import Axes
+from disc_model.figures.drawing import BLACK, large, wide
+from disc_model.figures.end_names import EndNames, most_names
+from disc_model.figures.names import Named, named_modes
+from disc_model.figures.types import Array, Axes
 
-NAMES_APART = 0.045  # of the axis, least distance of the names of modes
+NAMES_APART = 0.045  # of the axis, distance of modes up to which they share a name
+FURTHER = 1.2  # ratio by which this distance grows until all names have room
 
 
 def draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
@@ -25,6 +27,17 @@ def draw_modes(ax: Axes, study: xr.Dataset, highest: float) -> None:
     ends = study.isel(Omega=-1)
     of_disc = np.where(flag_names(ends["mode_kind"]) == "disc", ends["diameters"].values, -1)
     heights = ends["sliding_frequency"].where(ends["sliding_frequency"] <= highest).values
-    for part in named_modes(of_disc, heights, NAMES_APART * highest):
-        height = float(heights[part.modes].mean())
-        say_beside(ax, height, part.name, 3, fontsize=large(7))
+    size = large(7)
+    names = EndNames(ax, size)
+    for part in _names_with_room(of_disc, heights, highest, most_names(ax, size)):
+        names.add(part.name, float(heights[part.modes].mean()))
+
+
+def _names_with_room(diameters: Array, heights: Array, highest: float, most: int) -> list[Named]:
+    """The names of modes that end at these heights, at most so many."""
+    apart = NAMES_APART * highest
+    parts = [*named_modes(diameters, heights, apart)]
+    while len(parts) > most:
+        apart *= FURTHER
+        parts = [*named_modes(diameters, heights, apart)]
+    return parts

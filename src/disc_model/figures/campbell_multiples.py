@@ -7,7 +7,6 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.display import counted
 from disc_model.figures.campbell_crossings import SYMBOLS, UNKNOWN, meeting_of
 from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
 from disc_model.figures.campbell_peaks import Column, followed_frequency
@@ -61,14 +60,10 @@ def entries_of_crossings(
     return handles
 
 
-def entries_of_unmarked(
-    columns: Sequence[Column], multiples: Sequence[int], highest: float
-) -> list[Artist]:
-    """The entry of a legend for crossings of known effect that the picture does not mark, if there are any."""
-    unmarked = sum(_unmarked_crossings(column, multiples, highest) for column in columns)
-    if not unmarked:
-        return []
-    return [sample(label=f"{counted(unmarked, 'crossing')} not marked", linestyle="")]
+def unmarked_crossings(columns: Sequence[Column], multiples: Sequence[int], highest: float) -> int:
+    """The number of crossings of known effect up to the highest frequency shown (Hz) that the picture does
+    not mark."""
+    return sum(_unmarked_crossings(column, multiples, highest) for column in columns)
 
 
 def _unmarked_crossings(column: Column, multiples: Sequence[int], highest: float) -> int:

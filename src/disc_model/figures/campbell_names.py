@@ -8,8 +8,8 @@ from disc_model.figures.campbell_crossings import meeting_of, multiple_text
 from disc_model.figures.campbell_peaks import Column, followed_rates
 from disc_model.figures.drawing import halo, large
 from disc_model.figures.names import Names
-from disc_model.figures.rate_scale import LINEAR
-from disc_model.figures.selection import broken
+from disc_model.figures.rate_scale import opens
+from disc_model.figures.selection import opened
 from disc_model.figures.types import Array, Axes
 
 BESIDE_MEETING = tuple(
@@ -31,7 +31,8 @@ def name_peaks(top: Axes, bottom: Axes, column: Column, highest: float = np.inf)
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
     above = Names(top, lines=_along_lines([(speeds, mode) for mode in modes]))
-    of_rates = _along_lines([broken(speeds, followed_rates(study), LINEAR)])
+    followed = followed_rates(study)
+    of_rates = _along_lines([opened(speeds, followed, opens(followed))])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
     for peak in column.peaks:

@@ -12,8 +12,8 @@ from disc_model.figures.campbell_multiples import draw_multiples
 from disc_model.figures.campbell_peaks import Column, elsewhere_of, followed_rates, unjoined
 from disc_model.figures.cut import mark_cut, modes_above
 from disc_model.figures.drawing import BLACK, mark, whole_marks, wide
-from disc_model.figures.rate_scale import LINEAR, scale_rates
-from disc_model.figures.selection import broken
+from disc_model.figures.rate_scale import LINEAR, opens, scale_rates
+from disc_model.figures.selection import opened
 from disc_model.figures.types import Array, Axes
 from disc_model.figures.words import SPEED
 
@@ -68,7 +68,7 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
 def _draw_rates(ax: Axes, speeds: Array, rate: Array) -> None:
     """Draw growth rates: a line where neighbours belong together, and hollow dots elsewhere."""
     alone = unjoined(rate)
-    ax.plot(*broken(speeds, rate, LINEAR), "-", color=BLACK, linewidth=wide(0.8))
+    ax.plot(*opened(speeds, rate, opens(rate)), "-", color=BLACK, linewidth=wide(0.8))
     joined = dot_look(alone=False)
     joined["markersize"] = mark(1.0)
     ax.plot(speeds[~alone], rate[~alone], **joined)

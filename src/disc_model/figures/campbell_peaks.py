@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.growth import ROUNDING
-from disc_model.figures.rate_scale import LINEAR
+from disc_model.figures.rate_scale import LINEAR, opens
 from disc_model.figures.selection import doubts, stretches
 from disc_model.figures.types import Array, Mask
 
@@ -103,6 +103,7 @@ def _without_lone_points(rate: Array) -> Array:
 
 
 def unjoined(rate: Array) -> Mask:
-    """Points whose growth rate differs by more than `LINEAR` from those of both neighbours."""
-    joined = np.concatenate([[False], np.abs(np.diff(rate)) <= LINEAR, [False]])
+    """Points that the line of growth rates joins to neither neighbour."""
+    between = np.isfinite(rate[:-1]) & np.isfinite(rate[1:])
+    joined = np.concatenate([[False], between & ~opens(rate), [False]])
     return np.isfinite(rate) & ~(joined[:-1] | joined[1:])

@@ -45,5 +45,6 @@ def plot_campbell(
         top, bottom = page.axes
         draw_panels([top], [bottom], [column], shown, multiples)
         name_peaks(top, bottom, column, shown)
+        page.is_small = True
         page.explain(entries_of([column], shown, multiples), beside="below")
     return np.array(page.axes, dtype=object)

@@ -73,6 +73,12 @@ DECADES = np.outer(10.0 ** np.arange(-9, 13), (1, 2, 5)).ravel()
 OPEN_STEP = Path([(-1, -0.25), (-0.2, -0.25), (0.2, 0.25), (1, 0.25)], [1, 2, 1, 2])
 """Two pieces of a line, moved to and drawn, at two heights: the sample of one that is open there."""
 
+_RING = Path.circle(radius=0.35)
+OPEN_RING = Path.make_compound_path(
+    Path([(-1, -0.25), (-0.5, -0.25)]), Path([(0.5, 0.25), (1, 0.25)]), _RING
+)
+"""A ring between two such pieces: the sample of a point that the line leaves alone."""
+
 # ---- Sizes that follow the settings in force
 
 STYLE_TEXT = 8.0  # points, font.size of the common style
@@ -227,6 +233,14 @@ def open_line(label: str, color: Any, width: float) -> Line2D:
     """A line for a legend that is open at a step, as in its panel; width in points."""
     look: dict[str, Any] = {"color": color, "markersize": mark(10), "markeredgewidth": width}
     return Line2D([], [], label=label, linestyle="", marker=OPEN_STEP, **look)
+
+
+def open_ring(label: str, color: Any, width: float) -> Line2D:
+    """A line for a legend that is open at a step, and a point by itself; width in points."""
+    line = open_line(label, color, width)
+    line.set_marker(OPEN_RING)
+    line.set_markerfacecolor("white")
+    return line
 
 
 def is_in_data(ax: Axes, drawn: Artist) -> bool:

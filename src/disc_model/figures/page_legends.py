@@ -101,7 +101,7 @@ def write_legend(page: Page, wishes: Wishes) -> None:
         page.ax.legend(handles=list(page.handles), **look)
     elif page.figure.get_gid() == OWN:
         size = {}
-        if len(page.handles) > MANY:
+        if page.is_small or len(page.handles) > MANY:
             size = {**small(), "handlelength": SAMPLE}
         legend = figure_legend(page.figure, page.handles, **{**size, **look})
         keep_share(page.figure, legend)

@@ -13,7 +13,7 @@ from disc_model.figures.case_titles import write_case
 from disc_model.figures.drawing import large
 from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.named_axes import Quantities, check_axes, own_labels, remember
-from disc_model.figures.symbols import without_font
+from disc_model.figures.symbols import in_a_row
 from disc_model.figures.types import Artist, Axes
 
 Place = Literal["inside", "beside", "below"]
@@ -87,6 +87,7 @@ class Page:
     bars : axes of bars of colours
     legend : the one that was written beside a reader's axes, unless the reader has placed it
     spare : inches beside a legend below a reader's axes that it leaves free
+    is_small : whether the text of the legend of a new figure is small, however few entries it has
     is_map : whether a new figure grows so that its panels keep their height beside the legend
     """
 
@@ -104,6 +105,7 @@ class Page:
     bars: Sequence[Axes] = field(default_factory=list)
     legend: Any = None
     spare: float = 0.0
+    is_small: bool = False
     is_map: bool = False
 
     def __post_init__(self) -> None:
@@ -184,8 +186,8 @@ def restate(page: Page, wishes: Wishes) -> None:
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:
     """Give axes and entries of the legend other words; raises `ParameterError` if there is nothing
     that a label replaces."""
-    labels = {without_font(name): text for name, text in labels.items()}
-    replaced = ["x", "y", *(str(handle.get_label()) for handle in page.handles)]
+    labels = {in_a_row(name): text for name, text in labels.items()}
+    replaced = ["x", "y", *(in_a_row(str(handle.get_label())) for handle in page.handles)]
     if page.bars:
         replaced.append("bar")
     for name in labels:
@@ -200,4 +202,4 @@ def _relabel(page: Page, labels: Mapping[str, str]) -> None:
             ax.set_ylabel(labels["y"])
     for handle in page.handles:
         usual = str(handle.get_label())
-        handle.set_label(labels.get(usual, usual))
+        handle.set_label(labels.get(in_a_row(usual), usual))

@@ -22,9 +22,13 @@ LINEAR = 0.1
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
+EVEN = 1.5
+"""Ratio of neighbouring steps up to which a curve of rates goes on evenly, as one through zero may do in
+wide steps."""
 ALIKE = 2.0
 """Ratio of rates of one sign up to which zero is not drawn: most of the panel would be empty."""
-OPEN = "line open: another cycle, or too wide a step"
+ANOTHER_CYCLE = "another cycle, or too wide a step"
+OPEN = f"line open: {ANOTHER_CYCLE}"
 """What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 ANOTHER_BORDER = "line open: another border"
 """Said of steps between critical values that lie on different borders of stability."""
@@ -101,16 +105,34 @@ def on_scale(rates: Array) -> Array:
 
 def opens(rates: Array) -> Mask:
     """Where a line of growth rates of cycles is open, one fewer than the rates: at steps beyond `STEP`,
-    and at such as go back further than the rate has come on either side, as between two cycles of
-    small rates."""
+    unless those beside them are alike, and at such as go back further than the rate has come on
+    either side, as between two cycles of small rates."""
     steps = np.diff(on_scale(rates))
-    found = np.abs(steps) > STEP
+    found = (np.abs(steps) > STEP) & ~_goes_on_evenly(rates)
     before = steps[:-2]
     step = steps[1:-1]
     after = steps[2:]
     goes_back = (step * before < 0) & (step * after < 0)
     found[1:-1] |= goes_back & (np.abs(step) > np.maximum(np.abs(before), np.abs(after)))
     return found
+
+
+def _goes_on_evenly(rates: Array) -> Mask:
+    """Steps of rates that both neighbouring ones are like, in size and direction; the only one, at an end
+    of a line."""
+    steps = np.diff(rates)
+    beside = np.concatenate([[np.nan], steps, [np.nan]])
+    before = beside[:-2]
+    after = beside[2:]
+    known = np.isfinite(before) | np.isfinite(after)
+    return known & _is_like(steps, before) & _is_like(steps, after)
+
+
+def _is_like(steps: Array, others: Array) -> Mask:
+    """Whether steps and others have one direction and nearly one size, or there is no other."""
+    sizes = np.abs([steps, others])
+    alike = (steps * others > 0) & (sizes.max(axis=0) <= EVEN * sizes.min(axis=0))
+    return alike | np.isnan(others)
 
 
 def set_limits(ax: Axes, limits: tuple[float, float]) -> None:

@@ -1,0 +1,115 @@
+"""Room in Campbell diagrams: names of modes beside the panel, the legend, and rings of rates."""
+
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib import pyplot
+
+import disc_model as dm
+from disc_model.figures.end_names import spread
+from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model.studies.quantities.campbell import EFFECTS
+from tests.figures.described import campbell_study
+from tests.figures.every_kind import flag
+from tests.figures.reading import assert_fit_for_print
+
+HIGH = 4.6  # inch
+MOST_OF_LEGEND = 0.2  # of the height of a figure
+
+
+def own_panels(study: xr.Dataset, width: float, **wishes: Any) -> list[Any]:
+    """The panels of a diagram on a reader's axes."""
+    size = (width, HIGH)
+    _, axes = pyplot.subplots(2, 1, figsize=size, layout="constrained", sharex=True)
+    panels = dm.plot_campbell(study, ax=axes, **wishes)
+    panels[0].figure.draw_without_rendering()
+    return [*panels]
+
+
+def with_close_modes() -> xr.Dataset:
+    """A study whose modes end at heights that differ by less than those of their names."""
+    study = campbell_study()
+    study["sliding_frequency"][:] = [180.0, 190.0, 200.0]
+    return study
+
+
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+def test_names_of_modes_are_not_on_each_other(width: float) -> None:
+    """Beside a low panel "l = 3" was written over "l = 1, 3"."""
+    top, _ = own_panels(with_close_modes(), width)
+    named = [text for text in top.texts if text.get_text().startswith(("l =", "in-plane"))]
+    boxes = [text.get_window_extent() for text in named]
+    boxes.sort(key=lambda box: box.y0)
+    assert len(boxes) == 3
+    for lower, upper in pairwise(boxes):
+        assert lower.y1 <= upper.y0 + 1.0
+    assert_fit_for_print(top.figure)
+
+
+@pytest.mark.parametrize(
+    ("wanted", "places"),
+    [
+        ([0.0, 10.0, 20.0], [0.0, 10.0, 20.0]),
+        ([0.0, 2.0], [-1.5, 3.5]),
+        ([2.0, 0.0], [3.5, -1.5]),
+        ([0.0, 1.0, 2.0, 30.0], [-4.0, 1.0, 6.0, 30.0]),
+    ],
+)
+def test_names_are_spread_as_little_as_can_be(wanted: list[float], places: list[float]) -> None:
+    assert spread(np.array(wanted), 5.0).tolist() == pytest.approx(places)
+
+
+def with_all_there_is() -> xr.Dataset:
+    """A study whose diagram has lines, marks and bands of all kinds."""
+    study = campbell_study()
+    study["sliding_growth_rate"] = study["sliding_frequency"] - 140.0
+    near_motion = np.full(21, np.nan)
+    near_motion[19] = 0.0
+    study["near_motion"] = ("Omega", near_motion)
+    study["growth_rate"][20] = 0.3
+    study["growth_rate"][2] = 30.0
+    effects = ["unresolved", "beyond_scan", "rises"]
+    study["crossing_effect"] = flag(("crossing",), effects, EFFECTS)
+    study["crossing_step"] = ("crossing", [0.048, 0.2, 0.01])
+    return study
+
+
+def test_the_legend_of_all_there_is_leaves_room_for_panels() -> None:
+    """It had twelve entries below each other, and nearly a third of the height."""
+    _, bottom = own_panels(with_all_there_is(), COLUMN, highest=150)
+    legend = bottom.get_legend()
+    figure = bottom.figure
+    assert len(legend.get_texts()) >= 9
+    assert legend.get_window_extent().height <= MOST_OF_LEGEND * figure.bbox.height
+    assert_fit_for_print(figure)
+
+
+def test_a_reader_gives_an_entry_of_several_lines_other_words() -> None:
+    study = with_all_there_is()
+    said = "3 crossings: 1 needs steps of 0.04 rad/s, 1 needs a wider scan"
+    _, bottom = own_panels(study, PAGE, labels={said: "crossings"})
+    assert "crossings" in [text.get_text() for text in bottom.get_legend().get_texts()]
+
+
+def rings_of(rates: list[float]) -> set[float]:
+    """The rates that a diagram has rings at."""
+    study = campbell_study().isel(Omega=slice(0, len(rates)))
+    study["growth_rate"][:] = rates
+    _, bottom = dm.plot_campbell(study)
+    found = set[float]()
+    for line in bottom.lines:
+        if line.get_markerfacecolor() == "white":
+            found |= {*np.ravel(line.get_ydata()).tolist()}
+    return found
+
+
+def test_a_smooth_curve_of_large_rates_has_no_ring() -> None:
+    """Of a disc that squeals, each point had one: any step over 0.1/s was open."""
+    assert not rings_of([6.0, 7.0, 8.5, 10.0, 11.0, 11.5, 11.0])
+
+
+def test_a_jump_of_small_rates_has_a_ring() -> None:
+    assert rings_of([-0.05, -0.05, -0.05, 0.2, -0.05, -0.05]) == {0.2}
