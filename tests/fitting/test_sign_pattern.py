@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.fitting.sign_pattern import sign_pattern
+from disc_model.fitting.measured import sign_pattern
 
 SPEEDS = np.linspace(5.0, 30.0, 16)  # rad/s
 CASE = dm.Parameters(N=385, Omega=10, c_p=3.0)

@@ -12,11 +12,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.branch_table import has_branches, save_branches
+from disc_model.data.branch_table import save_table
 from disc_model.data.complex_parts import joined, with_parts
 from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.data.matlab import load_mat, save_mat
-from disc_model.data.point_table import save_points
 from disc_model.data.tables import check_suffix
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.parameters import Disc
@@ -91,17 +90,9 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
         parts = {path: with_parts(group) for path, group in groups.items()}
         dataset.save(xr.DataTree.from_dict(parts), file)
     elif file.suffix == TABLE:
-        _save_table(_only(groups), file)
+        save_table(_only(groups), file)
     else:
         save_mat(groups, file)
-
-
-def _save_table(data: xr.Dataset, file: Path) -> None:
-    """Write a dataset as a table of text: of branches a row for each of their points."""
-    if has_branches(data):
-        save_branches(data, file)
-    else:
-        save_points(with_parts(data), file)
 
 
 def _only(groups: Mapping[str, xr.Dataset]) -> xr.Dataset:

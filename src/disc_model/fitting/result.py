@@ -23,9 +23,8 @@ from disc_model.display import (
     rounded_text,
 )
 from disc_model.fitting.data import dataset_of
-from disc_model.fitting.measured import Measurement
+from disc_model.fitting.measured import Measurement, sign_pattern
 from disc_model.fitting.problem import Problem
-from disc_model.fitting.sign_pattern import sign_pattern
 from disc_model.parameters import Parameters
 
 UNLIKELY = 0.05

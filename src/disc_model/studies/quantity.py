@@ -268,6 +268,19 @@ COME_TO_BY: Mapping[str, str] = MappingProxyType(
     }
 )
 """What a motion has come to, by its outcome."""
+SETTLED_TO_BY: Mapping[str, str] = MappingProxyType(
+    {
+        "quiet": "After the transient, of a motion that comes to the quiet cycle.",
+        "other_cycle": "After the transient, of a motion that comes to another cycle in contact.",
+        "separating": "After the transient, of a motion that comes to a cycle with separations.",
+        "quasi_periodic": "After the transient, of a motion that is quasi-periodic.",
+        "irregular": "After the transient, of a motion that is irregular.",
+        "steady_sliding": "After the transient, of a motion that comes to steady sliding.",
+        "at_rest": "After the transient, of a motion that comes to permanent stick.",
+        "undecided": "After the transient, of a motion that has not shown what it comes to.",
+    }
+)
+"""What a stored motion is, by the kind that the samples of its point have."""
 NUMBERS = tuple(
     name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
 )

@@ -1,7 +1,5 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-from collections.abc import Mapping
-from types import MappingProxyType
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
@@ -15,6 +13,7 @@ from disc_model.simulation.case import Poincare, Start
 from disc_model.stability.thresholds import FIRST_LEG
 from disc_model.studies.quantity import (
     MOST,
+    SETTLED_TO_BY,
     STATUS,
     Arrival,
     Coordinate,
@@ -26,19 +25,6 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
-COMES_TO: Mapping[str, str] = MappingProxyType(
-    {
-        "quiet": "After the transient, of a motion that comes to the quiet cycle.",
-        "other_cycle": "After the transient, of a motion that comes to another cycle in contact.",
-        "separating": "After the transient, of a motion that comes to a cycle with separations.",
-        "quasi_periodic": "After the transient, of a motion that is quasi-periodic.",
-        "irregular": "After the transient, of a motion that is irregular.",
-        "steady_sliding": "After the transient, of a motion that comes to steady sliding.",
-        "at_rest": "After the transient, of a motion that comes to permanent stick.",
-        "undecided": "After the transient, of a motion that has not shown what it comes to.",
-    }
-)
-"""What a stored motion is, by the kind that the samples of its point have."""
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
 
 
@@ -73,7 +59,7 @@ class Bifurcation(Start, Quantity):
     )
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
-    motion_by: ClassVar = COMES_TO
+    motion_by: ClassVar = SETTLED_TO_BY
     COLUMNS: ClassVar = {
         "status": STATUS,
         **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
