@@ -8,9 +8,15 @@ import numpy as np
 import pytest
 
 from disc_model import ParameterError, Parameters
-from disc_model.stability.continuation import CycleProblem, StepControl, continue_cycle
+from disc_model.stability.continuation import (
+    CycleProblem,
+    StepControl,
+    continue_cycle,
+    special_point,
+)
 from disc_model.stability.continuation.curve import Rejected, solve
 from disc_model.stability.cycle import bifurcation_type
+from disc_model.stability.segments import Extremes
 from tests.refusals import refusal
 from tests.stability.continuation.toy_maps import (
     PERIOD,
@@ -27,6 +33,16 @@ from tests.stability.continuation.toy_maps import (
 )
 
 P = Parameters(N=300, Omega=15)
+
+
+@pytest.fixture(autouse=True)
+def extremes_are_known(monkeypatch):
+    """Points of these maps are no states of a slider, whose height would be simulated."""
+
+    def extremes(*_: object) -> Extremes:
+        return Extremes(-1e-6, 1e-6)
+
+    monkeypatch.setattr(special_point, "extremes_of_cycle", extremes)
 
 
 @pytest.fixture
