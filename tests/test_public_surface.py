@@ -100,7 +100,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         {"quantity": "period", "value": 1.0, "uncertainty": 1.0},
         {"value": "negative"},
     ),
-    (dm.plot_branches, {"swept": BRANCHES}, PICTURE),
+    (dm.plot_branches, {"swept": BRANCHES}, PICTURE | {"looks": "None"}),
     (
         dm.plot_sweep,
         {"study": GRID},
@@ -124,7 +124,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (RUN.plot_poincare, {}, PICTURE | {"window": "None"}),
     *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
-    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, PICTURE),
+    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, PICTURE | {"looks": "None"}),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
     (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),
