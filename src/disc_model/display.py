@@ -227,3 +227,10 @@ def _console() -> Any:
     if console.is_jupyter and find_spec("ipywidgets") is None:
         return Console(stderr=True, force_jupyter=False, force_terminal=True, width=NOTEBOOK)
     return console
+
+
+def frequencies_text(frequencies: Sequence[float]) -> str:
+    """The range of the frequencies of a disc, given in rad/s, in Hz."""
+    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
+    extent = low if low == high else f"{low} to {high}"
+    return f"{extent} Hz"

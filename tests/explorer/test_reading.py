@@ -34,11 +34,15 @@ def test_the_page_says_what_a_motion_is(opened: Open, word: str) -> None:
     code = OUTCOMES.split().index(word)
     study["outcome"] = study["outcome"].copy(data=np.full(study["outcome"].shape, code, np.int8))
     study["outcome"].attrs = flagged(OUTCOMES)
-    quantity = quantity_of("outcome")
+    assert sentence(opened, study, "outcome").endswith(f" {SENTENCES[word]}")
+
+
+def sentence(opened: Open, study: xr.Dataset, name: str) -> str:
+    """What the page says of the motion at the point that is shown, as of a study of a quantity."""
+    quantity = quantity_of(name)
     stated = Stated(quantity.motion, motion_by=quantity.motion_by)
     with opened([contents_of("plane", study, motions(), stated)]) as shown:
-        said = shown.text("motion-note")
-    assert said.endswith(f" {SENTENCES[word]}")
+        return str(shown.text("motion-note"))
 
 
 KINDS = "failed quiet separating irregular"
@@ -51,11 +55,8 @@ def test_the_page_says_what_a_motion_comes_to_after_its_transient(opened: Open, 
     code = KINDS.split().index(word)
     study["kind"] = study["status"].copy(data=np.full(study["status"].shape, code, np.int8))
     study["kind"].attrs = flagged(KINDS)
-    quantity = quantity_of("bifurcation")
-    stated = Stated(quantity.motion, motion_by=quantity.motion_by)
-    with opened([contents_of("plane", study, motions(), stated)]) as shown:
-        said = shown.text("motion-note")
-    assert said.endswith(quantity.motion_by[word])
+    said = sentence(opened, study, "bifurcation")
+    assert said.endswith(quantity_of("bifurcation").motion_by[word])
 
 
 def test_every_word_of_what_a_motion_comes_to_has_its_sentence() -> None:

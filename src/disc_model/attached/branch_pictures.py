@@ -6,7 +6,7 @@ import warnings
 from typing import TYPE_CHECKING, Any
 
 from disc_model.attached.drawing import draw
-from disc_model.data.swept_branches import OF_SWEEPS, is_of_sweep, points_of_sweep
+from disc_model.data.swept_branches import OF_SWEEPS, has_failed, is_of_sweep, points_of_sweep
 from disc_model.errors import Fault, ParameterError, require
 
 if TYPE_CHECKING:
@@ -57,8 +57,8 @@ def plot_branches(
 
     _refuse_others(swept)
     points = [*points_of_sweep(swept)]
-    whole = [point for point in points if not _has_failed(point)]
-    failed = [_name_of(point, swept) for point in points if _has_failed(point)]
+    whole = [point for point in points if not has_failed(point)]
+    failed = [_name_of(point, swept) for point in points if has_failed(point)]
     *before, last = whole
     options: dict[str, Any] = {"legend": legend, "title": title, "looks": looks}
     for point in before:
@@ -81,11 +81,6 @@ def _refuse_others(swept: Any) -> None:
         rule = f"must have a branch, but all of its points failed, the first with {message}"
         raise ParameterError(Fault(("swept",), "", rule))
     require((is_of_sweep(swept), "swept", swept, "must be a sweep of continue_cycle"))
-
-
-def _has_failed(point: xr.Dataset) -> bool:
-    """Whether a point of a sweep has no branch."""
-    return bool(point["status"].item() == "failed")
 
 
 def _varying(swept: xr.Dataset) -> list[str]:

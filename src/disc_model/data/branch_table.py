@@ -13,6 +13,7 @@ from disc_model.data.complex_parts import with_parts
 from disc_model.data.point_table import save_points, table_of, write_table
 from disc_model.data.swept_branches import (
     branch_of_sweep,
+    has_failed,
     is_of_sweep,
     name_beside,
     points_of_sweep,
@@ -137,7 +138,7 @@ def _table_of_point(point: xr.Dataset) -> pd.DataFrame:
     """The rows of a point of a sweep, which begin with its place along the axes and its status."""
     said = [name for name in OF_POINT if name in point]
     place = table_of(point[said])
-    if point["status"].item() == "failed":
+    if has_failed(point):
         return place
     own = branch_of_sweep(point)
     branch = _table_of_branch(own.assign_coords(point=np.arange(own.sizes["point"])))

@@ -64,11 +64,16 @@ def selected_text(data: xr.Dataset, name: str) -> str:
     return f"{name}.isel({chosen})" if dims else name
 
 
+def has_failed(point: xr.Dataset) -> bool:
+    """Whether a point of a sweep has no branch."""
+    return bool(point["status"].item() == "failed")
+
+
 def refuse_failed(data: object) -> None:
     """Raise `ParameterError` for a point of a sweep that has failed, with its message."""
     if not isinstance(data, xr.Dataset) or not OF_SWEEPS.issubset(data.variables):
         return
-    if data["status"].size == 1 and data["status"].item() == "failed":
+    if data["status"].size == 1 and has_failed(data):
         rule = f"must be a branch, but this point of the sweep failed: {data['message'].item()}"
         raise ParameterError(Fault(("data",), "", rule))
 

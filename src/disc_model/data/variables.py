@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, get_args
 import numpy as np
 from numpy.typing import NDArray
 
-from disc_model.display import counted
+from disc_model.display import counted, frequencies_text
 from disc_model.errors import Status, StatusBase
 from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import RATIOS, Parameters
@@ -330,13 +330,6 @@ def _disc_text(frequencies: Sequence[float | None]) -> str:
     if len(known) < len(frequencies):
         return counted_modes
     return f"{counted_modes} of {frequencies_text(known)}"
-
-
-def frequencies_text(frequencies: Sequence[float]) -> str:
-    """The range of the frequencies of a disc, given in rad/s, in Hz."""
-    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
-    extent = low if low == high else f"{low} to {high}"
-    return f"{extent} Hz"
 
 
 def values_text(

@@ -14,7 +14,7 @@ import numpy as np
 
 from disc_model.disc.plate import are_elsewhere, mode_arrays, shapes_at_slider
 from disc_model.disc.thin_plate import shortest_wave
-from disc_model.display import counted
+from disc_model.display import counted, frequencies_text
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Disc, Parameters
 
@@ -250,7 +250,7 @@ def _alone(disc: Disc) -> str:
 
 def _mixed(disc: Disc) -> str:
     """Two groups of frequencies that would be one if the lower ones were in kHz."""
-    ordered = np.sort(disc.omega) / math.tau
+    ordered = np.sort(disc.omega)
     if len(ordered) < 2 or _alone(disc):
         return ""
     gaps = ordered[1:] / ordered[:-1]
@@ -258,14 +258,9 @@ def _mixed(disc: Disc) -> str:
     low, high = np.split(ordered, [widest + 1])
     if gaps[widest] < WIDE or 1000 * low[-1] < high[0] / 3 or 1000 * low[0] > 3 * high[-1]:
         return ""
-    text = f"frequencies of the disc lie far apart, {_extent(low)} Hz and {_extent(high)} Hz: "
+    groups = f"{frequencies_text(low.tolist())} and {frequencies_text(high.tolist())}"
+    text = f"frequencies of the disc lie far apart, {groups}: "
     return f"{text}some seem to be in kHz among others in Hz"
-
-
-def _extent(values: np.ndarray) -> str:
-    """The least and the greatest of some values in order."""
-    low, high = (f"{value:.4g}" for value in (values[0], values[-1]))
-    return low if low == high else f"{low} to {high}"
 
 
 def _modal_mass(disc: Disc) -> str:

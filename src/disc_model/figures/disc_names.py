@@ -3,8 +3,7 @@
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from disc_model.data.variables import frequencies_text
-from disc_model.display import counted
+from disc_model.display import counted, frequencies_text
 from disc_model.modal_disc import Disc
 from disc_model.parameters import DEFAULTS, PLATE
 

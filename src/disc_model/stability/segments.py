@@ -93,12 +93,6 @@ class Extremes(NamedTuple):
         return self.u_max - self.u_min
 
 
-def range_of_cycle(p: Parameters, state: State, period: float) -> float:
-    """Range of the slider's height over a period (s) from a state of a cycle, m; nan if it cannot be
-    simulated."""
-    return extremes_of_cycle(p, state, period).range
-
-
 def extremes_of_cycle(p: Parameters, state: State, period: float) -> Extremes:
     """Extremes of the slider's height over a period (s) from a state of a cycle; nan if it cannot be
     simulated."""

@@ -674,6 +674,3 @@ def _normalizations(grid: GridStudy) -> set[str]:
     """The normalisations of the modes in a grid."""
     values = grid.values.get(NORM, ((grid.base.get(NORM),),))
     return {str(value) for (value,) in values}
-
-
-# ---- What a finished run says

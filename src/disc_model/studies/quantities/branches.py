@@ -190,11 +190,11 @@ class _Found:
     def follow(self, cycle: FloquetResult, *, reached: bool) -> None:
         """Continue a cycle in both directions, unless a known branch passes there: the one near the
         static start, or one that a motion reached."""
-        from disc_model.stability.segments import range_of_cycle
+        from disc_model.stability.segments import extremes_of_cycle
 
         assert cycle.state is not None
         value = cycle.parameters.numbers[self.options.parameter]
-        size = range_of_cycle(cycle.parameters, cycle.state, cycle.period)
+        size = extremes_of_cycle(cycle.parameters, cycle.state, cycle.period).range
         known = any(_passes(row, value, cycle.period, size) for row in self.rows)
         if known:
             return
