@@ -36,7 +36,8 @@ class Outcome(enum.StrEnum):
     STEADY_SLIDING = "steady_sliding"  # steady sliding
     AT_REST = "at_rest"  # the slider stuck to the disc for good
     UNDECIDED = "undecided"  # none of these could be shown
-    GROWING = "growing"  # in contact at the horizon, after a departure from an unstable cycle
+    # in contact at the horizon, after a departure from an unstable cycle or from unstable sliding
+    GROWING = "growing"
     SEPARATION = (
         "separation"  # contact is lost before the horizon, and the later motion is not examined
     )

@@ -27,8 +27,8 @@ from disc_model.stability.linear_motion import (
     find_cycle_near,
 )
 from disc_model.stability.return_map import Array, Passage, ReturnMap
-from disc_model.stability.segments import Segment, segment_of, shares, simulate_leg
-from disc_model.stability.sliding_motion import approaches_sliding
+from disc_model.stability.segments import Segment, segment_of, shares, simulate_leg, slips_on
+from disc_model.stability.sliding_motion import approaches_sliding, departs_from_sliding
 
 
 @dataclass(frozen=True, eq=False)
@@ -196,6 +196,7 @@ class _OutcomeSearch:
     leg : s, length of the next simulated leg
     cycle : the cycle that the motion follows in the stage `NEAR_CYCLE`
     departed_from : the last unstable cycle that the motion has followed
+    leaves_sliding : whether the motion has been seen to depart from unstable steady sliding
     expected_cycle : an unstable cycle near the static start, until the motion follows it
     horizon : s, at which the search ends; beyond that of the options after an extrapolation, as far
         as its error may reach
@@ -216,6 +217,7 @@ class _OutcomeSearch:
         self.leg = thresholds.FIRST_LEG
         self.cycle: NearCycle | None = None
         self.departed_from: NearCycle | None = None
+        self.leaves_sliding = False
         self.expected_cycle: NearCycle | None = None
         self.horizon = options.horizon
 
@@ -286,7 +288,8 @@ class _OutcomeSearch:
 
         # the horizon: nothing was proven within it
         if result.time >= self.horizon:
-            grows = self.departed_from is not None or growing(result.changes)
+            departs = self.departed_from is not None or self.leaves_sliding
+            grows = departs or growing(result.changes)
             result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
             return Stage.HORIZON
 
@@ -309,6 +312,10 @@ class _OutcomeSearch:
             result.outcome = equilibrium
             result.near = None
             return Stage.SETTLED
+
+        # unstable steady sliding: the motion departs, and is followed until it comes elsewhere
+        if examined and not self.leaves_sliding:
+            self.leaves_sliding = slips_on(leg) and departs_from_sliding(self.p, leg.final_state)
 
         # the section, if the motion comes to it again in contact: how nearly it repeats there
         if self.map is None:

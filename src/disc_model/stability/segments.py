@@ -153,6 +153,15 @@ def shares(result: Result) -> Shares:
     return Shares(stick / total, slip / total, separation / total, rate)
 
 
+def slips_on(leg: Result) -> bool:
+    """Whether a leg has only slip in its later half. Slip between two sticks, where a motion is
+    linear as well, is shorter than any leg."""
+    statistics = leg.statistics
+    duration = statistics["time_stick"] + statistics["time_slip"] + statistics["time_separation"]
+    later = leg.final_state.time - duration / 2
+    return leg.final_state.phase == "slip" and not np.any(leg.event_rows[:, TIME] > later)
+
+
 def switch_angles(leg: Result) -> Array:
     """Times of releases and losses of contact of a leg, s, and the slider's angles, rad: shape (2,
     n)."""

@@ -27,17 +27,37 @@ _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg
 
 def approaches_sliding(p: Parameters, state: State) -> bool:
     """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
-    predict.
+    predict."""
+    if state.phase != "slip" or not _sliding(p).stable:
+        return False
+    distances = (thresholds.ARRIVED, thresholds.NEAR)
+    return _follows_eigenvalues(p, state, thresholds.TEST_TIMES[-1], distances)
+
+
+def departs_from_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion departs from unstable steady sliding as the eigenvalues there
+    predict, for some seconds or until it has grown by a factor of e."""
+    if state.phase != "slip" or not _sliding(p).growing.size:
+        return False
+    time_of_growth = 1 / _sliding(p).growth_rate
+    first, last = thresholds.TEST_TIMES[-1]
+    shorter = min(1.0, time_of_growth / last)
+    return _follows_eigenvalues(p, state, (shorter * first, shorter * last), (0.0, math.inf))
+
+
+def _follows_eigenvalues(
+    p: Parameters, state: State, times: tuple[float, float], distances: tuple[float, float]
+) -> bool:
+    """Whether a slipping motion follows the linear one about steady sliding at two times (s) from a
+    state on.
+
+    The distances, over the static deflection, are the one within which a motion has arrived, and
+    the largest of the state.
 
     It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
     7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
     """
-    if state.phase != "slip":
-        return False
     sliding = _sliding(p)
-    if not sliding.stable:
-        return False
-
     modes = mode_arrays(p)
     scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
     jacobian = scale[:, None] * sliding.jacobian / scale
@@ -45,8 +65,8 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
         static = p.mu_s * p.N / math.sqrt(p.k_p)
-    least = thresholds.ARRIVED * static
-    if not np.linalg.norm(expected) <= thresholds.NEAR * static:
+    least = distances[0] * static
+    if not np.linalg.norm(expected) <= distances[1] * static:
         return False
 
     # slow to import, and few motions come so near
@@ -55,7 +75,6 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     leading = left_vector(jacobian, np.real)
     parts = list[float]()
     before = 0.0
-    times = thresholds.TEST_TIMES[-1]
     for time in times:
         end = state.time + time
         result = simulate(p, end, tol=thresholds.TEST_TOL, initial_state=state, events=False)
