@@ -4,8 +4,9 @@ two speeds.
 
 A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance,
 it is that of steady sliding, with the difference interpolated. Multiples of the stick-slip frequency have
-crossings between two neighbouring speeds with a cycle only. A speed at which the motion from the
-static start is not near the cycle counts as one without: the cycle there is another.
+crossings between two neighbouring speeds with a cycle only, and none where that frequency jumps from
+one kind of cycle to another. A speed at which the motion from the static start is not near the cycle
+counts as one without: the cycle there is another.
 """
 
 import math
@@ -15,7 +16,8 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, Mask
+from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantity import (
     BESIDE_MOTION,
@@ -189,6 +191,8 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     turns = cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].values
     joined = cell["stick_slip_frequency"].interpolate_na("Omega").values
+    jumps = frequency_jumps(speeds, releases)
+    nowhere = np.zeros_like(jumps)
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
@@ -197,12 +201,12 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
         if np.isfinite(releases).any():
             most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
         halves = np.arange(1, most + 1) / 2
-        lines = [Line("stick_slip", half, half * releases, half * joined) for half in halves]
+        lines = [Line("stick_slip", half, half * releases, half * joined, jumps) for half in halves]
         for l in range(1, int(cell["diameters"].max()) + 1):
-            lines.append(Line("rotation", l, l * turns, l * turns))
+            lines.append(Line("rotation", l, l * turns, l * turns, nowhere))
         for line in lines:
             joined_detuning = of_mode - line.joined
-            for index, part in _changes_of_sign(of_mode - line.frequency):
+            for index, part in _changes_of_sign(of_mode - line.frequency, line.jumps):
                 yield {
                     "Omega": _between(speeds, index, part),
                     "frequency": _between(line.frequency, index, part),
@@ -216,19 +220,20 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
 
 class Line(NamedTuple):
     """A multiple of a frequency over the speed, Hz: where there is one, and joined over gaps, which the
-    window of a crossing may have."""
+    window of a crossing may have; and the steps at which it jumps."""
 
     kind: str
     multiple: float
     frequency: Array
     joined: Array
+    jumps: Mask
 
 
-def _changes_of_sign(detuning: Array) -> Iterator[tuple[int, float]]:
-    """Yield the interval of each change of sign, and the part of it before the change. A zero at a
-    speed belongs to the interval that begins there, if that has another end."""
-    followed = np.append(np.isfinite(detuning[2:]), False)
-    for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+def _changes_of_sign(detuning: Array, jumps: Mask) -> Iterator[tuple[int, float]]:
+    """Yield the interval of each change of sign but jumps, and the part of it before the change. A zero at
+    a speed belongs to the interval that begins there, if that has another end and is no jump."""
+    followed = np.append(np.isfinite(detuning[2:]) & ~jumps[1:], False)
+    for index in np.flatnonzero((detuning[:-1] * detuning[1:] <= 0) & ~jumps):
         before, after = detuning[index : index + 2]
         if before == after or (after == 0 and followed[index]):
             continue
