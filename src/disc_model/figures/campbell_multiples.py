@@ -8,9 +8,10 @@ import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.figures.campbell_crossings import SYMBOLS, UNKNOWN, meeting_of
-from disc_model.figures.campbell_looks import CROSSINGS, crossing_look, multiple_look
-from disc_model.figures.campbell_peaks import Column, followed_frequency
+from disc_model.figures.campbell_looks import CROSSINGS, Crossing, crossing_look, multiple_look
+from disc_model.figures.campbell_peaks import Column, followed_frequency, jumps_of
 from disc_model.figures.drawing import halo, large, sample
+from disc_model.figures.selection import opened
 from disc_model.figures.types import Artist, Axes, Mask
 
 ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a mode
@@ -18,18 +19,26 @@ NAMES_APART = 0.12  # distance of the places of two names, over the range of spe
 NAMES_BESIDE = 3  # such places
 
 
-def draw_multiples(ax: Axes, study: xr.Dataset, multiples: Sequence[int], highest: float) -> None:
+def draw_multiples(ax: Axes, column: Column, multiples: Sequence[int], highest: float) -> None:
     """Draw multiples of the stick-slip frequency over the speed, with their names, and marks where
     modes cross them, up to the highest frequency shown (Hz)."""
+    study = column.study
     releases = followed_frequency(study)
     for place, multiple in enumerate(multiples):
         line = multiple * releases
-        ax.plot(study["Omega"], line, zorder=ABOVE_MODES, **multiple_look())
+        draw_multiple(ax, study, multiple, ABOVE_MODES)
         _name_line(ax, line, f"{multiple} {SYMBOLS[0]}", place, highest)
-    for effect, at_effect in _by_effect(study, multiples, highest).items():
-        speeds = study["crossing_Omega"].values[at_effect]
-        frequencies = study["crossing_frequency"].values[at_effect]
-        ax.plot(speeds, frequencies, **crossing_look(effect))
+    for crossing, there in _by_mark(column, multiples, highest).items():
+        speeds = study["crossing_Omega"].values[there]
+        frequencies = study["crossing_frequency"].values[there]
+        ax.plot(speeds, frequencies, **crossing_look(crossing))
+
+
+def draw_multiple(ax: Axes, study: xr.Dataset, multiple: float, zorder: float) -> None:
+    """Draw a multiple of the stick-slip frequency over the speed, with gaps where it jumps."""
+    line = multiple * followed_frequency(study)
+    pieces = opened(study["Omega"].values, line.values, jumps_of(study))
+    ax.plot(*pieces, zorder=zorder, **multiple_look())
 
 
 def _name_line(ax: Axes, line: xr.DataArray, name: str, place: int, highest: float) -> None:
@@ -47,16 +56,16 @@ def _name_line(ax: Axes, line: xr.DataArray, name: str, place: int, highest: flo
 
 
 def entries_of_crossings(
-    studies: Sequence[xr.Dataset], multiples: Sequence[int], highest: float
+    columns: Sequence[Column], multiples: Sequence[int], highest: float
 ) -> list[Artist]:
-    """Entries of a legend for crossings of multiples that a reader asks for, by their effects."""
-    effects = set[str]()
-    for study in studies:
-        effects |= {*_by_effect(study, multiples, highest)}
+    """Entries of a legend for crossings of multiples that a reader asks for, by their marks."""
+    found = set[Crossing]()
+    for column in columns:
+        found |= {*_by_mark(column, multiples, highest)}
     handles: list[Artist] = []
-    for effect, (_, meaning) in CROSSINGS.items():
-        if effect in effects:
-            handles.append(sample(label=f"crossing: {meaning}", **crossing_look(effect)))
+    for crossing in CROSSINGS:
+        if crossing in found:
+            handles.append(sample(label=f"crossing: {crossing.meaning}", **crossing_look(crossing)))
     return handles
 
 
@@ -72,30 +81,38 @@ def _unmarked_crossings(column: Column, multiples: Sequence[int], highest: float
     study = column.study
     if "crossing_effect" not in study:
         return 0
-    speeds = study["crossing_Omega"].values
-    frequencies = study["crossing_frequency"].values
     known = ~np.isin(flag_names(study["crossing_effect"]), UNKNOWN)
-    unmarked = known & (frequencies <= highest)
-    for marked in _by_effect(study, multiples, highest).values():
+    unmarked = known & (study["crossing_frequency"].values <= highest) & ~_at_peaks(column)
+    for marked in _by_mark(column, multiples, highest).values():
         unmarked &= ~marked
-    for peak in column.peaks:
-        if peak.crossing is not None:
-            speed, frequency = meeting_of(peak.crossing)
-            unmarked &= (speeds != speed) | (frequencies != frequency)
     return int(unmarked.sum())
 
 
-def _by_effect(study: xr.Dataset, multiples: Sequence[int], highest: float) -> dict[str, Mask]:
-    """Crossings of multiples that are shown, by what growth rates do there."""
+def _at_peaks(column: Column) -> Mask:
+    """Crossings at peaks of growth, which have the mark of their peak."""
+    speeds = column.study["crossing_Omega"].values
+    frequencies = column.study["crossing_frequency"].values
+    found = np.zeros(speeds.shape, dtype=bool)
+    for peak in column.peaks:
+        if peak.crossing is not None:
+            speed, frequency = meeting_of(peak.crossing)
+            found |= (speeds == speed) & (frequencies == frequency)
+    return found
+
+
+def _by_mark(column: Column, multiples: Sequence[int], highest: float) -> dict[Crossing, Mask]:
+    """Crossings of multiples that are shown and at no peak, by their marks."""
+    study = column.study
     if not multiples or "crossing_effect" not in study:
         return {}
     of_slips = flag_names(study["crossing_line"]) == "stick_slip"
     asked_for = np.isin(study["crossing_multiple"].values, multiples)
     shown = of_slips & asked_for & (study["crossing_frequency"].values <= highest)
+    shown &= ~_at_peaks(column)
     effects = flag_names(study["crossing_effect"])
     found = {}
-    for effect in CROSSINGS:
-        at_effect = shown & (effects == effect)
-        if at_effect.any():
-            found[effect] = at_effect
+    for crossing in CROSSINGS:
+        there = shown & np.isin(effects, crossing.effects)
+        if there.any():
+            found[crossing] = there
     return found
