@@ -559,6 +559,17 @@ def test_the_figure_of_a_study_takes_multiples() -> None:
     assert_fit_for_print(figure)
 
 
+def test_names_of_multiples_stand_clear_of_modes() -> None:
+    """A name stood on the line of a mode, and on the mark of a crossing."""
+    study = campbell_study()
+    near_end = study["Omega"] > 15
+    doubled = 2 * study["stick_slip_frequency"]
+    study["sliding_frequency"][:, 1] = xr.where(near_end, doubled + 1, doubled + 30)
+    top, _ = dm.plot_campbell(study, multiples=[2])
+    [name] = [text for text in top.texts if text.xy[1] in doubled.values]
+    assert name.xy[0] <= 15
+
+
 @pytest.mark.parametrize("multiples", [2, [0], [2.5], [True], "2"])
 def test_what_are_no_multiples_is_refused(multiples: Any) -> None:
     with refusal("must be whole numbers > 0, such as"):

@@ -12,11 +12,13 @@ from disc_model.figures.campbell_looks import CROSSINGS, Crossing, crossing_look
 from disc_model.figures.campbell_peaks import Column, followed_frequency, jumps_of
 from disc_model.figures.drawing import halo, large, sample
 from disc_model.figures.selection import opened
-from disc_model.figures.types import Artist, Axes, Mask
+from disc_model.figures.types import Array, Artist, Axes, Indices, Mask
 
 ABOVE_MODES = 2.5  # zorder of multiples, which may lie on the thick line of a mode
 NAMES_APART = 0.12  # distance of the places of two names, over the range of speeds
-NAMES_BESIDE = 3  # such places
+NAMES_BESIDE = 3  # such places of neighbouring lines
+MOST_PLACES = 7  # such places that a name may have
+CLEAR = 0.04  # of the axis, least distance of a name from modes
 
 
 def draw_multiples(ax: Axes, column: Column, multiples: Sequence[int], highest: float) -> None:
@@ -27,7 +29,7 @@ def draw_multiples(ax: Axes, column: Column, multiples: Sequence[int], highest: 
     for place, multiple in enumerate(multiples):
         line = multiple * releases
         draw_multiple(ax, study, multiple, ABOVE_MODES)
-        _name_line(ax, line, f"{multiple} {SYMBOLS[0]}", place, highest)
+        _name_line(ax, study, line, f"{multiple} {SYMBOLS[0]}", place, highest)
     for crossing, there in _by_mark(column, multiples, highest).items():
         speeds = study["crossing_Omega"].values[there]
         frequencies = study["crossing_frequency"].values[there]
@@ -41,18 +43,37 @@ def draw_multiple(ax: Axes, study: xr.Dataset, multiple: float, zorder: float) -
     ax.plot(*pieces, zorder=zorder, **multiple_look())
 
 
-def _name_line(ax: Axes, line: xr.DataArray, name: str, place: int, highest: float) -> None:
-    """Write the name of a multiple on its line, near the last speed at which it is shown; names of lines
-    that may be near each other stand at different places."""
+def _name_line(
+    ax: Axes, study: xr.Dataset, line: xr.DataArray, name: str, place: int, highest: float
+) -> None:
+    """Write the name of a multiple on its line, near the last speed at which it is shown, and clear of
+    modes and of the marks on them if it can; names of lines that may be near each other stand at
+    different places."""
     shown = np.flatnonzero(line.values <= highest)
     if not shown.size:
         return
     speeds = line["Omega"].values[shown]
-    back = NAMES_APART * (place % NAMES_BESIDE) * np.ptp(speeds)
-    at = shown[np.abs(speeds - (speeds.max() - back)).argmin()]
+    modes = study["sliding_frequency"]
+    clearance = abs(modes - line).min("mode").values / highest
+    at = _clear_place(shown, speeds, clearance, place % NAMES_BESIDE)
     anchor = (float(line["Omega"][at]), float(line[at]))
     look: dict[str, Any] = {"ha": "right", "va": "center", "fontsize": large(6)}
     ax.annotate(name, anchor, (-2, 0), textcoords="offset points", path_effects=halo(), **look)
+
+
+def _clear_place(shown: Indices, speeds: Array, clearance: Array, first: int) -> int:
+    """The place of a name among those of a line that are shown: the first one back from the end that is
+    clear of modes, or else the clearest.
+
+    first : how many places from the end are left to other names
+    """
+    backs = NAMES_APART * np.ptp(speeds) * np.arange(first, MOST_PLACES)
+    nearest = [int(np.abs(speeds - (speeds.max() - back)).argmin()) for back in backs]
+    places = shown[nearest]
+    clear = places[clearance[places] > CLEAR]
+    if clear.size:
+        return int(clear[0])
+    return int(places[clearance[places].argmax()])
 
 
 def entries_of_crossings(
