@@ -96,3 +96,10 @@ def test_a_crossing_at_the_last_speed_before_a_jump_is_found() -> None:
     at_last = made_up(stick_slip_frequency=np.where(SPEEDS > MEETING + 0.001, 130.0, 10 * SPEEDS))
     [crossing] = found_crossings(at_last)
     assert crossing[0] == pytest.approx(MEETING)
+
+
+def test_growth_rates_are_not_compared_over_a_jump() -> None:
+    """The rate falls there to that of another kind of cycle, which said nothing of the crossing."""
+    beyond = SPEEDS > MEETING + 0.035
+    frequency = np.where(beyond, 130.0, 10 * SPEEDS)
+    assert effects(made_up(stick_slip_frequency=frequency)) == ["unresolved"]

@@ -49,8 +49,9 @@ EFFECTS = (
     "beyond_scan",
 )
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
-there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window; the
-motion is not near the cycle somewhere in the window; or the window goes beyond an end of the axis."""
+there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window, or the
+stick-slip frequency jumps in it; the motion is not near the cycle somewhere in the window; or the window goes beyond an
+end of the axis."""
 LEAST_SPEEDS = 3
 """Least number of speeds in a window by which the effect of a crossing is known."""
 OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_growth_rate")
@@ -127,7 +128,7 @@ class Campbell(Quantity):
         "crossing_effect": _crossing(
             "1",
             "what the growth rates do in the window; beyond_scan where it leaves the scan, unresolved "
-            "where it has too few speeds",
+            "where it has too few speeds, or the stick-slip frequency jumps",
             EFFECTS,
         ),
         "crossing_step": _crossing(
@@ -186,12 +187,12 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     away = cell["near_motion"] == 0
     cell = cell.assign({name: cell[name].where(~away) for name in OF_CYCLE})
     growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
-    rates = Rates(growth, cell["growth_rate"].values, away.values)
     speeds = cell["Omega"].values
     turns = cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].values
     joined = cell["stick_slip_frequency"].interpolate_na("Omega").values
     jumps = frequency_jumps(speeds, releases)
+    rates = Rates(growth, cell["growth_rate"].values, away.values, jumps)
     nowhere = np.zeros_like(jumps)
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
@@ -268,11 +269,13 @@ def frequency_of(mode: Dataset) -> Array:
 
 class Rates(NamedTuple):
     """Growth rates over the speed: of the modes, shape (speeds, modes), and of the cycle, (speeds,);
-    nan without a cycle, and where the motion is away from it."""
+    nan without a cycle, and where the motion is away from it; and the steps over which the stick-slip
+    frequency jumps."""
 
     growth: Array
     leading: Array
     away: Array
+    jumps: Mask
 
     def missing(self, speeds: slice) -> str:
         """The effect of a crossing where some of these speeds have no cycle near the motion."""
@@ -282,7 +285,7 @@ class Rates(NamedTuple):
 def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
     rates in the window, compared with those at its ends."""
-    growth, leading, _ = rates
+    growth, leading, _, jumps = rates
     beside = slice(index, index + 2)
     if not np.isfinite(leading[beside]).all():
         return {"effect": rates.missing(beside)}
@@ -303,7 +306,7 @@ def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> d
         return {"effect": "beyond_scan", "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
-    if not np.isfinite(rises).any():
+    if jumps[first:last].any() or not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
     mode = int(np.nanargmax(rises))
     rise = float(np.nanmax(rises))
