@@ -135,6 +135,13 @@ class Page:
         check_axes(self.axes, panels, self.asked)
         self.shown = panels
 
+    def remove(self, ax: Axes) -> None:
+        """Remove a panel that is not needed from a new figure, before anything is drawn."""
+        place = self.axes.index(ax)
+        for listed in (self.axes, self._before, self._labelled):
+            del listed[place]
+        ax.remove()
+
     def keep_labels(self) -> None:
         """Give axes the labels of their reader back."""
         for ax, labels in zip(self.axes, self._labelled, strict=True):
