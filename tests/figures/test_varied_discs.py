@@ -1,6 +1,9 @@
 """Titles of what is computed over a frequency of a disc given by its modes."""
 
+from pathlib import Path
+
 import pytest
+from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.data.variables import axis_of, unit_of_parameter
@@ -8,6 +11,7 @@ from disc_model.figures.head_texts import head_text, what_case
 from disc_model.figures.stated_case import stated
 from disc_model.figures.sweep_titles import values_of
 from disc_model.mode_units import si_unit_of_mode
+from tests.figures.reading import draw
 
 DISC = dm.Disc.from_csv("config/discs/brake_3_modes.csv")
 PAD = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "m": 0.5}
@@ -35,6 +39,28 @@ def test_a_title_does_not_state_the_frequency_that_varies() -> None:
 def test_a_title_states_a_frequency_that_is_selected() -> None:
     title = swept_title(omega_1_0=["500 Hz"])
     assert "a disc given by 3 modes of 500 to 1212 Hz" in title
+
+
+def test_a_title_states_the_only_disc_of_an_axis() -> None:
+    """It was left out, as if the disc were the plate."""
+    assert RANGE in swept_title(disc=[DISC])
+    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC], Omega=[10.0, 20.0])
+    assert RANGE in dm.plot_sweep(swept).figure.get_suptitle()
+    pyplot.close("all")
+
+
+def test_a_study_states_the_only_disc_of_an_axis(tmp_path: Path) -> None:
+    """Its figures and a picture of the dataset left it out."""
+    table = Path("config/discs/brake_3_modes.csv").resolve()
+    base = "{N: 8000, r_0: 0.1, k: 1e6, k_p: 1e6, m: 0.5}"
+    axes = f"{{disc: [{table}], Omega: [10, 20]}}"
+    file = tmp_path / "one.yaml"
+    file.write_text(f"study: one\nquantity: floquet\nbase: {base}\naxes: {axes}\n")
+    study = dm.run_study(file)
+    assert RANGE in dm.plot_sweep(study).figure.get_suptitle()
+    figure = draw("curve", study, variable="growth_rate", x="Omega", width="page")
+    assert "3 modes of 550.8 to 1212 Hz" in figure.get_suptitle().replace("\n", " ")
+    pyplot.close("all")
 
 
 def test_parameters_that_are_counted_are_called_so() -> None:
