@@ -165,9 +165,9 @@ def _refuse_what_is_left_out(call: Call) -> None:
 
 def _searched(call: Call) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
-    mean nothing: of `critical` and `continue_cycle` the one along which they go, of a quantity those
-    of its scan."""
-    if call.ours in ("critical", "continue_cycle"):
+    mean nothing: of `critical`, `continue_cycle` and `hysteresis` the one along which they go, of a quantity
+    those of its scan."""
+    if call.ours in ("critical", "continue_cycle", "hysteresis"):
         return {name for name in call.values_of("name") if isinstance(name, str)}
     if call.ours in quantity_names():
         return {*quantity_of(call.ours).scans}
