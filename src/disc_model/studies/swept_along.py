@@ -29,8 +29,8 @@ def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
     ends = values_in_si(name, bounds, faults, "bounds")
     [length] = values_in_si(name, [step], faults, "step")
     raise_faults(foreign_case(case) or [*free_faults(case, [name]), *faults])
-    shapes = [mode_arrays(case.replace(**{name: end})).psi for end in ends]
-    same = np.allclose(*shapes, rtol=1e-9) if shapes[0].shape == shapes[1].shape else False
+    low, high = (mode_arrays(case.replace(**{name: end})).psi for end in ends)
+    same = low.shape == high.shape and np.allclose(low, high, rtol=1e-9)
     require((same, "name", name, "must be a number that does not change the shapes of the modes"))
     return {"start": ends[0], "stop": ends[1], "step": length}
 
