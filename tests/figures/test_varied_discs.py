@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import pytest
+import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
@@ -11,6 +12,7 @@ from disc_model.figures.head_texts import head_text, what_case
 from disc_model.figures.stated_case import stated
 from disc_model.figures.sweep_titles import values_of
 from disc_model.mode_units import si_unit_of_mode
+from disc_model.studies.registry import quantity_of
 from tests.figures.reading import draw
 
 DISC = dm.Disc.from_csv("config/discs/brake_3_modes.csv")
@@ -84,3 +86,34 @@ def test_numbers_of_modes_have_one_unit_in_pictures_and_texts(name: str) -> None
     label, _ = axis_of(name)
     assert label.endswith(f"({unit_of_parameter(name)})")
     assert unit_of_parameter(name) == si_unit_of_mode(name)
+
+
+def test_names_of_discs_along_an_axis_leave_the_panel_its_room() -> None:
+    """They were turned, and took more height than the panel; the label of the axis was cut."""
+    other = dm.Disc(**{**DISC.model_dump(), "omega": [1.1 * omega for omega in DISC.omega]})
+    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC, other])
+    ax = dm.plot_sweep(swept, "growth_rate")
+    ax.figure.canvas.draw()
+    assert ax.get_xlabel() == "Disc"
+    assert [label.get_rotation() for label in ax.get_xticklabels()] == [0, 0]
+    assert ax.get_xticklabels()[0].get_text().startswith("disc 1: 3 modes")
+    assert ax.get_position().height > 0.4
+    pyplot.close("all")
+
+
+def test_kinds_of_motion_along_an_axis_have_names() -> None:
+    """They were "stick_slip" there, and "stick-slip cycle" in a legend."""
+    axes = {"kind": ["stick_slip", "sliding"], "N": [100.0, 200.0]}
+    study = xr.Dataset({"value": ([*axes], [[1.0, 2.0], [3.0, 4.0]])}, axes)
+    ax = dm.plot_sweep(study, "value", x="kind")
+    ax.figure.canvas.draw()
+    names = [label.get_text() for label in ax.get_xticklabels()]
+    assert names == ["stick-slip cycle", "steady sliding"]
+    pyplot.close("all")
+
+
+def test_tangential_amplitudes_are_numbers_of_studies_too() -> None:
+    """Studies of steady sliding along one were refused."""
+    scan = {"start": -0.2, "stop": 0.2, "count": 3}
+    quantity = quantity_of("sliding")(parameter="tangential_1_0", scan=scan)
+    assert quantity.units == "kg^-1/2"

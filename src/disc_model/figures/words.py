@@ -51,6 +51,7 @@ SHORT = {
     "outcome": "outcome",
     "scan_outcome": "outcome",
     "critical_speed": "critical speed",
+    "disc": "disc",
     "horizon": "horizon",
     "mode": "mode",
     "onset_speed": "speed at separation onset",

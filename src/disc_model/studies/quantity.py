@@ -282,7 +282,9 @@ SETTLED_TO_BY: Mapping[str, str] = MappingProxyType(
 NUMBERS = tuple(
     name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
 )
-_FREE = re.compile("|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+"]))
+_FREE = re.compile(
+    "|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+"])
+)
 Free = Annotated[
     str,
     AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case")),
