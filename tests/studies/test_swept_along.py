@@ -78,3 +78,14 @@ def test_a_sweep_of_the_speed_is_as_before() -> None:
 def test_what_cannot_be_swept_is_said(name: str, bounds: object, step: object, rule: str) -> None:
     with refusal(rule):
         dm.hysteresis(CASE, bounds, name=name, step=step, **STAYS)
+
+
+@pytest.mark.compiled
+def test_both_edges_of_a_number_without_a_unit_share_an_axis() -> None:
+    """They were refused beside each other."""
+    case = CASE.replace(mu_k=0.2)
+    options = {"name": "mu_s", "step": 0.06, **STAYS}
+    swept = dm.sweep(dm.hysteresis, case, (0.3, 0.42), Omega=[14.0, 15.0], **options)
+    ax = dm.plot_sweep(swept, ["onset", "offset"])
+    assert ax.get_ylabel() == "Static friction"
+    pyplot.close("all")
