@@ -27,8 +27,7 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.settled_motions import calm_points
 from disc_model.figures.types import Array, Axes, Mask
-from disc_model.figures.value_texts import KINDS
-from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured
+from disc_model.figures.words import KINDS, NO_VALUE, WORDS, Measured, measured
 
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 FILLED = 1.9  # order of filled marks, just below that of lines

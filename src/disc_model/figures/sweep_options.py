@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from disc_model.data.variables import stated_in, unit_of_parameter
-from disc_model.figures.value_texts import KINDS
-from disc_model.figures.words import STAYS
+from disc_model.figures.words import KINDS, STAYS
 from disc_model.units import is_number
 
 
