@@ -204,6 +204,10 @@ def test_a_tangential_amplitude_can_be_fitted() -> None:
     found = dm.fit(SQUEAL, ["tangential_2_0"], measured)
     assert found.case.disc.tangential == pytest.approx((0, -0.25, -0.2))
     assert found.to_dataset()["unit"].item() == "kg^-1/2"
+    set_there = [dm.Measurement(tangential, -0.2, 1e-3, at={"damping_ratio_0_0": 0.002})]
+    setting = dm.fit(SQUEAL, ["tangential_2_0"], set_there).to_dataset()["damping_ratio_0_0"]
+    assert setting.units == "1"
+    assert setting.long_name == "damping ratio of the mode of 0 nodal diameters and 0 circles"
     assert "tangential_0_0" not in SQUEAL.numbers
     with pytest.raises(dm.ParameterError, match="friction_offset must be 'surface'"):
         dm.fit(SQUEAL.replace(friction_offset=0), ["tangential_2_0"], measured)

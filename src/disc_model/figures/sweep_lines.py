@@ -3,6 +3,7 @@ calls them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -21,6 +22,8 @@ from disc_model.figures.words import named
 
 CASE = "case"
 """The label by which a reader names all lines of a sweep."""
+EDGE = " at separation (onset|end)$"
+"""What phrases say of a number of a sweep at which separation begins or ends."""
 KINDS = {"Whether ": "Yes or no", "Share of ": "Share"}
 """Names of several variables without a unit, by how their own names begin."""
 OF_UNITS = {"s": "Time", "ms": "Time", "J": "Energy", "Hz": "Frequency", "N": "Force"}
@@ -143,7 +146,17 @@ def kind_of_phrases(phrases: Collection[str]) -> str:
     for beginning, name in KINDS.items():
         if all(phrase.startswith(beginning) for phrase in phrases):
             return name
-    return ""
+    return _swept_number(phrases)
+
+
+def _swept_number(phrases: Collection[str]) -> str:
+    """What all phrases call a number at which separation begins or ends, "" if they are of others."""
+    numbers = {re.sub(EDGE, "", phrase) for phrase in phrases}
+    are_edges = all(re.search(EDGE, phrase) for phrase in phrases)
+    if not are_edges or len(numbers) > 1:
+        return ""
+    number = numbers.pop()
+    return number[0].upper() + number[1:]
 
 
 def common_name(phrases: Sequence[str], unit: str = "") -> str:

@@ -39,6 +39,12 @@ WORDS = {
     "exponential": "exponential friction",
 }
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
+KINDS = {
+    "stick_slip": "stick-slip cycle",
+    "slipping": "cycle that never sticks",
+    "sliding": "steady sliding",
+}
+"""What options and a dimension of them call kinds of motions."""
 OF_MODES = ("n_diameters", "n_circles")
 """Parameters that say how many modes there are."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
@@ -51,6 +57,7 @@ SHORT = {
     "outcome": "outcome",
     "scan_outcome": "outcome",
     "critical_speed": "critical speed",
+    "disc": "disc",
     "horizon": "horizon",
     "mode": "mode",
     "onset_speed": "speed at separation onset",

@@ -74,6 +74,9 @@ def fit(
     or has no such quantity, makes the next step shorter. A time, length or frequency that is a hundred times what the
     case gives at the start, or a hundredth, is an `ImplausibleValue`, since its unit is probably another one.
 
+    Quantities of a cycle are those near the static start. Another of several cycles is measured by a function of the
+    case, as with the last `state` of a simulation: ``lambda case: floquet(case, guess=state, releases=2).period``.
+
     Examples
     --------
     >>> import disc_model as dm

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import Variable, attributes
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.data.variables import Variable, attributes_of_number
 from disc_model.sources import versions_text
 
 if TYPE_CHECKING:
@@ -44,9 +43,7 @@ OF_PARAMETER = {
 
 def dataset_of(found: Critical) -> xr.Dataset:
     """Critical values as a dataset, as `Critical.to_dataset` describes it."""
-    described: dict[str, Any] = {"long_name": found.name}  # as of a mode of a disc
-    if found.name in (*Parameters.model_fields, *RATIOS):
-        described = attributes(found.name)
+    described = attributes_of_number(found.name)
     variables: dict[str, xr.Variable] = {}
     for name, phrase in OF_PARAMETER.items():
         attrs = {**described, "long_name": phrase.format(described["long_name"])}

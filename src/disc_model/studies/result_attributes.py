@@ -6,10 +6,8 @@ from dataclasses import is_dataclass
 from functools import cache
 from typing import Any
 
-from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, attributes_of_number
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.studies.run import describe
 
 
 @cache
@@ -64,11 +62,7 @@ def attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
     if not is_dataclass(type(result)):
         return _of_kind(function).get(name, {})
     if kind == "Critical" and name in OF_PARAMETER:
-        along = result.name
-        parameter = {}
-        # numbers of a disc's modes have no unit here
-        if along in (*Parameters.model_fields, *RATIOS):
-            parameter = describe(along)
-        meaning = parameter.get("long_name", along)
+        parameter = attributes_of_number(result.name)
+        meaning = parameter["long_name"]
         return {**parameter, "long_name": OF_PARAMETER[name].format(meaning)}
     return _of_kind(kind).get(name) or _common().get(name, {})
