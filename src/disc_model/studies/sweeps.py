@@ -81,11 +81,10 @@ def sweep(  # noqa: PLR0913
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
-        (any error if `errors` is "record"), or returned nothing; `message` then says which, and is "" where a result of
-        this package is "ok". Numbers are nan there, words "", whole numbers are real ones, and a variable of True and
-        False, such as `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes are the
-        `function`, its other arguments (`options`), the `parameters` of the case, and the `versions` of disc_model and
-        of what it uses; the last three are in JSON
+        (any error if `errors` is "record"), or returned nothing; `message` then says which, and is "" where all is well.
+        Numbers are nan there, words "", whole numbers are real ones, and a variable of True and False, such as
+        `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes are the `function`, its other
+        arguments (`options`), the case's `parameters`, and the `versions` of what is used; the last three are in JSON
 
     Raises
     ------
