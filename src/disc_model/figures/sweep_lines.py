@@ -7,7 +7,7 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-from weakref import WeakKeyDictionary, ref
+from weakref import ref
 
 import xarray as xr
 
@@ -15,6 +15,7 @@ from disc_model.errors import require
 from disc_model.figures.covered import twins_of
 from disc_model.figures.durations import duration_of
 from disc_model.figures.family import Member, name_in
+from disc_model.figures.kept import Kept
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.sweep_options import function_of, sought_in
 from disc_model.figures.types import Axes
@@ -62,7 +63,7 @@ class Lines:
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
 
-_LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
+_LINES: Kept[list[Lines]] = Kept("lines of sweeps")
 """The lines of sweeps that axes have."""
 
 
