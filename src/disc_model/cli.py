@@ -39,6 +39,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
+from disc_model.without_reader import end_without_reader, go_on_without_reader
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
@@ -501,6 +502,8 @@ def study(
     if dry_run and not unlock:
         _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
+    if not dry_run:
+        go_on_without_reader()  # jobs would stay, and the lock of the folder
     options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
     if dry_run:
         options += DRY
@@ -758,8 +761,9 @@ def _all(
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
-    if arguments is None:
+    if arguments is None:  # in a process of its own
         arguments = sys.argv[1:]
+        end_without_reader()
     if not arguments:
         arguments = ["--help"]
     # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's
