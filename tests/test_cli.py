@@ -215,6 +215,9 @@ def test_one_of_several_tables_is_chosen(command: Command, tmp_path: Path) -> No
     assert advice[2:4] == ["or", "--variables"]
     command.out("convert", str(file), str(target), "--variables", advice[4])
     assert "growth_rate (s-1)" in target.read_text().splitlines()[0]
+    assert "or the folder tables/" in said
+    command.out("convert", str(file), f"{tmp_path}/tables/")
+    assert (tmp_path / "tables" / "crossing.csv").exists()
     some = ("--variables", "growth_rate, stick_slip_frequency")
     command.out("convert", str(file), str(target), *some)
     assert target.read_text().startswith("Omega (rad s-1),growth_rate (s-1),stick_slip_frequency")

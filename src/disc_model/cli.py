@@ -395,8 +395,10 @@ def run(p: Parameters, options: RunOptions) -> None:
 def convert(
     source: Annotated[Path, typer.Argument(help="dataset of a study, or a saved run or sweep")],
     target: Annotated[
-        Path,
-        typer.Argument(help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF"),
+        str,
+        typer.Argument(
+            help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF; tables/ for all tables in a folder"
+        ),
     ],
     variables: Annotated[
         str,
@@ -409,18 +411,20 @@ def convert(
 ) -> None:
     """Write a dataset in another format, such as results/s/s.nc for MATLAB or as a table."""
     from disc_model.data.exchange import TABLE, WRITTEN, load, save
+    from disc_model.data.text_tables import names_folder
 
-    try:
-        _of_suffix(target, WRITTEN)
-    except ValueError as error:
-        raise ParameterError(Fault.of(("TARGET",), str(target), str(error))) from None
+    if not names_folder(target):
+        try:
+            _of_suffix(Path(target), WRITTEN)
+        except ValueError as error:
+            raise ParameterError(Fault.of(("TARGET",), target, str(error))) from None
     data = load(source)
     if variables:
         data = _with_variables(data, variables)
-    if target.suffix == TABLE:
+    if target.endswith(TABLE):
         _refuse_several_tables(data)
     save(data, target)
-    print_rows([("saved", str(target))])
+    print_rows([("saved", target)])
 
 
 def _with_variables(data: Any, names: str) -> Any:
@@ -452,6 +456,7 @@ def _refuse_several_tables(data: Any) -> None:
     placed = [str(name) for name in data.data_vars if name not in others]
     if placed:
         choice = f"{choice} or --variables {','.join(placed)}"
+    choice += " or the folder tables/ in place of the file, for all tables"
     rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
     raise ParameterError(Fault(("SOURCE",), "", rule))
 
