@@ -505,7 +505,8 @@ def study(
     _make_folder(directory)
     _find_cache(directory)
     if dry_run and not unlock:
-        _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
+        page = EXPLORER in (target or [])
+        _show_plan(chosen, grids, requested, directory / "results", cores=cores, page=page)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     if not dry_run:
         go_on_without_reader()  # jobs would stay, and the lock of the folder
@@ -592,11 +593,22 @@ def _show_options(grid: GridStudy) -> None:
     table(f"options of the quantity {grid.quantity}", columns, overflow="fold")
 
 
-def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: int) -> None:
-    """Print what there is to compute, how long it may take, and the options of a single grid."""
+def _show_plan(
+    chosen: Study,
+    known: Mapping[str, GridStudy],
+    requested: Sequence[str],
+    results: Path,
+    *,
+    cores: int,
+    page: bool,
+) -> None:
+    """Print what there is to compute, how long it may take, the options of a single grid, and what has
+    changed."""
     from disc_model.studies import plan
     from disc_model.studies.costs import machine_factor
+    from disc_model.studies.fixed_costs import fixed_costs
 
+    grids = [known[name] for name in requested]
     plans = [plan.plan_of(grid, results) for grid in grids]
     if chosen.specs:
         plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
@@ -616,13 +628,27 @@ def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: 
     table(f"plan of {chosen.name}", columns, overflow="fold")
     if len(grids) == 1:
         _show_options(grids[0])
-    seconds = [factor * x for each in plans for x in each.seconds]
+    unfinished = {each.name for each in plans if each.seconds}
+    _show_changes([grid for grid in grids if grid.name in unfinished], results)
+    figures = chosen.entries(known)
+    shown = {key: entry for key, entry in figures.items() if key[0] in (chosen.name, *requested)}
+    fixed = fixed_costs(plans, shown, results, page=page)
+    seconds = [*fixed.jobs, *(x for each in plans for x in each.seconds)]
     if seconds:
-        text = plan.duration_text(plan.time_on(cores, seconds))
+        text = plan.duration_text(factor * (fixed.alone + plan.time_on(cores, seconds)))
         typer.echo(
-            f"Estimated time: {text} on {cores} cores, to a factor of three; kernels that are not"
-            " compiled yet take 10 to 20 s each."
+            f"Estimated time: {text} on {cores} cores, to a factor of three, with the start of jobs and"
+            " figures; kernels that are not compiled yet take 10 to 20 s each."
         )
+
+
+def _show_changes(grids: Sequence[GridStudy], results: Path) -> None:
+    """Print which values of grids differ from those of their results."""
+    from disc_model.studies.changed_values import changes_since
+
+    for grid in grids:
+        for change in changes_since(grid, results):
+            typer.echo(f"{grid.name}: changed since the last run: {change}")
 
 
 def _make_folder(directory: Path) -> None:
