@@ -87,9 +87,10 @@ const SWEPT = "direction"; // the dimension of what a sweep has found on its way
 
 /** What the call of a motion shows. A case may hold several motions, such as those after kicks at random. */
 function saidOfCall(study, place) {
-  if (startOf(study, place)) return "The motion of this case from its start, with both as above:";
+  const lines = element("motion-call").textContent;
+  const above = lines.includes("(case,") && !lines.startsWith("case = ") ? ", with the case above" : "";
+  if (startOf(study, place)) return `The motion of this case from its start${above}:`;
   if (view.variable.dims.includes(SWEPT)) return "The motion of this case from the static start; that of the sweep came from the speed before, and may differ:";
-  const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
   return `The motion of this case from the static start${above}:`;
 }
 
@@ -130,8 +131,9 @@ function drawMotion() {
     const top = PANEL.top + n * (each + PANEL.gap);
     const box = { left, right: width - PANEL.right, top, bottom: top + each };
     const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
-    const { label, unit } = traces[n];
-    yAxis(ink, box, axes[n].ticks, vertical, [`${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`]);
+    const { label, unit, origin } = traces[n];
+    const head = `${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`;
+    yAxis(ink, box, axes[n].ticks, vertical, [origin ? `${head}, ${origin}` : head]);
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
     ink.strokeStyle = style("--accent");
     polyline(ink, [...histories[n]].map((x, i) => [horizontal(i), vertical(x)]), true);
@@ -179,6 +181,12 @@ function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
   element("phases").replaceChildren(...seen.filter(Boolean).map(legendEntry));
 }
 
+/** A number of a trace with its unit, and from where it counts. */
+function numberOf(trace, one) {
+  const said = `${trace.label} ${withUnit(number(one), trace.unit)}`;
+  return trace.origin ? `${said} ${trace.origin}` : said;
+}
+
 function hoverMotion(event) {
   if (!motionDrawn) return;
   const { histories, horizontal, last, ms } = motionDrawn;
@@ -187,5 +195,5 @@ function hoverMotion(event) {
   const { traces } = view.study.motions;
   element("motion-hovered").textContent =
     i < 0 || i > last ? "" : [`${number((i / last) * ms, 4)} ms`,
-      ...traces.map((trace, n) => `${trace.label} ${withUnit(number(histories[n][i]), trace.unit)}`)].join(", ");
+      ...traces.map((trace, n) => numberOf(trace, histories[n][i]))].join(", ");
 }
