@@ -238,11 +238,13 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 
 
 def _trace(histories: xr.DataArray) -> dict[str, Any]:
-    """The histories of one variable, in the unit and under the name that figures have."""
+    """The histories of one variable, in the unit and under the name that figures have, and its size, the
+    greatest in any of them."""
     name = str(histories.name)
     label, unit, factor = named(histories)
-    packed_histories = traces(factor * histories.values.astype(float))
-    return {"name": name, "label": lowered(label), "unit": unit, **packed_histories}
+    values = factor * histories.values.astype(float)
+    size = float(np.abs(values).max(initial=0.0))
+    return {"name": name, "label": lowered(label), "unit": unit, "size": size, **traces(values)}
 
 
 def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:
