@@ -301,6 +301,13 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
     return meant
 
 
+def rule_of_choice(name: object, known: Collection[str]) -> str:
+    """The rule that a name breaks which is none of those known, with the most similar one."""
+    rule = f"must be one of {', '.join(known)}"
+    like = suggestion(name, known, all_of_them=False)
+    return f"{rule}{like}" if like.startswith(",") else rule
+
+
 def _path(item: Any, raw: Any) -> tuple[str, ...]:
     """Path of a fault in the input: the steps of pydantic's path that the input has, so not a
     union's branches."""

@@ -618,3 +618,17 @@ def test_panels_of_a_motion_have_two_ticks_or_more(values: list[float], tmp_path
         opened.wait_for(READY)
         ticks = opened.run("return rangeOf(arguments[0]).ticks", values)
     assert len({text for _, text in ticks}) >= 2
+
+
+def test_a_motion_that_stands_still_is_a_flat_line(tmp_path: Path) -> None:
+    """The last of a decay filled its panel."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents(), []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        moves = opened.run("return rangeOf(arguments[0], 30)", [-1e-3, 1e-3])
+        still = opened.run("return rangeOf(arguments[0], 30)", [-1e-7, 1e-7])
+    assert moves["greatest"] < 2e-3
+    assert still["greatest"] == pytest.approx(1.5)
+    assert "1" in [text for _, text in still["ticks"]]

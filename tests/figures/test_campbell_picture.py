@@ -34,7 +34,7 @@ def test_a_campbell_diagram_takes_the_axes_of_a_reader(width: float) -> None:
     figure, axes = pyplot.subplots(2, 1, figsize=(width, 4.6), layout="constrained", sharex=True)
     top, bottom = dm.plot_campbell(campbell_study(), ax=axes, highest=150, title="(a) modes")
     assert [top, bottom] == [*axes]
-    assert top.get_title() == "(a) modes"
+    assert top.get_title(loc="left") == "(a) modes"
     assert top.get_ylim() == (0, 150)
     assert " ".join(top.get_ylabel().split()) == "Frequency in the slider's frame (Hz)"
     assert bottom.get_xlabel() == "Speed Ω (rad/s)"

@@ -241,12 +241,19 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 
 
 def _trace(histories: xr.DataArray) -> dict[str, Any]:
-    """The histories of one variable, in the unit and under the name that figures have, and from where
-    its numbers count, "" where that is clear."""
+    """The histories of one variable, in the unit and under the name that figures have, its size, the
+    greatest in any of them, and from where its numbers count, "" where that is clear."""
     name = str(histories.name)
     label, unit, factor = named(histories)
-    told = {"name": name, "label": lowered(label), "unit": unit, "origin": ORIGINS.get(name, "")}
-    return {**told, **traces(factor * histories.values.astype(float))}
+    values = factor * histories.values.astype(float)
+    told = {
+        "name": name,
+        "label": lowered(label),
+        "unit": unit,
+        "size": float(np.abs(values).max(initial=0.0)),
+        "origin": ORIGINS.get(name, ""),
+    }
+    return {**told, **traces(values)}
 
 
 def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:

@@ -185,7 +185,9 @@ def restate(page: Page, wishes: Wishes) -> None:
         if page.note:
             page.ax.set_title(page.note, loc="left", fontsize=large(8))
     elif not page.own:
-        page.ax.set_title(str(wishes.title or ""))
+        page.ax.set_title("")
+        if wishes.title:  # at the left, in the size of the values of a case that others have there
+            page.ax.set_title(str(wishes.title), loc="left", fontsize=large(8))
     _relabel(page, wishes.labels or {})
     keep_least_span(page.axes)
 

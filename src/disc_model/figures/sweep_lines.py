@@ -97,6 +97,15 @@ def names_asked(labels: Any, variables: Sequence[str]) -> tuple[dict[str, str], 
     return names, {name: text for name, text in labels.items() if name not in variables}
 
 
+OF_INSTABILITY = re.compile(" for (?:instability of|separation)")
+"""How a name begins to say what its values are critical for."""
+
+
+def without_sought(phrase: str, sought: str) -> str:
+    """The name of a variable without what its values are critical for, if other words say this."""
+    return OF_INSTABILITY.split(phrase)[0] if sought else phrase
+
+
 def lines_of(
     study: xr.Dataset, variable: str, labels: tuple[str, str], name: str, case: Mapping[str, Any]
 ) -> Lines:
@@ -109,7 +118,7 @@ def lines_of(
     phrase, unit, _ = named(study[variable])
     duration = duration_of(study, variable)
     sought = sought_in(study)
-    shown = Member(name, {"variable": phrase, "sought": sought, **case})
+    shown = Member(name, {"variable": without_sought(phrase, sought), "sought": sought, **case})
     return Lines(*labels, phrase, unit, duration, shown, function_of(study), sought)
 
 

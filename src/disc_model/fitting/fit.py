@@ -143,7 +143,8 @@ def _search(
         begin = _inside(problem, end.x * problem.scale, limits)
         end, gap = search.run_across_gaps(begin / problem.scale, limits)
     if gap:
-        return Outcome(end, limits, gap, False)
+        alike = search.alike(end)
+        return Outcome(end, limits, gap, False, alike, search.combinations((end,), alike))
     end, is_minimum = search.to_minimum(end, limits)
     indistinct = search.indistinct(end)
     if len(indistinct) > 1:

@@ -95,6 +95,8 @@ function saidOfCall(study, place) {
 }
 
 const PANEL = { gap: 34, top: 20, bottom: 44, right: 12 };
+const STILL = 1e-6; // span over the size of its variable below which a history is a flat line,
+const MARGIN_OF_STILL = 0.05; // and share of this size that is shown on either side
 let motionDrawn = null;
 
 function drawMotion() {
@@ -123,7 +125,7 @@ function drawMotion() {
   const { traces, samples } = study.motions;
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;
   const histories = traces.map((trace) => history(trace, study.motions.points.indexOf(motion), samples));
-  const axes = histories.map((numbers) => rangeOf(numbers));
+  const axes = histories.map((numbers, n) => rangeOf(numbers, traces[n].size));
   const left = Math.max(...axes.map((axis) => widest(ink, axis.ticks))) + 14;
   const last = samples - 1;
   const horizontal = linear(0, last, left, width - PANEL.right);
@@ -153,18 +155,21 @@ const history = (trace, point, samples) =>
     (n) => trace.least[point] + trace.step[point] * n,
   );
 
-/** Axis of a history: its range, a power of ten taken out of its labels, and ticks. */
-function rangeOf(numbers) {
+/** Axis of a history: its range, a power of ten taken out of its labels, and ticks. `size`: the greatest value of all
+ * histories of the variable; one that hardly varies beside it stands still, and is a flat line. */
+function rangeOf(numbers, size = 0) {
   const [low, high] = [Math.min(...numbers), Math.max(...numbers)];
   const middle = Math.max(Math.abs(low), Math.abs(high));
-  // what 16 bits cannot tell from a constant is drawn as one
-  const room = Math.max((high - low) / 15, middle * 1e-9, 1e-300);
+  const greatestSize = Math.max(middle, size);
+  const isStill = high - low <= STILL * greatestSize;
+  const room = Math.max(isStill ? MARGIN_OF_STILL * greatestSize : (high - low) / 15, 1e-300);
   const [least, greatest] = [low - room, high + room];
-  const size = Math.floor(log10(middle || 1));
-  const power = size < -2 || size > 4 ? 3 * Math.floor(size / 3) : 0;
+  const reach = isStill ? Math.max(-least, greatest) : middle;
+  const decade = Math.floor(log10(reach || 1));
+  const power = decade < -2 || decade > 4 ? 3 * Math.floor(decade / 3) : 0;
   let steps = [];
   for (let most = 4; steps.length < 2; most++) steps = roundTicks(least, greatest, most);
-  const digits = Math.max(2, Math.ceil(log10((middle || 1) / (greatest - least))) + 3);
+  const digits = Math.max(2, Math.ceil(log10((reach || 1) / (greatest - least))) + 3);
   return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
 }
 
