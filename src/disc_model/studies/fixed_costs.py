@@ -3,18 +3,18 @@
 Measured as in `disc_model.studies.costs`, with the imports of each.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from pathlib import Path
 from typing import NamedTuple
 
 from disc_model.studies.grid import FigureEntry
 from disc_model.studies.plan import Plan
 
-START = 5.0  # s, of Snakemake, from the command to the first job and after the last one
-BATCH = 2.5  # s, of Python with its imports and compiled kernels, for each batch or case
-MERGE = 0.7  # s, of a grid or of all cases
-FIGURE = 1.5  # s
-PAGE = 2.5  # s, with the motions that it shows
+START = 4.5  # s, of Snakemake, from the command to the first job and after the last one
+BATCH = 1.5  # s, of a job with its compiled kernels, for each batch or case
+MERGE = 0.5  # s, of a grid or of all cases
+FIGURE = 1.2  # s
+PAGE = 1.5  # s, with the motions that it shows
 Figures = Mapping[tuple[str, str], FigureEntry]
 
 
@@ -48,6 +48,6 @@ def fixed_costs(
     return FixedCosts(START if jobs else 0.0, jobs)
 
 
-def _is_drawn(file: Path, inputs: Collection[str], unfinished: Collection[str]) -> bool:
+def _is_drawn(file: Path, inputs: Set[str], unfinished: Set[str]) -> bool:
     """Whether a figure is drawn: it is missing, or shows what is computed."""
-    return not file.is_file() or not unfinished.isdisjoint(inputs)
+    return not file.is_file() or bool(unfinished & inputs)

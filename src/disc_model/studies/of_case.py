@@ -89,5 +89,6 @@ def _fault_of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:
         return Fault.of(("bounds",), (scan["start"], scan["stop"]), rule)
     if fault.path[:1] == ("scan",):
         return Fault((OF_SCANS[fault.path[1]],), fault.value, fault.rule)
-    path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
+    name, *within = fault.path or ("",)
+    path = (ARGUMENTS.get(name, name), *within) if name else ()
     return Fault(path, fault.value, fault.rule)
