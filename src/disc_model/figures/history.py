@@ -15,8 +15,7 @@ from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
 from disc_model.figures.runs import TIME, end_of_ranges, sampled, show, spans_in, window_of
 from disc_model.figures.shades import shade_phases, shade_ramps
-from disc_model.figures.stated_case import ramps_of, stated, told_apart
-from disc_model.figures.still_motions import size_of
+from disc_model.figures.stated_case import ramps_of, size_of, stated, told_apart
 from disc_model.figures.types import Artist, Axes
 
 LINE = 0.8  # points, width of the lines of several runs,

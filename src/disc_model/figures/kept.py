@@ -1,10 +1,13 @@
 """What is known of axes for further pictures on them, which ends with them."""
 
 from typing import Any, Generic, TypeVar
+from weakref import ref
 
 from disc_model.figures.types import Axes
 
 Value = TypeVar("Value")
+Removable = ref
+"""Something drawn; called, it is None once a reader has removed it."""
 KNOWN = "_disc_model_known"
 """Attribute of axes: what is known of them, by its name."""
 

@@ -7,13 +7,12 @@ marks, in a look of its own: phases, first separations and frequencies beside pe
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
-from weakref import ref
 
 from disc_model.figures.case_lines import Lines, Style, limits_around
 from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.family import Member, name_in, names_of
 from disc_model.figures.family_titles import retitle
-from disc_model.figures.kept import Kept
+from disc_model.figures.kept import Kept, Removable
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.stated_case import stated, stated_values
@@ -54,7 +53,7 @@ class Panel:
 
     case: Case
     lines: Lines
-    drawn: list[ref[Any]] = field(default_factory=list)
+    drawn: list[Removable[Any]] = field(default_factory=list)
 
     @property
     def shown(self) -> Member:
@@ -135,7 +134,7 @@ def _remember_alone(page: Page, case: Case, panels: Sequence[Lines]) -> None:
     """Remember a case that was drawn alone, with how it is drawn beside others in each panel."""
     case.shown.looks[:] = page.handles
     for ax, lines, drawn in zip(page.axes, panels, page.added(), strict=True):
-        _PANELS[ax] = [Panel(case, lines, [ref(artist) for artist in drawn])]
+        _PANELS[ax] = [Panel(case, lines, [Removable(artist) for artist in drawn])]
 
 
 def _stand_beside(
@@ -170,7 +169,7 @@ def _draw(ax: Axes, family: Sequence[Panel]) -> list[Artist]:
         _remove(ax, panel)
         before = {id(artist) for artist in ax.get_children()}
         handles.append(panel.lines.draw(ax, Style(panel.case.place, count, shown.from_end)))
-        panel.drawn = [ref(each) for each in ax.get_children() if id(each) not in before]
+        panel.drawn = [Removable(each) for each in ax.get_children() if id(each) not in before]
     across, up = limits_around(limits)
     ax.set_xlim(shown.limits or across)
     ax.set_ylim(up)

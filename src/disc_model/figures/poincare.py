@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.figures.canvas import Wishes, page_for
@@ -15,8 +14,8 @@ from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, name_of_case
 from disc_model.figures.runs import sampled, show_thickness
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
-from disc_model.figures.stated_case import stated, told_apart
-from disc_model.figures.still_motions import ends_shown, size_of
+from disc_model.figures.stated_case import size_of, stated, told_apart
+from disc_model.figures.still_motions import ends_shown
 from disc_model.figures.types import Array, Artist, Axes, Mask
 
 HOLLOW = {"s": 8, "linewidths": 0.5}
@@ -50,7 +49,7 @@ def plot_poincare(
     legend: Any = True,
     labels: Any = None,
     title: str | bool | None = None,
-) -> NDArray[Any]:
+) -> Any:
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)

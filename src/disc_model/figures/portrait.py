@@ -13,8 +13,8 @@ from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, mark,
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, name_of_case
 from disc_model.figures.runs import sampled, window_of
-from disc_model.figures.stated_case import stated, told_apart
-from disc_model.figures.still_motions import ends_shown, is_still, show_ends, size_of
+from disc_model.figures.stated_case import size_of, stated, told_apart
+from disc_model.figures.still_motions import ends_shown, is_still, show_ends
 from disc_model.figures.types import Array, Artist, Axes
 
 LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}

@@ -14,7 +14,8 @@ from disc_model.data.variables import PHASES, axis_of, flag_names, ranged_variab
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
-from disc_model.figures.still_motions import ends_shown, show_ends, size_of
+from disc_model.figures.stated_case import size_of
+from disc_model.figures.still_motions import ends_shown, show_ends
 from disc_model.figures.types import Array, Axes
 
 Span = tuple[float, float]  # s, begin and end

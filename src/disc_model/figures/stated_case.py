@@ -19,6 +19,19 @@ def parameters_of(case: xr.DataTree) -> Parameters:
     return Parameters.model_validate_json(case.attrs["parameters"])
 
 
+def size_of(variable: str, case: xr.DataTree) -> float:
+    """The size of a variable that is small where a motion stands still, by the drive of its case, in SI
+    units; 0 of one whose own values tell it, such as a force."""
+    if not variable.endswith("_velocity"):
+        return 0.0
+    values: dict[str, Any] = json.loads(case.attrs.get("parameters", "{}"))
+    speed = abs(values.get("Omega") or 0.0)
+    if variable == "psi_velocity":
+        return speed
+    radius = values.get("r_0")
+    return 0.0 if radius is None else speed * radius
+
+
 def stated_values(p: Parameters, *varied: str) -> dict[str, Any]:
     """What titles say of a case, by name, but what varies."""
     # what varies has the value of a number, so that the ratio of another is kept

@@ -7,7 +7,6 @@ import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-from weakref import ref
 
 import xarray as xr
 
@@ -15,7 +14,7 @@ from disc_model.errors import require
 from disc_model.figures.covered import twins_of
 from disc_model.figures.durations import duration_of
 from disc_model.figures.family import Member, name_in
-from disc_model.figures.kept import Kept
+from disc_model.figures.kept import Kept, Removable
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.sweep_options import function_of, sought_in
 from disc_model.figures.types import Axes
@@ -60,7 +59,7 @@ class Lines:
     sought: str = ""
     options: Collection[str] = ()
     number: int = 0
-    parts: Sequence[tuple[str, ref[Any]]] = ()
+    parts: Sequence[tuple[str, Removable[Any]]] = ()
 
 
 _LINES: Kept[list[Lines]] = Kept("lines of sweeps")

@@ -81,7 +81,7 @@ def sweep(  # noqa: PLR0913
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
-        (any error if `errors` is "record"), or returned nothing; `message` then says which, and is "" where all is well.
+        (any error if `errors` is "record"), or returned nothing; `message` then says which, and is "" elsewhere.
         Numbers are nan there, words "", whole numbers are real ones, and a variable of True and False, such as
         `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes are the `function`, its other
         arguments (`options`), the case's `parameters`, and the `versions` of what is used; the last three are in JSON
