@@ -309,9 +309,9 @@ def test_only_the_speed_of_an_unresolved_peak_without_a_crossing_is_known() -> N
 @pytest.mark.parametrize(
     ("effects", "said"),
     [
-        (["unresolved"] * 3, ["3 crossings: all unresolved"]),
-        (["unresolved", "unresolved", "rises"], ["3 crossings: 2 unresolved"]),
-        (["unresolved", "no_rise", "rises"], ["3 crossings: 1 not marked, 1 unresolved"]),
+        (["unresolved"] * 3, ["3 crossings: all unresolved (2 marked)"]),
+        (["unresolved", "unresolved", "rises"], ["3 crossings: 2 unresolved (1 marked)"]),
+        (["unresolved", "no_rise", "rises"], ["3 crossings: 1 not marked, 1 unresolved (marked)"]),
         (["no_rise", "no_rise", "rises"], []),
     ],
 )
@@ -419,7 +419,28 @@ def test_the_figure_of_a_study_takes_multiples() -> None:
     assert_fit_for_print(figure)
 
 
-@pytest.mark.parametrize("multiples", [2, [0], [2.5], [True], "2"])
+@pytest.mark.parametrize("multiples", [2, [0], [2.3], [True], "2"])
 def test_what_are_no_multiples_is_refused(multiples: Any) -> None:
-    with refusal("must be whole numbers > 0, such as"):
+    with refusal("must be whole numbers or halves > 0, such as"):
         dm.plot_campbell(campbell_study(), multiples=multiples)
+
+
+@pytest.mark.parametrize("multiples", [[2.5], (2.5,), np.array([2.5, 3.0])])
+def test_halves_of_the_stick_slip_frequency_are_multiples(multiples: Any) -> None:
+    """Crossings are at n and n + 1/2, and only whole numbers were taken."""
+    study = with_a_crossing_at_no_peak("rises")
+    study["crossing_multiple"][0] = 2.5
+    top, _ = dm.plot_campbell(study, multiples=multiples)
+    assert "2.5 $f_s$" in named_multiples(top)
+    assert "crossing: the cycle's rate rises" in labels(top.figure)
+    assert_fit_for_print(top.figure)
+
+
+def test_the_figure_of_a_study_takes_halves() -> None:
+    figure = drawn("campbell", campbell_study(), multiples=[2, 2.5])
+    assert {"2 $f_s$", "2.5 $f_s$"} <= {*named_multiples(figure.axes[0])}
+
+
+def test_the_figure_of_a_study_refuses_other_fractions() -> None:
+    with refusal("multiples.0=2.3: must be a multiple of 0.5"):
+        drawn("campbell", campbell_study(), multiples=[2.3])

@@ -58,7 +58,7 @@ def beyond_look() -> dict[str, Any]:
 
 CROSSINGS = {
     "no_rise": ("s", "no rate rises"),
-    "mode_rises": (">", "a mode's rate rises"),
+    "mode_rises": (">", "only a mode's rate rises"),
     "rises": ("P", "the cycle's rate rises"),
     "destabilises": ("*", "the cycle is unstable there"),
     "no_cycle": ("h", "no cycle"),

@@ -26,7 +26,7 @@ def draw_panels(
     below: Sequence[Axes],
     columns: Sequence[Column],
     highest: float,
-    multiples: Sequence[int] = (),
+    multiples: Sequence[float] = (),
 ) -> None:
     """Draw frequencies up to the highest shown (Hz), with multiples of the stick-slip frequency that
     are asked for, and growth rates below them, on one scale."""

@@ -25,7 +25,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
-    multiples: Sequence[int] = (),
+    multiples: Sequence[float] = (),
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -34,6 +34,7 @@ def plot_campbell(
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""
     drawn, limit = checked_study(study, highest, multiples)
+    asked_for = tuple(multiples)
     column = column_of(drawn)
     shown = limit or highest_of([column])
     wishes = Wishes(ax, legend, labels, title)
@@ -43,8 +44,8 @@ def plot_campbell(
         check_free(page.axes, FREQUENCY, "a Campbell diagram")
         page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
         top, bottom = page.axes
-        draw_panels([top], [bottom], [column], shown, multiples)
-        name_peaks(top, bottom, column, shown)
+        draw_panels([top], [bottom], [column], shown, asked_for)
+        name_peaks(top, bottom, column, shown, asked_for)
         page.is_small = True
-        page.explain(entries_of([column], shown, multiples), beside="below")
+        page.explain(entries_of([column], shown, asked_for), beside="below")
     return np.array(page.axes, dtype=object)

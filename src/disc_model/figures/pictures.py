@@ -122,7 +122,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
-    multiples: Sequence[int] = (),
+    multiples: Sequence[float] = (),
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -142,8 +142,8 @@ def plot_campbell(
     ----------
     study : of ``quantity: campbell``, such as `run_study` returns; along the speed only
     highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
-    multiples : whole numbers, such as ``[2, 3]``: these multiples of the stick-slip frequency are drawn at all
-        speeds with a cycle near the motion, with marks where modes cross them, by what growth rates do there
+    multiples : whole numbers or halves, such as ``[2, 2.5]``: these multiples of the stick-slip frequency are drawn
+        at all speeds with a cycle near the motion, with marks where modes cross them, by what growth rates do there
     ax : two axes to draw on, that of frequencies first, without another Campbell diagram
     legend, labels, title : as in `Result.plot`
 
