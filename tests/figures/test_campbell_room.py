@@ -147,3 +147,16 @@ def test_names_of_multiples_are_on_no_other_name(width: float, highest: float | 
     for i, box in enumerate(boxes):
         assert frame.count_contains(box.corners()) == 4
         assert not box.count_overlaps(boxes[i + 1 :])
+
+
+def test_the_name_of_a_multiple_is_not_on_the_line_of_another() -> None:
+    """Where a multiple ran along a mode, its name stood on the line of the next multiple."""
+    study = campbell_study()
+    study["stick_slip_frequency"][:] = 225.2
+    study["sliding_frequency"][:] = [1930.0, 2130.0, 2750.0]
+    top, _ = own_panels(study, PAGE, multiples=[9.5, 10], highest=6000)
+    named = [text for text in top.texts if "f_s" in text.get_text() and text.get_visible()]
+    [of_lower] = [text for text in named if text.get_text().startswith("9.5")]
+    speeds = np.linspace(8, 18, 500)
+    other = top.transData.transform(np.column_stack([speeds, np.full(500, 2252.0)]))
+    assert not of_lower.get_window_extent().count_contains(other)

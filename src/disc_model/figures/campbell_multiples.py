@@ -52,7 +52,7 @@ def name_multiples(
         rivals = _points_of_others(study, multiples, multiple)
         look: dict[str, Any] = {"fontsize": large(6), "bbox": BEHIND_NAME}
         name = f"{multiple:g} {SYMBOLS[0]}"
-        names.add_along(name, points, AT_LINE, rivals, **look)
+        names.add_along(name, points, AT_LINE, rivals, over_lines=True, **look)
 
 
 def _points_of_others(study: xr.Dataset, multiples: Sequence[float], own: float) -> Array:
