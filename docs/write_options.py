@@ -1,6 +1,9 @@
 """Print the page of all options of quantities, from the models that check them: `make schema`."""
 
+from collections.abc import Sequence
+
 from disc_model.studies.options import Option, options_of
+from disc_model.studies.python_names import FUNCTIONS, in_python
 from disc_model.studies.registry import quantity_names, quantity_of
 
 HEAD = """\
@@ -10,29 +13,42 @@ All keys under `options` of a study file, by [quantity](study_quantities.md). *R
 may have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step` or `count`.
 [Starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
 `distributions`. `disc-model study my.yaml -n` shows the options of a study with their values.
+
+Some quantities are also functions of a case in Python, such as `dm.outcome`. Where their arguments have other names or
+defaults than the options, the last column says so. `dm.run_study` computes other quantities, with the options as here.
 """
-TABLE = """\
-| option | given as | default | meaning |
-| --- | --- | --- | --- |
-"""
+HEADS = ("option", "given as", "default", "meaning")
 
 
 def page_text() -> str:
     """The page: a table of the options of each quantity, as Markdown."""
     sections = []
     for name in quantity_names():
-        rows = map(_row, options_of(quantity_of(name)))
-        sections.append(f"\n## {name}\n\n{TABLE}{''.join(rows)}")
+        rows = [_cells(option) for option in options_of(quantity_of(name))]
+        heads = list(HEADS)
+        other = [in_python(name, option.name) for option in options_of(quantity_of(name))]
+        if any(other):
+            heads.append(f"in Python, `dm.{FUNCTIONS[name].__name__}`")
+            for row, cell in zip(rows, other, strict=True):
+                row.append(cell)
+        lines = [heads, ["---"] * len(heads), *rows]
+        sections.append(f"\n## {name}\n\n{''.join(map(_line, lines))}")
     return HEAD + "".join(sections)
 
 
-def _row(option: Option) -> str:
+def _line(cells: Sequence[str]) -> str:
+    """A line of a table."""
+    return f"| {' | '.join(cells)} |\n"
+
+
+def _cells(option: Option) -> list[str]:
+    """The cells of an option, but for the one about Python."""
     form = option.form
     if option.unit:
         form += f" in {option.unit.replace('that of', 'the unit of')}"
     default = f"`{option.default}`" if option.default else ""
     default = "*required*" if option.default == "required" else default
-    return f"| {' | '.join((f'`{option.name}`', form, default, option.meaning))} |\n"
+    return [f"`{option.name}`", form, default, option.meaning]
 
 
 if __name__ == "__main__":

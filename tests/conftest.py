@@ -1,5 +1,7 @@
 """What all tests share."""
 
+import gc
+
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
@@ -22,6 +24,14 @@ settings.load_profile("quick")
 # Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other
 # values.
 providers._get_local_constants = lambda: providers._local_constants
+ALLOCATIONS = 20_000  # after which garbage is looked for: closed figures are thousands of objects
+
+
+def pytest_collection_finish() -> None:
+    """Let the search for garbage pass over what has been imported, which stays until the end."""
+    gc.collect()
+    gc.freeze()
+    gc.set_threshold(ALLOCATIONS)
 
 
 @pytest.fixture

@@ -39,6 +39,7 @@ from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
+from disc_model.without_reader import end_without_reader, go_on_without_reader
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
@@ -394,8 +395,10 @@ def run(p: Parameters, options: RunOptions) -> None:
 def convert(
     source: Annotated[Path, typer.Argument(help="dataset of a study, or a saved run or sweep")],
     target: Annotated[
-        Path,
-        typer.Argument(help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF"),
+        str,
+        typer.Argument(
+            help="file to write: .mat for MATLAB, .csv for a table, .nc for netCDF; tables/ for all tables in a folder"
+        ),
     ],
     variables: Annotated[
         str,
@@ -408,18 +411,20 @@ def convert(
 ) -> None:
     """Write a dataset in another format, such as results/s/s.nc for MATLAB or as a table."""
     from disc_model.data.exchange import TABLE, WRITTEN, load, save
+    from disc_model.data.text_tables import names_folder
 
-    try:
-        _of_suffix(target, WRITTEN)
-    except ValueError as error:
-        raise ParameterError(Fault.of(("TARGET",), str(target), str(error))) from None
+    if not names_folder(target):
+        try:
+            _of_suffix(Path(target), WRITTEN)
+        except ValueError as error:
+            raise ParameterError(Fault.of(("TARGET",), target, str(error))) from None
     data = load(source)
     if variables:
         data = _with_variables(data, variables)
-    if target.suffix == TABLE:
+    if target.endswith(TABLE):
         _refuse_several_tables(data)
     save(data, target)
-    print_rows([("saved", str(target))])
+    print_rows([("saved", target)])
 
 
 def _with_variables(data: Any, names: str) -> Any:
@@ -451,6 +456,7 @@ def _refuse_several_tables(data: Any) -> None:
     placed = [str(name) for name in data.data_vars if name not in others]
     if placed:
         choice = f"{choice} or --variables {','.join(placed)}"
+    choice += " or the folder tables/ in place of the file, for all tables"
     rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}"
     raise ParameterError(Fault(("SOURCE",), "", rule))
 
@@ -499,8 +505,11 @@ def study(
     _make_folder(directory)
     _find_cache(directory)
     if dry_run and not unlock:
-        _show_plan(chosen, [grids[name] for name in requested], directory / "results", cores)
+        page = EXPLORER in (target or [])
+        _show_plan(chosen, grids, requested, directory / "results", cores=cores, page=page)
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
+    if not dry_run:
+        go_on_without_reader()  # jobs would stay, and the lock of the folder
     options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
     if dry_run:
         options += DRY
@@ -584,11 +593,22 @@ def _show_options(grid: GridStudy) -> None:
     table(f"options of the quantity {grid.quantity}", columns, overflow="fold")
 
 
-def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: int) -> None:
-    """Print what there is to compute, how long it may take, and the options of a single grid."""
+def _show_plan(
+    chosen: Study,
+    known: Mapping[str, GridStudy],
+    requested: Sequence[str],
+    results: Path,
+    *,
+    cores: int,
+    page: bool,
+) -> None:
+    """Print what there is to compute, how long it may take, the options of a single grid, and what has
+    changed."""
     from disc_model.studies import plan
     from disc_model.studies.costs import machine_factor
+    from disc_model.studies.fixed_costs import fixed_costs
 
+    grids = [known[name] for name in requested]
     plans = [plan.plan_of(grid, results) for grid in grids]
     if chosen.specs:
         plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
@@ -608,13 +628,27 @@ def _show_plan(chosen: Study, grids: Sequence[GridStudy], results: Path, cores: 
     table(f"plan of {chosen.name}", columns, overflow="fold")
     if len(grids) == 1:
         _show_options(grids[0])
-    seconds = [factor * x for each in plans for x in each.seconds]
+    unfinished = {each.name for each in plans if each.seconds}
+    _show_changes([grid for grid in grids if grid.name in unfinished], results)
+    figures = chosen.entries(known)
+    shown = {key: entry for key, entry in figures.items() if key[0] in (chosen.name, *requested)}
+    fixed = fixed_costs(plans, shown, results, page=page)
+    seconds = [*fixed.jobs, *(x for each in plans for x in each.seconds)]
     if seconds:
-        text = plan.duration_text(plan.time_on(cores, seconds))
+        text = plan.duration_text(factor * (fixed.alone + plan.time_on(cores, seconds)))
         typer.echo(
-            f"Estimated time: {text} on {cores} cores, to a factor of three; kernels that are not"
-            " compiled yet take 10 to 20 s each."
+            f"Estimated time: {text} on {cores} cores, to a factor of three, with the start of jobs and"
+            " figures; kernels that are not compiled yet take 10 to 20 s each."
         )
+
+
+def _show_changes(grids: Sequence[GridStudy], results: Path) -> None:
+    """Print which values of grids differ from those of their results."""
+    from disc_model.studies.changed_values import changes_since
+
+    for grid in grids:
+        for change in changes_since(grid, results):
+            typer.echo(f"{grid.name}: changed since the last run: {change}")
 
 
 def _make_folder(directory: Path) -> None:
@@ -758,8 +792,9 @@ def _all(
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
-    if arguments is None:
+    if arguments is None:  # in a process of its own
         arguments = sys.argv[1:]
+        end_without_reader()
     if not arguments:
         arguments = ["--help"]
     # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's

@@ -278,12 +278,26 @@ OTHER_NAMES: Mapping[str, tuple[str, ...]] = {
     "name": ("parameter",),
     "parameter": ("name",),
     "perturbation": ("start", "initial_state"),
-    "prerun": ("start", "initial_state"),
+    "prerun": ("initial_state",),
     "scan": ("bounds",),
-    "start": ("perturbation",),
+    "start": ("perturbation", "initial_state"),
     "step": ("scan", "points"),
+    "f": ("perturbation",),
+    "u": ("perturbation",),
+    "u_velocity": ("perturbation",),
 }
 """What studies call arguments of functions, and functions the options of studies, if otherwise."""
+OF_FUNCTIONS: Mapping[str, str] = {
+    "bounds": "bounds=(5, 30)",
+    "initial_state": "initial_state=dm.initial_state(case, {'u': 1e-4})",
+    "start": "start={'u': 1e-4}",
+}
+"""How functions are given what studies give by another name, by argument."""
+OF_STUDIES: Mapping[str, str] = {
+    "perturbation": "perturbation: {u: 1e-4}",
+    "scan": "scan: {start: 5, stop: 30, step: 1}",
+}
+"""How studies are given what functions have by another name, by option."""
 
 
 def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -> str:
@@ -294,11 +308,31 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
         field for field in folded if len(str(name)) > 1 and field.startswith(str(name).lower())
     ]
     close = begin or difflib.get_close_matches(str(name).lower(), folded, n=1, cutoff=0.6)
-    close = [other for other in OTHER_NAMES.get(str(name), ()) if other in folded] or close
+    others = [other for other in OTHER_NAMES.get(str(name), ()) if other in folded]
+    close = others or close
     meant = f", did you mean {folded[close[0]]}?" if close else ""
+    if others:
+        meant += form_of(others[0])
     if known and (all_of_them or not close):
         return f"{meant} (known: {', '.join(known)})"
     return meant
+
+
+def rule_of_choice(name: object, known: Collection[str]) -> str:
+    """The rule that a name breaks which is none of those known, with the most similar one."""
+    rule = f"must be one of {', '.join(known)}"
+    like = suggestion(name, known, all_of_them=False)
+    return f"{rule}{like}" if like.startswith(",") else rule
+
+
+def form_of(name: str) -> str:
+    """How functions, or else study files, are given what the other calls otherwise, with the space
+    before; "" where the name says all."""
+    if name in OF_FUNCTIONS:
+        return f" In functions it is {OF_FUNCTIONS[name]}"
+    if name in OF_STUDIES:
+        return f" In study files it is {OF_STUDIES[name]}"
+    return ""
 
 
 def _path(item: Any, raw: Any) -> tuple[str, ...]:

@@ -171,6 +171,12 @@ def _rounded(quantity: Any, target: Any) -> float:
     return float(f"{quantity.to(target).magnitude:.15g}")
 
 
+def unit_of_text(text: str) -> str:
+    """The unit of a number in a text, as it is written there; "" without one."""
+    match = _WITH_UNIT.fullmatch(text.translate(_SPELLINGS))
+    return match[2].strip() if match else ""
+
+
 def si_unit_of(value: Any) -> str:
     """The SI unit of the kind of a text with a unit or of a quantity of pint, Hz where it is
     written in these; "" where there is none that is known."""

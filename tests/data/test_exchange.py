@@ -248,6 +248,26 @@ def test_a_folder_that_cannot_be_is_refused(tmp_path: Path) -> None:
             save_csv({"all": RUN["all"]}, f"{tmp_path}/{name}")
 
 
+def test_all_tables_of_a_dataset_are_written_to_a_folder(tmp_path: Path) -> None:
+    """A dataset that is several tables was refused, and each had to be written by itself."""
+    folder = tmp_path / "tables"
+    data = every_kind()
+    dm.save(data, f"{folder}/")
+    dims = {frozenset(map(str, variable.dims)) for variable in data.values()}
+    written = {path.stem: pd.read_csv(path) for path in folder.iterdir()}
+    assert len(written) == len(dims)
+    assert "word" in written["single_numbers"]
+    heads = " ".join(head for table in written.values() for head in table)
+    for name in data:
+        assert str(name) in heads
+
+    dm.save(data[["word"]], folder)  # a folder that is there needs no slash
+    assert len([*folder.iterdir()]) == len(dims)
+    dm.save(RUN.to_tree(), f"{tmp_path}/run/")
+    events = pd.read_csv(tmp_path / "run" / "events" / "event.csv")
+    assert events["kind"].tolist() == RUN.events["kind"].tolist()
+
+
 def test_a_table_or_a_run_given_for_a_dataset_is_told_what_to_do(tmp_path: Path) -> None:
     table = tmp_path / "growth.csv"
     table.write_text("N,Omega\n1,2\n")

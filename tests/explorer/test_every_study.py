@@ -140,6 +140,7 @@ def test_the_call_of_a_point_gives_its_value(shown: Shown, name: str) -> None:
             continue
         assert not last.startswith("found = "), "a lack of a value has an expression, too"
         text = "\n".join(before)
+        assert "start = " not in text, "only the motion below begins there"
         if text not in ran:
             exec(text, names)
             ran[text] = names

@@ -252,13 +252,13 @@ def test_a_choice_that_changes_another_says_so(opened: Open) -> None:
         shown.choose("Variable", "critical_speed")
         assert shown.page.run(axes) == ["N", "", "critical_speed"]
         assert shown.text("warning") == (
-            "“Critical speed” does not vary with “Speed Ω”, so the axes have changed: "
+            "“Critical speed for separation” does not vary with “Speed Ω”, so the axes have changed: "
             "across is now “Preload N”, up “none: a curve”."
         )
         shown.choose("Across", "scan_Omega")
         assert shown.page.run(axes) == ["scan_Omega", "", "scan_outcome"]
         assert shown.text("warning") == (
-            "“Critical speed” does not vary with “Speed Ω”: “Outcome” is shown instead."
+            "“Critical speed for separation” does not vary with “Speed Ω”: “Outcome” is shown instead."
         )
         shown.choose("Up", "sample")
         assert shown.page.run(axes) == ["scan_Omega", "", "scan_outcome"]

@@ -318,15 +318,17 @@ def test_the_motion_of_a_point_begins_at_its_start(tmp_path: Path) -> None:
     explorer_path = tmp_path / "explorer.html"
     told = [contents_of("started", started), contents_of("alike", alike)]
     explorer_path.write_text(page("Made up", told, []), encoding="utf-8")
-    case = "case = dm.Parameters(N=385, Omega=13)\nstart = dm.initial_state(case, "
+    case = "dm.Parameters(N=385, Omega=13)"
+    begun = f"case = {case}\nstart = dm.initial_state(case, "
+    drawn = "dm.simulate(case, 60, initial_state=start).plot()"
     after = 'prerun={"parameters": {"Omega": 15.1}, "time": 2}'
     expected = {
-        (0, 0): f"{case}{after})",
-        (0, 1): f'{case}{{"u": -0.00275}}, {after})',
-        (1, 0): f'{case}{{"u_velocity": 0.5}})',
-        (1, 1): f'{case}{{"u_velocity": 0.5, "u": -0.00275}})',
-        (2, 0): "dm.Parameters(N=385, Omega=13)",
-        (2, 1): f'{case}{{"u": -0.00275}})',
+        (0, 0): f"{begun}{after})\n{drawn}",
+        (0, 1): f'{begun}{{"u": -0.00275}}, {after})\n{drawn}',
+        (1, 0): f'{begun}{{"u_velocity": 0.5}})\n{drawn}',
+        (1, 1): f'{begun}{{"u_velocity": 0.5, "u": -0.00275}})\n{drawn}',
+        (2, 0): f"dm.simulate({case}, 60).plot()",
+        (2, 1): f'{begun}{{"u": -0.00275}})\n{drawn}',
     }
     with browser(tmp_path / "profile") as opened:
         opened.open(explorer_path)
@@ -337,17 +339,18 @@ def test_the_motion_of_a_point_begins_at_its_start(tmp_path: Path) -> None:
             opened.run("choose({start: arguments[0], perturbation_u: arguments[1]})", start, kick)
             calls[start, kick] = [shown.text(x) for x in ("call", "motion-says", "motion-call")]
         shown.choose("Study", "alike")
-        assert 'start = dm.initial_state(case, {"u": 0.0001})' in shown.text("call")
+        assert 'start = dm.initial_state(case, {"u": 0.0001})' in shown.text("motion-call")
     for place, text in expected.items():
-        assert calls[place][0] == text
+        assert calls[place][0] == case
+        assert calls[place][2] == text
     assert calls[2, 0][1] == "The motion of this case from the static start:"
-    assert calls[2, 0][2] == "dm.simulate(dm.Parameters(N=385, Omega=13), 60).plot()"
 
-    call, says, motion = calls[0, 1]
-    assert says == "The motion of this case from its start, with both as above:"
+    _, says, motion = calls[0, 1]
+    assert says == "The motion of this case from its start:"
     names: dict[str, Any] = {"dm": dm}
-    exec(call, names)
-    run = eval(motion.removesuffix(".plot()").replace("60", "0.01"), names)
+    *before_run, simulated = motion.split("\n")
+    exec("\n".join(before_run), names)
+    run = eval(simulated.removesuffix(".plot()").replace("60", "0.01"), names)
     start = names["start"]
     before = dm.simulate(names["case"].replace(Omega=15.1), 2).final_state
     # the kick is added to a height of some 9 mm, whose rounding is 1e-18 m
@@ -585,7 +588,7 @@ def shows_motions(shown: Explorer) -> None:
     assert (same, other) == (True, False)
     shown.page.point(*shown.ask("beginning"))
     assert shown.text("motion-hovered").startswith(
-        "0 ms, Contact force P 385 N, Slider u −8.8 mm, Angle ψ 0 rad"
+        "0 ms, Contact force P 385 N, Slider u −8.8 mm from the undeformed disc, Angle ψ 0 rad"
     )
 
 
@@ -615,3 +618,17 @@ def test_panels_of_a_motion_have_two_ticks_or_more(values: list[float], tmp_path
         opened.wait_for(READY)
         ticks = opened.run("return rangeOf(arguments[0]).ticks", values)
     assert len({text for _, text in ticks}) >= 2
+
+
+def test_a_motion_that_stands_still_is_a_flat_line(tmp_path: Path) -> None:
+    """The last of a decay filled its panel."""
+    explorer_path = tmp_path / "explorer.html"
+    explorer_path.write_text(page("Made up", contents(), []), encoding="utf-8")
+    with browser(tmp_path / "profile") as opened:
+        opened.open(explorer_path)
+        opened.wait_for(READY)
+        moves = opened.run("return rangeOf(arguments[0], 30)", [-1e-3, 1e-3])
+        still = opened.run("return rangeOf(arguments[0], 30)", [-1e-7, 1e-7])
+    assert moves["greatest"] < 2e-3
+    assert still["greatest"] == pytest.approx(1.5)
+    assert "1" in [text for _, text in still["ticks"]]

@@ -192,6 +192,8 @@ def test_numbers_flags_and_messages_come_through() -> None:
     assert variables["outcome"]["label"] == "Outcome within 200 s"
     traced = {trace["label"]: trace["unit"] for trace in told["motions"]["traces"]}
     assert traced == {"Contact force P": "N", "Slider u": "mm", "Angle ψ": "rad"}
+    origins = {trace["name"]: trace["origin"] for trace in told["motions"]["traces"]}
+    assert origins == {"P": "", "u": "from the undeformed disc", "psi": ""}
     labels = {dim["name"]: dim["label"] for dim in told["dims"]}
     symbols = {dim["symbol"] for dim in told["dims"]}
     assert symbols == {

@@ -16,7 +16,7 @@ from tests.figures.described import campbell_study, drawn
 from tests.figures.every_kind import flag
 from tests.figures.reading import assert_fit_for_print, labels
 
-MARKS = {"o", "D", *(marker for marker, _ in CROSSINGS.values())}
+MARKS = {"o", "D", *(crossing.marker for crossing in CROSSINGS)}
 """Of crossings in a panel of frequencies."""
 
 

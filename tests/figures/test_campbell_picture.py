@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures import campbell
-from disc_model.figures.campbell_looks import CROSSINGS
+from disc_model.figures.campbell_looks import CROSSINGS, Crossing
 from disc_model.figures.campbell_peaks import Peak, peaks
 from disc_model.figures.classes import NOT_NEAR, lightness
 from disc_model.figures.sizes import COLUMN, PAGE
@@ -34,7 +34,7 @@ def test_a_campbell_diagram_takes_the_axes_of_a_reader(width: float) -> None:
     figure, axes = pyplot.subplots(2, 1, figsize=(width, 4.6), layout="constrained", sharex=True)
     top, bottom = dm.plot_campbell(campbell_study(), ax=axes, highest=150, title="(a) modes")
     assert [top, bottom] == [*axes]
-    assert top.get_title() == "(a) modes"
+    assert top.get_title(loc="left") == "(a) modes"
     assert top.get_ylim() == (0, 150)
     assert " ".join(top.get_ylabel().split()) == "Frequency in the slider's frame (Hz)"
     assert bottom.get_xlabel() == "Speed Ω (rad/s)"
@@ -52,14 +52,33 @@ def test_a_new_campbell_diagram_has_all_frequencies() -> None:
     assert_fit_for_print(top.figure)
 
 
-def over_two_loads() -> xr.Dataset:
-    study = campbell_study()
-    return xr.concat([study, study], xr.Variable("N", np.array([300.0, 385.0])))
+def over_loads(count: int) -> xr.Dataset:
+    """The study at several preloads, whose frequencies differ."""
+    parts = []
+    for place in range(count):
+        part = campbell_study()
+        part["sliding_frequency"][:] += 10.0 * place
+        parts.append(part)
+    loads = xr.Variable("N", 300.0 + 10.0 * np.arange(count))
+    return xr.concat(parts, loads, data_vars="all")
+
+
+def over_loads_and_frictions() -> xr.Dataset:
+    """A study along two further dimensions."""
+    frictions = xr.Variable("mu_k", np.array([0.1, 0.2]))
+    return xr.concat([over_loads(2), over_loads(2)], frictions, data_vars="all")
 
 
 NO_CAMPBELL = "must be a study of `quantity: campbell`"
 NO_DIAGRAMS: dict[str, tuple[Any, str]] = {
-    "two loads": (over_two_loads(), r"study='N': must not vary along it: .* study.sel\(N=300.0\)"),
+    "seven loads": (
+        over_loads(7),
+        r"study='N': must be one dimension of up to 6 values: .* study.sel\(N=300.0\)",
+    ),
+    "two further dimensions": (
+        over_loads_and_frictions(),
+        r"study='mu_k, N': must be one dimension",
+    ),
     "no crossings": (campbell_study().drop_vars("crossing_Omega"), NO_CAMPBELL),
     "a case": (dm.Parameters(N=385, Omega=15), NO_CAMPBELL),
     "another dataset": (xr.Dataset({"N": 1}), "study=a dataset of 1 variable: must be a study"),
@@ -73,6 +92,72 @@ def test_what_is_no_campbell_diagram_is_refused(name: str) -> None:
     study, said = NO_DIAGRAMS[name]
     with refusal(said):
         dm.plot_campbell(study)
+
+
+@pytest.mark.parametrize(
+    ("count", "shape"),
+    [(2, (2, 2)), (3, (2, 3)), (5, (2, 5)), pytest.param(6, (2, 6), marks=pytest.mark.slow)],
+)
+def test_a_further_axis_has_panels_with_equal_axes(count: int, shape: tuple[int, int]) -> None:
+    """It was refused."""
+    axes = dm.plot_campbell(over_loads(count), highest=150, multiples=[2])
+    figure = axes[0, 0].figure
+    assert axes.shape == shape
+    for row in axes:
+        limits = {(ax.get_xlim(), ax.get_ylim()) for ax in row}
+        assert len(limits) == 1
+    assert len(figure.axes) == 2 * count
+    assert len(figure.legends) == 1
+    assert_fit_for_print(figure)
+
+
+def test_growth_rates_of_all_panels_have_one_scale() -> None:
+    """That of the first is linear by itself."""
+    study = over_loads(2)
+    study["growth_rate"][0] = study["growth_rate"][0].clip(max=0.05)
+    study["growth_rate"][1, 5] = 30.0
+    _, figure_axes = pyplot.subplots(2, 2, figsize=(PAGE, 4.9), layout="constrained")
+    axes = dm.plot_campbell(study, ax=figure_axes)
+    assert [ax.get_yscale() for ax in axes[1]] == ["symlog", "symlog"]
+    assert axes[1, 0].get_ylim() == axes[1, 1].get_ylim()
+
+
+def test_an_axis_of_negative_rates_has_little_room_below() -> None:
+    """Of rates about -1/s it reached down to -3.6/s."""
+    study = campbell_study()
+    study["growth_rate"][:] = np.linspace(-1.2, -1.0, 21)
+    _, bottom = dm.plot_campbell(study)
+    assert bottom.get_yscale() == "linear"
+    assert bottom.get_ylim()[0] > -2.0
+
+
+def test_titles_of_panels_say_what_differs() -> None:
+    axes = dm.plot_campbell(over_loads(2))
+    assert [ax.get_title(loc="left") for ax in axes[0]] == ["Preload N = 300 N", "310 N"]
+    assert [ax.get_title(loc="left") for ax in axes[1]] == ["", ""]
+
+
+@pytest.mark.parametrize("title", [True, "Two preloads", None, False])
+def test_panels_say_their_values_below_a_title(title: Any) -> None:
+    shared: dict[str, Any] = {"sharex": True, "sharey": "row"}
+    figure, axes = pyplot.subplots(2, 2, figsize=(PAGE, 6.0), layout="constrained", **shared)
+    dm.plot_campbell(over_loads(2), ax=axes, title=title)
+    first, second = axes[0]
+    [*_, said] = first.get_title(loc="left").splitlines()
+    assert said == "Preload N = 300 N"
+    assert second.get_title(loc="left") == "310 N"
+    assert_fit_for_print(figure)
+
+
+@pytest.mark.parametrize("width", [COLUMN, pytest.param(PAGE, marks=pytest.mark.slow)])
+def test_panels_of_a_further_axis_take_the_axes_of_a_reader(width: float) -> None:
+    shared: dict[str, Any] = {"sharex": True, "sharey": "row"}
+    figure, axes = pyplot.subplots(2, 2, figsize=(width, 6.0), layout="constrained", **shared)
+    drawn = dm.plot_campbell(over_loads(2), ax=axes, highest=150)
+    assert drawn.tolist() == axes.tolist()
+    legends = [ax.get_legend() for ax in axes.flat if ax.get_legend()]
+    assert len(legends) == 1
+    assert_fit_for_print(figure)
 
 
 @pytest.mark.parametrize(
@@ -97,7 +182,8 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     top, bottom = dm.plot_campbell(study)
     assert NOT_NEAR.label in labels(top.figure)
     rings = [line for line in bottom.lines if line.get_markerfacecolor() == "white"]
-    assert not any(np.size(line.get_xdata()) for line in rings)
+    heights = [rate for line in rings for rate in np.ravel(line.get_ydata()).tolist()]
+    assert heights == [0.2]
     crosses = [line for line in bottom.lines if line.get_marker() == "x"]
     assert [[*line.get_ydata()] for line in crosses] == [[0.35, 0.4]]
     assert [peak.place for peak in peaks(study)] == [12]
@@ -296,14 +382,16 @@ def test_peaks_without_a_crossing_have_no_multiple() -> None:
     assert "multiple" not in together
 
 
-def test_only_the_speed_of_an_unresolved_peak_without_a_crossing_is_known() -> None:
+def test_the_sample_of_unresolved_peaks_without_a_crossing_is_hollow() -> None:
+    """It had no mark."""
     study = without_a_crossing_at_a_peak()
     before_the_peaks = [4, 11]
     study["growth_rate"][before_the_peaks] = -0.05
     figure = picture_of(study)
     [legend] = figure.legends
     samples = dict(zip(labels(figure), legend.legend_handles, strict=True))
-    assert samples[NOT_CROSSED].get_marker() == "None"
+    assert samples[NOT_CROSSED].get_marker() == "D"
+    assert samples[NOT_CROSSED].get_markerfacecolor() == "white"
 
 
 @pytest.mark.parametrize(
@@ -394,16 +482,68 @@ def with_a_crossing_at_no_peak(effect: str) -> xr.Dataset:
     return study
 
 
-@pytest.mark.parametrize("effect", CROSSINGS)
-def test_crossings_of_multiples_that_are_asked_for_are_marked(effect: str) -> None:
+@pytest.mark.parametrize("crossing", CROSSINGS)
+def test_crossings_of_multiples_that_are_asked_for_are_marked(crossing: Crossing) -> None:
     """Only those at the highest peaks had a line and a mark."""
-    study = with_a_crossing_at_no_peak(effect)
+    for effect in crossing.effects:
+        study = with_a_crossing_at_no_peak(effect)
+        top, _ = dm.plot_campbell(study, multiples=[2])
+        [at] = [line for line in top.lines if line.get_marker() == crossing.marker]
+        assert at.get_xydata().tolist() == [[16.0, 126.4]]
+        assert at.get_markerfacecolor() == crossing.face
+        assert f"crossing: {crossing.meaning}" in labels(top.figure)
+        assert "2 $f_s$" in named_multiples(top)
+
+
+def test_crossings_of_all_effects_have_few_entries() -> None:
+    """The legend had one for each of eight effects."""
+    every = [effect for crossing in CROSSINGS for effect in crossing.effects]
+    study = campbell_study().isel(crossing=[0] * len(every))
+    study["crossing_Omega"] = ("crossing", np.linspace(15.0, 17.0, len(every)))
+    study["crossing_multiple"] = ("crossing", np.full(len(every), 2.0))
+    study["crossing_effect"] = flag(("crossing",), every, EFFECTS)
+    figure = picture_of(study, multiples=[2])
+    assert [text for text in labels(figure) if text.startswith("crossing: ")] == [
+        "crossing: a rate rises",
+        "crossing: no rate rises",
+        "crossing: not known",
+    ]
+    assert_fit_for_print(figure)
+
+
+def test_effects_of_crossings_are_those_of_studies() -> None:
+    every = {effect for crossing in CROSSINGS for effect in crossing.effects}
+    assert every == {*EFFECTS} - {"none"}
+
+
+def test_a_crossing_at_a_peak_has_the_mark_of_the_peak_alone() -> None:
+    """Two marks lay on each other."""
+    top, _ = dm.plot_campbell(campbell_study().isel(crossing=[1]), multiples=[3])
+    marked = [line for line in top.lines if [10.48, 189.5] in line.get_xydata().tolist()]
+    assert [line.get_marker() for line in marked] == ["o"]
+
+
+def test_a_peak_beside_an_open_step_is_hollow() -> None:
+    """It was filled as one that the steps resolve."""
+    study = campbell_study()
+    study["growth_rate"][:] = -0.05
+    study["growth_rate"][5:9] = [0.4, 0.3, 0.2, 0.1]
+    [peak] = peaks(study)
+    assert peak.is_open
+    _, bottom = dm.plot_campbell(study)
+    [*_, mark] = [line for line in bottom.lines if line.get_marker() in ("o", "D")]
+    assert np.ravel(mark.get_ydata()).tolist() == [0.4]
+    assert mark.get_markerfacecolor() == "white"
+
+
+def test_multiples_are_open_where_the_frequency_jumps() -> None:
+    """Dashes led from that of one kind of cycle to that of another."""
+    study = campbell_study()
+    study["stick_slip_frequency"][14:] += 15.0
     top, _ = dm.plot_campbell(study, multiples=[2])
-    marker, meaning = CROSSINGS[effect]
-    [at] = [line for line in top.lines if line.get_marker() == marker]
-    assert at.get_xydata().tolist() == [[16.0, 126.4]]
-    assert f"crossing: {meaning}" in labels(top.figure)
-    assert "2 $f_s$" in named_multiples(top)
+    line = next(line for line in top.lines if 120.0 < np.ravel(line.get_ydata())[0] < 130.0)
+    heights = np.ravel(line.get_ydata())
+    assert np.flatnonzero(np.isnan(heights)).tolist() == [14]
 
 
 def test_a_picture_without_multiples_has_those_at_peaks_only() -> None:
@@ -419,6 +559,23 @@ def test_the_figure_of_a_study_takes_multiples() -> None:
     assert_fit_for_print(figure)
 
 
+def test_names_of_multiples_stand_clear_of_modes() -> None:
+    """A name stood on the line of a mode, and on the mark of a crossing."""
+    study = campbell_study()
+    near_end = study["Omega"] > 15
+    doubled = 2 * study["stick_slip_frequency"]
+    mode = xr.where(near_end, doubled + 1, doubled + 30)
+    study["sliding_frequency"][:, 1] = mode
+    top, _ = dm.plot_campbell(study, multiples=[2])
+    top.figure.draw_without_rendering()
+    [name] = [text for text in top.texts if text.get_text().startswith("2 ")]
+    speeds = np.linspace(8, 18, 500)
+    heights = np.interp(speeds, study["Omega"], mode)
+    points = top.transData.transform(np.column_stack([speeds, heights]))
+    assert name.get_visible()
+    assert not name.get_window_extent().count_contains(points)
+
+
 @pytest.mark.parametrize("multiples", [2, [0], [2.3], [True], "2"])
 def test_what_are_no_multiples_is_refused(multiples: Any) -> None:
     with refusal("must be whole numbers or halves > 0, such as"):
@@ -432,7 +589,7 @@ def test_halves_of_the_stick_slip_frequency_are_multiples(multiples: Any) -> Non
     study["crossing_multiple"][0] = 2.5
     top, _ = dm.plot_campbell(study, multiples=multiples)
     assert "2.5 $f_s$" in named_multiples(top)
-    assert "crossing: the cycle's rate rises" in labels(top.figure)
+    assert "crossing: a rate rises" in labels(top.figure)
     assert_fit_for_print(top.figure)
 
 

@@ -132,6 +132,8 @@ def test_panels_of_two_preloads_have_room(width: str, columns: int) -> None:
     titles = [ax.get_title("left") for ax in figure.axes]
     assert titles[0].startswith("(a) ")
     assert sum("385 N" in title for title in titles) == 1
+    named = [ax.get_ylabel() for ax in figure.axes if ax.get_ylabel()]
+    assert len(named) == 4 // columns
     assert_fit_for_print(figure)
 
 
@@ -160,3 +162,26 @@ def test_the_name_of_a_multiple_is_not_on_the_line_of_another() -> None:
     speeds = np.linspace(8, 18, 500)
     other = top.transData.transform(np.column_stack([speeds, np.full(500, 2252.0)]))
     assert not of_lower.get_window_extent().count_contains(other)
+
+
+def test_the_name_of_a_multiple_is_not_on_the_line_of_one_at_a_peak() -> None:
+    """The name of 4.5 times the stick-slip frequency stood on the line of 5 times, which a peak has."""
+    study = campbell_study()
+    study["stick_slip_frequency"][:] = 225.2
+    study["sliding_frequency"][:] = [1930.0, 2130.0, 2750.0]
+    study["crossing_multiple"] = ("crossing", [10.0, 3.0, 1.0])
+    study["crossing_frequency"][0] = 2252.0
+    top, _ = own_panels(study, PAGE, multiples=[9.5], highest=6000)
+    [name] = [text for text in top.texts if text.get_text().startswith("9.5")]
+    speeds = np.linspace(8, 18, 500)
+    other = top.transData.transform(np.column_stack([speeds, np.full(500, 2252.0)]))
+    assert name.get_visible()
+    assert not name.get_window_extent().count_contains(other)
+
+
+def test_names_at_peaks_come_before_those_along_lines() -> None:
+    """A multiple's name took the only room beside a peak, which had none, and read as that of the peak."""
+    top, _ = own_panels(campbell_study(), COLUMN, multiples=[2, 3])
+    first, *others = [text for text in top.texts if "f_s" in text.get_text()]
+    assert first.get_text().startswith("2.5 ")
+    assert len(others) == 2

@@ -45,15 +45,17 @@ def test_a_critical_speed_names_the_horizon_that_was_not_given() -> None:
         == "none found from 8 to 9 rad/s in steps of 1 rad/s within 1000 s"
     )
     ax = dm.plot_sweep(study)
-    assert " ".join(ax.get_ylabel().split()) == "Critical speed within 1000 s (rad/s)"
+    assert (
+        " ".join(ax.get_ylabel().split()) == "Critical speed for separation within 1000 s (rad/s)"
+    )
     pyplot.close("all")
 
 
 def test_a_horizon_that_is_selected_is_named() -> None:
     study = dm.sweep(dm.critical_speed, CASE, N=LOADS, bounds=(8, 9), horizon=[1, 2])
-    assert label_in(study, "critical_speed") == "Critical speed (rad/s)"
+    assert label_in(study, "critical_speed") == "Critical speed for separation (rad/s)"
     ax = dm.plot_sweep(study.sel(horizon=2))
-    assert " ".join(ax.get_ylabel().split()) == "Critical speed within 2 s (rad/s)"
+    assert " ".join(ax.get_ylabel().split()) == "Critical speed for separation within 2 s (rad/s)"
     pyplot.close("all")
 
 

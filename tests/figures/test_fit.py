@@ -33,7 +33,7 @@ def made_up(**changes: Any) -> Any:
         "gap": None,
         "converged": True,
         "misses": False,
-        "is_wrong": False,
+        "share_text": "0.07 % of fits of the right model are this bad",
         "confidence": 0.95,
     }
     fit |= {"indistinct": (), "determined": {}, "unpredicted": {}, "outside": {}, "reached": ()}
@@ -176,10 +176,11 @@ def test_rows_name_measurements_by_words_symbols_and_units(
         ),
         (
             {"doubt": "wrong", "misses": True},
-            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, model or uncertainties may be wrong",
+            "$μ_s$ = 0.42, $k_p$ = 19 kN/m, model or uncertainties may be wrong "
+            "(0.07 % of fits of the right model are this bad)",
         ),
         (
-            {"doubt": "wrong", "misses": True, "is_wrong": True},
+            {"doubt": "wrong", "misses": True, "freedom": 0},
             "$μ_s$ = 0.42, $k_p$ = 19 kN/m, model or uncertainties are wrong",
         ),
         (

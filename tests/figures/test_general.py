@@ -16,7 +16,7 @@ from disc_model.figures.drawing import PAGE, panels
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.legends import LEAST_MAP
-from disc_model.figures.outside_limits import note_outside
+from disc_model.figures.outside_limits import NOTE, note_outside, remove_note
 from disc_model.figures.style import save
 from disc_model.studies.study import load_study
 from tests.figures.reading import draw, labels, lines
@@ -313,6 +313,23 @@ def test_a_single_line_across_the_limits_is_seen() -> None:
     is_noted = note_outside([ax], (14.4, 14.6))
     assert not is_noted
     assert names_for_legend(ax) == []
+
+
+def test_arrows_show_where_a_line_goes_on_outside_the_limits() -> None:
+    """A line whose last point is outside was cut without a word."""
+    _figure, [ax] = panels(PAGE, 2.4)
+    ax.plot([0, 1, 2, 3, 4, 5], [0.0, 1.0, 3.0, -4.0, np.nan, 9.0], "-s")
+    ax.plot([0, 1, 2], [0.5, 2.5, 0.5], "o")
+    note_outside([ax], (-1.0, 2.0))
+    arrows = {}
+    for line in ax.lines:
+        if line.get_gid() == NOTE:
+            arrows.setdefault(line.get_marker(), []).extend(line.get_xdata())
+            assert not line.get_clip_on()
+    assert arrows["^"] == pytest.approx([1.5, 2 + 1 / 7, 5.0, 1.0])
+    assert arrows["v"] == pytest.approx([2 + 4 / 7])
+    remove_note(ax)
+    assert len(ax.lines) == 2
 
 
 def test_a_single_line_outside_the_limits_is_said() -> None:

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 from matplotlib import pyplot
+from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import disc_model as dm
@@ -274,3 +275,12 @@ def test_titles_tell_discs_that_are_given_by_their_modes_apart() -> None:
         titles.append(stated(dm.Parameters(N=385, Omega=15, disc=disc)))
     start = "N = 385 N, Ω = 15 rad/s, a disc given by 2 modes of 237.1 to"
     assert titles == [f"{start} {highest} Hz" for highest in ("289.7", "366.1")]
+
+
+def test_a_value_with_its_unit_alone_is_not_broken() -> None:
+    """A title of "18 rad/s" above a small panel was."""
+    figure = Figure(figsize=(1.0, 1.0))
+    ax = figure.subplots()
+    ax.set_title("18 rad/s", loc="left", fontsize=12)
+    break_labels(figure)
+    assert ax.get_title(loc="left") == "18 rad/s"

@@ -939,15 +939,16 @@ def test_names_of_crowded_crossings_are_led_to_them() -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("alone", [True, False])
-def test_a_legend_has_marks_of_peaks_as_they_are_drawn(alone: bool) -> None:
+@pytest.mark.parametrize("is_open", [True, False])
+def test_a_legend_has_marks_of_peaks_as_they_are_drawn(is_open: bool) -> None:
     """It had a filled mark where all marks were hollow."""
-    peak = Peak(2, crossing_at(15.0, 270.0), alone)
+    peak = Peak(2, crossing_at(15.0, 270.0), is_open)
     column = meetings(peak)
     entries = campbell_diagram.entries_of([column], 700)
     said = [entry.get_label() for entry in entries]
     entry = entries[said.index("peak at a crossing")]
-    assert entry.get_marker() == ("None" if alone else "o")
+    assert entry.get_marker() == "o"
+    assert (entry.get_markerfacecolor() == "white") == is_open
 
 
 def test_names_of_crossings_cover_no_line() -> None:

@@ -234,6 +234,11 @@ def branch_of_three_points() -> dm.Branch:
     return dm.continue_cycle(case, "Omega", (14.8, 15.2), steps=steps)
 
 
+def test_a_misspelt_variable_of_a_branch_is_answered_by_the_one_that_is_meant() -> None:
+    with pytest.raises(dm.ParameterError, match=r"must be one of .*, did you mean range\?"):
+        branch().plot("rnage")
+
+
 def test_ends_at_which_a_branch_is_not_continued_say_so() -> None:
     """Their pictures ended as if the branch did, while other ends had a mark and words."""
     branch = branch_of_three_points()
@@ -605,7 +610,7 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     names = [text.get_text() for text in ax.figure.legends[0].get_texts()]
     assert names == ["unstable near the static start", "cycles computed", "no cycle found"]
     assert lines(ax)["no cycle found"].get_xdata().tolist() == [25]
-    note = "unstable from 21 kN/m\ntongues below 5 kN/m may be missed"
+    note = "unstable from 21 kN/m\ntongues narrower than 5 kN/m may be missed"
     assert ax.get_title(loc="left") == note
 
 

@@ -9,10 +9,10 @@ from matplotlib import pyplot
 from matplotlib.axis import Axis
 
 import disc_model as dm
-from disc_model.figures import page_legends
+from disc_model.figures import legends, page_legends
 from disc_model.figures.legends import legend_below
-from disc_model.figures.places import ticks_once
-from disc_model.figures.sizes import COLUMN
+from disc_model.figures.places import has_settled, set_places, ticks_once
+from disc_model.figures.sizes import COLUMN, PAGE
 
 
 def test_ticks_are_set_once_for_each_range_of_an_axis(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -55,3 +55,33 @@ def test_a_legend_below_plain_axes_is_written_once(
     _, ax = pyplot.subplots(figsize=(COLUMN, 2.4), layout=layout)
     dm.plot_sweep(study, "outcome", ax=ax)
     assert len(written) == times
+
+
+def test_a_layout_that_has_settled_is_not_set_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Places were set a second time after a legend had found its own, where nothing moved."""
+    placed: list[Any] = []
+
+    def counted(page: Any) -> None:
+        set_places(page)
+        placed.append(page)
+
+    monkeypatch.setattr(legends, "set_places", counted)
+    figure, ax = pyplot.subplots(figsize=(PAGE, 4.0), layout="constrained")
+    ax.plot([0, 1], label="line")
+    figure.draw_without_rendering()
+    legend_below(ax, ax.lines)
+    assert has_settled(figure)
+    assert len(placed) == 2, "before and after the legend has its place"
+
+
+def test_axes_that_become_smaller_have_not_settled() -> None:
+    figure, ax = pyplot.subplots(layout="constrained")
+    ax.set_ylabel("several\nlines\nof words")
+    set_places(figure)
+    assert has_settled(figure)
+    before = ax.bbox.bounds
+    set_places(figure)
+    assert ax.bbox.bounds == pytest.approx(before, abs=1e-6)
+    ax.legend(ax.plot([0, 1]), ["words"], loc="upper left", bbox_to_anchor=(0, -0.2))
+    set_places(figure)
+    assert not has_settled(figure)

@@ -21,6 +21,7 @@ from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
+from disc_model.stability.critical_data import long_name_of
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import describe
 from tests.blocks import RIG
@@ -31,9 +32,9 @@ from tests.refusals import refusal
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
 SPEEDS = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
-KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed"}
-KNOWN["value"] = "Critical static friction μ_s"
-KNOWN["border"] = "Static friction μ_s above which the motion stays unstable"
+KNOWN = {"psi": "Angle ψ", "outcome": "Outcome", "critical_speed": "Critical speed for separation"}
+KNOWN["value"] = "Critical static friction μ_s for instability of the cycle"
+KNOWN["border"] = "Static friction μ_s above which the cycle stays unstable"
 KNOWN |= {"onset_speed": "Speed at separation onset"}
 KNOWN |= {"offset_speed": "Speed at separation end"}
 """Words of variables that have a symbol, or a shorter name than the one that explains them."""
@@ -147,12 +148,12 @@ UNASKED = {
     dm.floquet: "Growth rate of the stick-slip cycle (1/s)",
     dm.steady_sliding: "Growth rate of steady sliding (1/s)",
     dm.outcome: "Outcome within 3 s",
-    dm.critical_speed: "Critical speed within 3 s (rad/s)",
+    dm.critical_speed: "Critical speed for separation within 3 s (rad/s)",
     dm.basins: "Share of 2 starts, kicked with 0.0001, 0.1 J",
     dm.hysteresis: "Speed at separation onset (rad/s)",
     dm.lyapunov_exponents: "Largest Lyapunov exponent (1/s)",
     dm.simulate: "Number of separations within 0.5 s",
-    dm.critical: r"Critical static friction $\mathrm{μ_s}$",
+    dm.critical: r"Critical static friction $\mathrm{μ_s}$ for instability of the cycle",
     own: "Range of my slider (mm)",
 }
 """Labels of what is drawn if no variable is asked for."""
@@ -201,7 +202,7 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
 def test_a_border_is_a_value_of_its_parameter_in_plain_words() -> None:
     """It was a "value of coefficient of static friction above which" the motion stays unstable."""
     border = swept(dm.critical)["border"]
-    words = "coefficient of static friction above which the motion stays unstable"
+    words = "coefficient of static friction above which the stick-slip cycle stays unstable"
     assert border.attrs["long_name"].startswith(words)
 
 
@@ -1497,3 +1498,31 @@ def test_tolerances_along_an_axis_are_named_in_full() -> None:
     study = dm.sweep(dm.simulate, CASE, t_end=0.1, over={"tol": [1e-10, 1e-8]})
     assert dm.plot_sweep(study, "n_events").get_xlabel() == "Tolerance of the simulation (s)"
     pyplot.close("all")
+
+
+@pytest.mark.parametrize(
+    ("kind", "critical", "border"),
+    [
+        (
+            "sliding",
+            "Critical speed Ω for instability of sliding (rad/s)",
+            "Speed Ω above which sliding stays unstable (rad/s)",
+        ),
+        (
+            "stick_slip",
+            "Critical speed Ω for instability of the cycle (rad/s)",
+            "Speed Ω above which the cycle stays unstable (rad/s)",
+        ),
+    ],
+)
+def test_critical_values_say_what_they_are_critical_for(
+    kind: str, critical: str, border: str
+) -> None:
+    """Both kinds had the name of the critical speed for separation."""
+    meaning = describe("Omega")["long_name"]
+    unit = {"units": "rad s-1"}
+    labels = []
+    for name in ("value", "border"):
+        words = {**unit, "long_name": long_name_of(name, kind, meaning)}
+        labels.append(label_of(xr.DataArray(1.0, name=name, attrs=words))[0])
+    assert labels == [critical, border]

@@ -1,6 +1,10 @@
 """Titles of what is computed over a frequency of a disc given by its modes."""
 
+from pathlib import Path
+
 import pytest
+import xarray as xr
+from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.data.variables import axis_of, unit_of_parameter
@@ -8,6 +12,8 @@ from disc_model.figures.head_texts import head_text, what_case
 from disc_model.figures.stated_case import stated
 from disc_model.figures.sweep_titles import values_of
 from disc_model.mode_units import si_unit_of_mode
+from disc_model.studies.registry import quantity_of
+from tests.figures.reading import draw
 
 DISC = dm.Disc.from_csv("config/discs/brake_3_modes.csv")
 PAD = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "m": 0.5}
@@ -37,6 +43,28 @@ def test_a_title_states_a_frequency_that_is_selected() -> None:
     assert "a disc given by 3 modes of 500 to 1212 Hz" in title
 
 
+def test_a_title_states_the_only_disc_of_an_axis() -> None:
+    """It was left out, as if the disc were the plate."""
+    assert RANGE in swept_title(disc=[DISC])
+    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC], Omega=[10.0, 20.0])
+    assert RANGE in dm.plot_sweep(swept).figure.get_suptitle()
+    pyplot.close("all")
+
+
+def test_a_study_states_the_only_disc_of_an_axis(tmp_path: Path) -> None:
+    """Its figures and a picture of the dataset left it out."""
+    table = Path("config/discs/brake_3_modes.csv").resolve()
+    base = "{N: 8000, r_0: 0.1, k: 1e6, k_p: 1e6, m: 0.5}"
+    axes = f"{{disc: [{table}], Omega: [10, 20]}}"
+    file = tmp_path / "one.yaml"
+    file.write_text(f"study: one\nquantity: floquet\nbase: {base}\naxes: {axes}\n")
+    study = dm.run_study(file)
+    assert RANGE in dm.plot_sweep(study).figure.get_suptitle()
+    figure = draw("curve", study, variable="growth_rate", x="Omega", width="page")
+    assert "3 modes of 550.8 to 1212 Hz" in figure.get_suptitle().replace("\n", " ")
+    pyplot.close("all")
+
+
 def test_parameters_that_are_counted_are_called_so() -> None:
     """After the modes of a disc, "and 1 more" read as one more mode."""
     values = ", ".join(f"x{i} = {i} N" for i in range(40))
@@ -58,3 +86,34 @@ def test_numbers_of_modes_have_one_unit_in_pictures_and_texts(name: str) -> None
     label, _ = axis_of(name)
     assert label.endswith(f"({unit_of_parameter(name)})")
     assert unit_of_parameter(name) == si_unit_of_mode(name)
+
+
+def test_names_of_discs_along_an_axis_leave_the_panel_its_room() -> None:
+    """They were turned, and took more height than the panel; the label of the axis was cut."""
+    other = dm.Disc(**{**DISC.model_dump(), "omega": [1.1 * omega for omega in DISC.omega]})
+    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC, other])
+    ax = dm.plot_sweep(swept, "growth_rate")
+    ax.figure.canvas.draw()
+    assert ax.get_xlabel() == "Disc"
+    assert [label.get_rotation() for label in ax.get_xticklabels()] == [0, 0]
+    assert ax.get_xticklabels()[0].get_text().startswith("disc 1: 3 modes")
+    assert ax.get_position().height > 0.4
+    pyplot.close("all")
+
+
+def test_kinds_of_motion_along_an_axis_have_names() -> None:
+    """They were "stick_slip" there, and "stick-slip cycle" in a legend."""
+    axes = {"kind": ["stick_slip", "sliding"], "N": [100.0, 200.0]}
+    study = xr.Dataset({"value": ([*axes], [[1.0, 2.0], [3.0, 4.0]])}, axes)
+    ax = dm.plot_sweep(study, "value", x="kind")
+    ax.figure.canvas.draw()
+    names = [label.get_text() for label in ax.get_xticklabels()]
+    assert names == ["stick-slip cycle", "steady sliding"]
+    pyplot.close("all")
+
+
+def test_tangential_amplitudes_are_numbers_of_studies_too() -> None:
+    """Studies of steady sliding along one were refused."""
+    scan = {"start": -0.2, "stop": 0.2, "count": 3}
+    quantity = quantity_of("sliding")(parameter="tangential_1_0", scan=scan)
+    assert quantity.units == "kg^-1/2"

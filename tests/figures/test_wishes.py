@@ -139,7 +139,7 @@ def test_own_axes_are_used_and_their_figure_keeps_its_title(name: str) -> None:
     if name == "map":
         place = 2
     ax = figure.axes[place]
-    assert ax.get_title() == "panel title"
+    assert ax.get_title(loc="left") == "panel title"
 
 
 def title_above(ax: Axes) -> str:

@@ -202,8 +202,9 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert fit.freedom == 1
     assert not fit.consistent
     said = dict(fit.summary())
-    doubt = f"model, fixed parameters or uncertainties are wrong, chi squared is {fit.chi_squared:.3g} times its"
-    assert fit.doubt == f"{doubt} degrees of freedom, and frequency_0_0 deviates most"
+    doubt = f"model, fixed parameters or uncertainties may be wrong, chi squared is {fit.chi_squared:.3g} times its"
+    share = "less than 0.0001 % of fits of the right model are this bad"
+    assert fit.doubt == f"{doubt} degrees of freedom: {share}, and frequency_0_0 deviates most"
     assert said["consistent"] == f"no: {fit.doubt}"
     assert said["intervals"] == f"none: {fit.doubt}"
     assert " to " not in said["E"]
@@ -213,7 +214,7 @@ def test_measurements_that_contradict_the_model_are_inconsistent() -> None:
     assert not unlucky.consistent
     assert unlucky.doubt == (
         "model, fixed parameters or uncertainties may be wrong, chi squared is 4.2 times its degrees of freedom: "
-        "4 % of right ones have as much, and frequency_0_0 deviates most"
+        "4 % of fits of the right model are this bad, and frequency_0_0 deviates most"
     )
 
 
@@ -640,7 +641,7 @@ def test_a_large_chi_squared_is_said_beside_indistinct_parameters() -> None:
     reduced = f"the least chi squared is {least / fit.freedom:.3g} times its degrees of freedom"
     for words in (
         "determine mu_s and mu_k apart",
-        "model, fixed parameters or uncertainties are wrong",
+        "model, fixed parameters or uncertainties may be wrong",
         reduced,
     ):
         assert words in fit.doubt

@@ -75,7 +75,16 @@ def test_critical_values_of_a_mode_are_saved(tmp_path: Path) -> None:
     case = dm.Parameters(N=385, Omega=12, disc=disc, r_0=0.1)
     found = dm.critical(case, "omega_2_0", (2900, 3100), points=2, kind="sliding")
     dm.save(found, tmp_path / "mode.nc")
-    assert "omega_2_0" in dm.load(tmp_path / "mode.nc").coords
+    data = dm.load(tmp_path / "mode.nc")
+    swept = dm.sweep(
+        dm.critical, case, "omega_2_0", (2900, 3100), N=[385], points=2, kind="sliding"
+    )
+    meaning = "natural frequency of the mode of 2 nodal diameters and 0 circles"
+    for units in (data["omega_2_0"].units, data["value"].units, swept["value"].units):
+        assert units == "rad s-1"
+    assert data["omega_2_0"].long_name == meaning
+    assert meaning in swept["border"].long_name
+    assert meaning in data["border"].long_name
 
 
 def test_a_sweep_of_critical_values_keeps_its_variables() -> None:

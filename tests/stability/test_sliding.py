@@ -1,6 +1,7 @@
 """Steady sliding: an equilibrium with the flow's eigenvalues, or why there is none."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -383,3 +384,13 @@ def test_growing_modes_are_counted_and_named_by_their_frequencies():
 def test_the_force_of_sliding_has_the_symbol_of_its_direction(force, symbol):
     sliding = steady_sliding(P.replace(contact_force=force))
     assert sliding.message.startswith(f"steady sliding with {symbol} = ")
+
+
+def test_a_growth_rate_that_is_rounding_is_written_as_0() -> None:
+    """It was 2e-13 1/s of sliding that is neutral."""
+    values = np.array([2e-13 + 1e4j, 2e-13 - 1e4j, -5.0 + 2e4j, -5.0 - 2e4j])
+    sliding = replace(steady_sliding(P), eigenvalues=values, growth_rate=2e-13)
+    assert not sliding.stable
+    assert not sliding.growing.size
+    assert "growth rate 0 1/s" in repr(sliding)
+    assert dict(sliding.summary())["growth rate"] == "0 1/s"

@@ -372,3 +372,27 @@ def test_the_precision_of_a_scan_follows_a_step_with_a_unit() -> None:
 def test_a_step_that_is_no_multiple_of_the_precision_is_told_with_its_value() -> None:
     with refusal("the scan's step of 0.5 rad/s must be a multiple of precision=0.2 rad/s"):
         dm.critical_speed(P, (14, 15), 1, step=0.5, precision=0.2)
+
+
+def test_a_name_of_studies_is_answered_with_that_of_functions() -> None:
+    """A start as in a study file was told to be "start.start='perturbation'"."""
+    kick = {"perturbation": {"u": 1e-4}}
+    rule = r"start\.perturbation: is a key of study files\. In functions it is start={'u': 1e-4}$"
+    with refusal(f"^{rule}"):
+        dm.outcome(P, 60, start=kick)  # type: ignore[arg-type]
+    with refusal(f"^{rule}"):
+        dm.sweep(dm.outcome, P, over={"start": [kick]}, horizon=60, Omega=[12])
+    with refusal(f"^{rule}"):
+        dm.initial_state(P, kick)  # type: ignore[arg-type]
+    with refusal(r"^start\.prerun: is a key .* it is initial_state\(case, prerun=\.\.\.\)$"):
+        dm.basins(P, start={"prerun": {}})  # type: ignore[dict-item]
+    with refusal(r"did you mean start\? In functions it is start={'u': 1e-4} \(known"):
+        dm.outcome(P, 60, perturbation={"u": 1e-4})  # type: ignore[call-arg]
+
+
+def test_a_name_of_functions_is_answered_with_that_of_studies() -> None:
+    study = {"study": "s", "quantity": "outcome", "base": {"N": 385}, "axes": {"Omega": [12]}}
+    meant = r"did you mean perturbation\? In study files it is perturbation: {u: 1e-4} \(known"
+    for wrong in ({"start": {"u": 1e-4}}, {"u": 1e-4}):
+        with pytest.raises(dm.DiscModelError, match=meant):
+            dm.run_study(study | {"options": {"horizon": 3, **wrong}})

@@ -262,9 +262,16 @@ def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize(
-    ("parameter", "units"), [("Omega", "rad s-1"), ("mu_k_over_mu_s", "1"), ("omega_2_0", "")]
+    ("parameter", "units"),
+    [
+        ("Omega", "rad s-1"),
+        ("mu_k_over_mu_s", "1"),
+        ("omega_2_0", "rad s-1"),
+        ("damping_ratio_2_0", "1"),
+    ],
 )
-def test_numbers_of_modes_have_no_unit_in_datasets(parameter: str, units: str) -> None:
+def test_numbers_of_modes_have_units_in_datasets_too(parameter: str, units: str) -> None:
+    """They had none."""
     assert units_of(parameter) == units
 
 

@@ -54,3 +54,17 @@ def test_a_job_is_what_it_would_be_by_itself(tmp_path: Path) -> None:
     assert [err.splitlines()[-1] for *_, err in warm[:4]] == [
         err.splitlines()[-1] for *_, err in alone[:4]
     ]
+
+
+def test_a_job_waits_for_the_process_that_has_been_started(tmp_path: Path) -> None:
+    """Its first jobs had imports of their own, which held up both on two cores."""
+    (tmp_path / "job.py").write_text("import sys; print('xarray' in sys.modules)")
+    server = subprocess.Popen([*WARM, tmp_path / "socket"], stdin=subprocess.PIPE, cwd=ROOT)
+    (tmp_path / "started").write_text(str(server.pid))
+    words = [*WARM, tmp_path / "socket", "job.py"]
+    first = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    server.communicate(timeout=60)
+    (tmp_path / "socket").unlink()
+    later = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True)
+    assert first.stdout == "True\n"
+    assert later.stdout == "False\n", "the process has ended"

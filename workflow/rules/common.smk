@@ -50,6 +50,7 @@ if LOCAL and sys.platform == "linux":
     ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in LIBRARIES}
     STREAMS = {"stdin": PIPE, "stdout": DEVNULL, "stderr": DEVNULL}
     warm = Popen([sys.executable, *WARM], env=os.environ | ONE_THREAD, **STREAMS)
+    Path(SOCKETS.name, "started").write_text(str(warm.pid))  # jobs wait for it
     finalize(workflow, warm.kill)
 
 try:

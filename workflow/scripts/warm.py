@@ -15,6 +15,10 @@ import sys
 
 ALONE = {"measure.py"}
 """Scripts that are timed, or whose environment must be set before their imports."""
+LONGEST_START = 30
+"""Time for which jobs wait for the process that runs them, s."""
+STARTED = "started"
+"""File beside the socket with the number of this process, from its start on."""
 
 
 def serve(address):
@@ -109,12 +113,28 @@ def run(connection):
     os._exit(code)  # taking all modules down would take a quarter of a second
 
 
+def wait_for(address):
+    """Wait until the process that runs scripts is ready, if it has been started: on few cores, jobs
+    that import by themselves would hold it up, and each other."""
+    import time
+
+    try:
+        with open(os.path.join(os.path.dirname(address), STARTED), encoding="ascii") as file:
+            program = f"/proc/{int(file.read())}/exe"
+    except (OSError, ValueError):
+        return
+    ends = time.monotonic() + LONGEST_START
+    while os.path.exists(program) and not os.path.exists(address) and time.monotonic() < ends:
+        time.sleep(0.02)
+
+
 def ask(address, arguments):
     """Have a script run, and return its exit code."""
     with socket.socket(socket.AF_UNIX) as connection:
         try:
             if os.path.basename(arguments[0]) in ALONE:
                 raise OSError
+            wait_for(address)
             connection.connect(address)
         except OSError:  # not ready yet, or not on this machine
             os.execv(sys.executable, [sys.executable, *arguments])

@@ -10,7 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.complex_parts import with_parts
-from disc_model.data.point_table import save_points, table_of, write_table
+from disc_model.data.point_table import table_of, write_table
 from disc_model.data.swept_branches import (
     branch_of_sweep,
     has_failed,
@@ -38,14 +38,6 @@ SAME_BETWEEN = ("separations", "releases")
 """Numbers that a special point between two points has in common with the first of these."""
 OF_POINT = ("status", "message", "ended", "not_reached")
 """What is known of a point of a sweep, and stands in each of its rows."""
-
-
-def save_table(data: xr.Dataset, file: Path) -> None:
-    """Write a dataset as a table of text: of branches a row for each of their points."""
-    if has_branches(data):
-        save_branches(data, file)
-    else:
-        save_points(with_parts(data), file)
 
 
 def has_branches(data: xr.Dataset) -> bool:

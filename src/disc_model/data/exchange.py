@@ -12,11 +12,11 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.branch_table import save_table
 from disc_model.data.complex_parts import joined, with_parts
 from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.data.matlab import load_mat, save_mat
 from disc_model.data.tables import check_suffix
+from disc_model.data.text_tables import names_folder, save_all_tables, save_table
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.parameters import Disc
 
@@ -37,7 +37,8 @@ class HasDataset(Protocol):
 
 
 def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str | Path) -> None:
-    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
+    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table;
+    or all of its tables to a folder.
 
     Parameters
     ----------
@@ -52,8 +53,9 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
         dimensions has a column for each place along them, such as `multipliers_real[0]`, and a row for each place if
         only such variables are chosen, as by ``data[["crossing_Omega", "crossing_effect"]]``. Places at which nothing
         was found, such as those after the last crossing, are left out. A branch, and a sweep of branches, has a row
-        for each of its points and special points, without its attributes. It is for other programs: `load` reads no
-        tables
+        for each of its points and special points, without its attributes. A folder, which is there or whose name ends
+        in "/": a table of this form for each set of dimensions that variables have, such as "energy_start.csv", that of
+        single numbers in "single_numbers.csv". Tables are for other programs: `load` reads none
 
     Returns
     -------
@@ -82,26 +84,19 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
     elif hasattr(data, "save"):
         rule = f"{rule}; it has a method save of its own"
     require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
-    file = check_suffix(regular_file(path), WRITTEN)
+    file = None if names_folder(path) else check_suffix(regular_file(path), WRITTEN)
     tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
     groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
-    if file.suffix == ".nc":
+    if file is None:
+        save_all_tables(groups, path)
+    elif file.suffix == ".nc":
         parts = {path: with_parts(group) for path, group in groups.items()}
         dataset.save(xr.DataTree.from_dict(parts), file)
     elif file.suffix == TABLE:
-        save_table(_only(groups), file)
+        save_table(groups, file)
     else:
         save_mat(groups, file)
-
-
-def _only(groups: Mapping[str, xr.Dataset]) -> xr.Dataset:
-    """The only one of groups; raises `ParameterError` where there are several."""
-    first, *others = groups
-    if others:
-        rule = f"must be one group to be a table, such as data[{others[0]!r}].to_dataset()"
-        raise ParameterError(Fault(("data",), "", rule))
-    return groups[first]
 
 
 def load(path: str | Path) -> xr.Dataset | xr.DataTree:

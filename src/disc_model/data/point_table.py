@@ -126,7 +126,8 @@ def _check_dimensions(data: xr.Dataset) -> None:
         choice = f'choose variables of one table, such as data[["{others[0]}"]]'
         dims = ", ".join(f'"{dim}"' for dim in _further_dimensions(data, others))
         left = f"data.drop_dims([{dims}]), which has all others"
-        rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}, or {left}"
+        all_tables = 'or name a folder, such as "tables/", for all tables'
+        rule = f"{rule_of_rows(data)}: {', '.join(others)}; {choice}, or {left}, {all_tables}"
         raise ParameterError(Fault(("data",), "", rule))
 
 

@@ -5,7 +5,16 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import flag_names, unit_of_parameter
+from disc_model.mode_units import column_of
+from disc_model.parameters import RATIOS, Parameters
+
+SPEED = "Omega"
+"""The number along which sweeps go unless another one is asked for."""
+ONSETS = ("onset_speed", "onset")
+"""Names of the value at which separation begins: of the speed, and of another number,"""
+ENDS = ("offset_speed", "offset")
+"""and of that at which it ends."""
 
 
 class SweptSpeeds(NamedTuple):
@@ -28,30 +37,49 @@ class SweptSpeeds(NamedTuple):
 
 
 def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
-    """Return the speeds of a study of the quantity `hysteresis`, with its lower bound for speeds
-    that are there or below."""
+    """Return the speeds of a study of the quantity `hysteresis`, or the values of another number that it
+    sweeps, with its lower bound for those that are there or below."""
     apart = sweep["separation_rate"] > 0
     rising = apart.sel(direction="up", drop=True)
     falling = apart.sel(direction="down", drop=True)
-    speeds = sweep["sweep_Omega"]
+    onset, end = ONSETS[0], ENDS[0]
+    name = number_swept(sweep)
+    if name != SPEED:
+        onset, end = ONSETS[1], ENDS[1]
+    speeds = sweep[f"sweep_{name}"]
     along = str(speeds.dims[-1])  # another one than the speed where sweeps have different speeds
     begins_at_bound = rising.isel({along: 0}, drop=True)
     persists_to_bound = (falling | speeds.isnull()).all(along)
     lowest = speeds.min(along)
-    onset = sweep["onset_speed"].where(~begins_at_bound, lowest)
+    begins = sweep[onset].where(~begins_at_bound, lowest)
     doubtful = doubtful_contact(sweep)
-    before_onset = (speeds < onset) | onset.isnull()
+    before_onset = (speeds < begins) | begins.isnull()
     doubtful_up = doubtful.sel(direction="up", drop=True) & before_onset
     first_kept = speeds.where(~falling).max(along)
     doubtful_down = doubtful.sel(direction="down", drop=True) & (speeds == first_kept)
     return SweptSpeeds(
-        onset=onset,
-        end=sweep["offset_speed"].where(~persists_to_bound, lowest),
+        onset=begins,
+        end=sweep[end].where(~persists_to_bound, lowest),
         onset_at_bound=begins_at_bound,
         end_at_bound=persists_to_bound,
         onset_unsettled=doubtful_up.any(along),
         end_unsettled=doubtful_down.any(along),
     )
+
+
+def number_swept(study: xr.Dataset) -> str:
+    """The number of the case along which sweeps up and down of a study go; "" if it has none."""
+    for variable in map(str, study.variables):
+        name = variable.removeprefix("sweep_")
+        is_number = name in (*Parameters.model_fields, *RATIOS) or column_of(name)
+        if name != variable and is_number:
+            return name
+    return ""
+
+
+def text_swept(study: xr.Dataset, value: float) -> str:
+    """A value along the sweeps of a study, in its unit."""
+    return f"{value:g} {unit_of_parameter(number_swept(study))}".strip()
 
 
 def doubtful_contact(sweep: xr.Dataset) -> xr.DataArray:

@@ -166,7 +166,7 @@ def save_csv(tables: Mapping[str, xr.Dataset], path: str | Path) -> None:
     WriteError
         If a file cannot be written.
     """
-    folder = _made_folder(path)
+    folder = made_folder(path)
     for name, table in tables.items():
         columns = {}
         for key in (*table.coords, *table.data_vars):
@@ -185,7 +185,7 @@ def head_of(name: str, attributes: Mapping[Any, Any]) -> str:
     return name if unit in ("", "1") else f"{name} ({unit})"
 
 
-def _made_folder(path: str | Path) -> Path:
+def made_folder(path: str | Path) -> Path:
     """A folder, made if it is missing; raises `ParameterError`."""
     rule = "must be the name of a folder"
     possible = isinstance(path, str | Path) and "\0" not in str(path)

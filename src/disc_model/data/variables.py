@@ -309,6 +309,13 @@ def attributes_of_mode(name: str) -> dict[str, Any]:
     return number._replace(long_name=f"{number.long_name} of the mode of {nodes}").attributes
 
 
+def attributes_of_number(name: str) -> dict[str, Any]:
+    """CF attributes of a number of a case: a parameter, a ratio, or a number of one of a disc's modes."""
+    if name in (*Parameters.model_fields, *RATIOS):
+        return attributes(name)
+    return attributes_of_mode(name)
+
+
 def axis_of(name: str, where: str = "") -> tuple[str, float]:
     """Label of an axis, with a text after the name, such as an angle; and the factor from SI to its
     unit."""

@@ -38,6 +38,9 @@ from disc_model.figures.words import (
 from disc_model.parameters import RATIOS, Parameters
 
 TRACES = ("P", "u", "psi")
+ORIGINS = {"u": "from the undeformed disc"}
+"""From where the numbers of a history count: others of the slider's height, as of its range, count from
+static equilibrium."""
 CONFIDENCE = 0.95  # of intervals, where a quantity has no option of it
 LEVELS = 65535  # steps between the least and the greatest value of a stored history
 NAMED_BY: Mapping[str, Mapping[str, str]] = {
@@ -238,11 +241,19 @@ def motion_contents(motions: xr.Dataset, text: str = "") -> dict[str, Any]:
 
 
 def _trace(histories: xr.DataArray) -> dict[str, Any]:
-    """The histories of one variable, in the unit and under the name that figures have."""
+    """The histories of one variable, in the unit and under the name that figures have, its size, the
+    greatest in any of them, and from where its numbers count, "" where that is clear."""
     name = str(histories.name)
     label, unit, factor = named(histories)
-    packed_histories = traces(factor * histories.values.astype(float))
-    return {"name": name, "label": lowered(label), "unit": unit, **packed_histories}
+    values = factor * histories.values.astype(float)
+    told = {
+        "name": name,
+        "label": lowered(label),
+        "unit": unit,
+        "size": float(np.abs(values).max(initial=0.0)),
+        "origin": ORIGINS.get(name, ""),
+    }
+    return {**told, **traces(values)}
 
 
 def _motion(motion: xr.Dataset, names: Sequence[str]) -> dict[str, Any]:

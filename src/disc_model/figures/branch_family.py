@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from disc_model.figures.branch_lines import Look, dot_in_legend, stable_line, unstable_line
 from disc_model.figures.branch_wishes import AS_USUAL, PartLooks
 from disc_model.figures.drawing import BLACK, BLUE, GREY, SEPARATED, sample
 from disc_model.figures.family import LOOKS, Member, names_of
 from disc_model.figures.family_titles import retitle
+from disc_model.figures.kept import Kept
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Axes, Mask
@@ -31,7 +31,7 @@ SPECIAL_MARKS = {
 WIDTH = 1.4  # points, of their lines in the legend
 
 
-_BRANCHES: WeakKeyDictionary[Axes, list[Member]] = WeakKeyDictionary()
+_BRANCHES: Kept[list[Member]] = Kept("branches")
 """The branches that axes have."""
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import axis_of
-from disc_model.errors import require
+from disc_model.errors import require, rule_of_choice
 from disc_model.figures.words import label_of
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ def axis_upward(branch: Branch, y: str) -> tuple[str, float]:
     if len(branch.parameters) > 1:
         return axis_of(branch.parameters[1])
     known = isinstance(y, str) and y in branch.variables
-    require((known, "y", y, f"must be one of {', '.join(branch.variables)}"))
+    require((known, "y", y, rule_of_choice(y, branch.variables)))
     return label_of(xr.DataArray(name=y, attrs=branch.variables[y].attributes))
 
 

@@ -14,6 +14,8 @@ NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
 """What a study has that such a diagram can show."""
 OTHERS = ("Omega", "mode", "crossing")
 """Dimensions of such a study beside those of its grid."""
+MOST_COLUMNS = 6
+"""Values of a further dimension that have a panel each."""
 
 
 def checked_study(
@@ -37,14 +39,21 @@ def checked_study(
     )
     raise_faults(faults)
     drawn = without_single(study, *OTHERS).transpose("Omega", ...)
-    further = [str(dim) for dim in drawn.dims if dim not in OTHERS]
-    rule = f"must not vary along it: select one, as by study.sel({_first_place(drawn, further)})"
+    further = dims_of_columns(drawn)
+    few = not further or (len(further) == 1 and drawn.sizes[further[0]] <= MOST_COLUMNS)
+    selection = f"select values, as by study.sel({_first_place(drawn, further)})"
+    rule = f"must be one dimension of up to {MOST_COLUMNS} values: {selection}"
     points = "must have two speeds or more"
     require(
-        (not further, "study", ", ".join(further), rule),
+        (few, "study", ", ".join(further), rule),
         (drawn.sizes["Omega"] > 1, "study", "a single speed", points),
     )
     return drawn, limit
+
+
+def dims_of_columns(study: xr.Dataset) -> list[str]:
+    """The dimensions beside the speed along which a study varies."""
+    return [str(dim) for dim in study.dims if dim not in OTHERS]
 
 
 def _are_multiples(multiples: Any) -> bool:

@@ -48,8 +48,8 @@ def entries_of(
     handles += entries_of_left_out(studies)
     found = [peak for column in columns for peak in column.peaks]
     handles += _entries_of_peaks(found, highest, bool(multiples))
-    handles += entries_of_crossings(studies, multiples, highest)
-    handles += _entries_of_rates(studies)
+    handles += entries_of_crossings(columns, multiples, highest)
+    handles += _entries_of_rates(studies, found)
     handles.sort(key=_is_long)
     return handles + entries_of_counts(columns, multiples, highest)
 
@@ -60,19 +60,19 @@ def _is_long(handle: Artist) -> bool:
     return max(map(seen, lines)) > SHORT
 
 
-def _entries_of_rates(studies: Sequence[xr.Dataset]) -> list[Artist]:
+def _entries_of_rates(studies: Sequence[xr.Dataset], found: Sequence[Peak]) -> list[Artist]:
     """Entries of a legend for points of other cycles, by themselves or beside open steps, and gaps."""
     followed = [followed_rates(study) for study in studies]
-    handles = _entries_of_other_cycles(followed)
+    handles = _entries_of_other_cycles(followed, any(peak.is_open for peak in found))
     for name in {look.label for study in studies for look in doubts(study, "growth_rate")}:
         handles.append(sample(label=name, **elsewhere_look()))
     return handles + entries_of_bands(studies)
 
 
-def _entries_of_other_cycles(followed: Sequence[Array]) -> list[Artist]:
-    """The entry of a legend for what may be another cycle, or too wide a step: points by themselves, open
-    lines, or both."""
-    alone = any(unjoined(rate).any() for rate in followed)
+def _entries_of_other_cycles(followed: Sequence[Array], has_open_peaks: bool) -> list[Artist]:
+    """The entry of a legend for what may be another cycle, or too wide a step: points by themselves and
+    peaks beside open steps, open lines, or both."""
+    alone = has_open_peaks or any(unjoined(rate).any() for rate in followed)
     is_open = any(opens(rate).any() for rate in followed)
     if alone and is_open:
         return [open_ring(ANOTHER_CYCLE, BLACK, wide(0.8))]
@@ -90,11 +90,9 @@ def _entries_of_peaks(found: Sequence[Peak], highest: float, of_slips: bool) -> 
     shown = [crossing for crossing in crossings if meeting_of(crossing)[1] <= highest]
     handles = _entries_of_multiples(shown, of_slips)
     for name, alike in _by_name(found, bool(shown)).items():
-        if _are_resolved(alike):
-            dot = dot_look(alone=False, crossed=alike[0].crossing is not None)
+        if alike:
+            dot = dot_look(not _are_resolved(alike), crossed=alike[0].crossing is not None)
             handles.append(sample(label=name, **{**dot, **speed_look()}))
-        elif alike:  # marks of points by themselves say that they are not resolved
-            handles.append(sample(label=name, **speed_look()))
     if len(shown) < len(crossings):
         label = f"crossing above {highest:g} Hz"
         handles.append(sample(label=label, **beyond_look()))
@@ -121,5 +119,5 @@ def _by_name(found: Sequence[Peak], crossings_shown: bool) -> dict[str, list[Pea
 
 
 def _are_resolved(found: Sequence[Peak]) -> bool:
-    """Whether some peaks are no points by themselves."""
-    return any(not peak.alone for peak in found)
+    """Whether there is no open step beside some peaks."""
+    return any(not peak.is_open for peak in found)

@@ -1,6 +1,7 @@
 """Looks of the lines and marks of a Campbell diagram."""
 
-from typing import Any
+from collections.abc import Sequence
+from typing import Any, NamedTuple
 
 from disc_model.figures.classes import LOOKS
 from disc_model.figures.drawing import BLACK, GREY, mark, wide
@@ -56,27 +57,31 @@ def beyond_look() -> dict[str, Any]:
     }
 
 
-CROSSINGS = {
-    "no_rise": ("s", "no rate rises"),
-    "mode_rises": (">", "only a mode's rate rises"),
-    "rises": ("P", "the cycle's rate rises"),
-    "destabilises": ("*", "the cycle is unstable there"),
-    "no_cycle": ("h", "no cycle"),
-    "unresolved": ("v", "unresolved"),
-    "not_near": ("X", "motion not near the cycle"),
-    "beyond_scan": ("<", "its window leaves the scan"),
-}
-"""Marks of crossings by what growth rates do there, and what the legend says of them."""
+class Crossing(NamedTuple):
+    """Crossings that have one mark: their effects, what the legend says of them, the mark, and its colour."""
+
+    effects: Sequence[str]
+    meaning: str
+    marker: str
+    face: str
 
 
-def crossing_look(effect: str) -> dict[str, Any]:
-    """Look of the mark of a crossing by its effect, white on a thick line."""
+CROSSINGS = (
+    Crossing(("mode_rises", "rises", "destabilises"), "a rate rises", "s", BLACK),
+    Crossing(("no_rise",), "no rate rises", "s", "white"),
+    Crossing(("no_cycle", "unresolved", "not_near", "beyond_scan"), "not known", "v", "white"),
+)
+"""Marks of crossings by what growth rates do there: the table of the study has more words for it."""
+
+
+def crossing_look(crossing: Crossing) -> dict[str, Any]:
+    """Look of the mark of a crossing."""
     return {
         "color": BLACK,
         "linestyle": "",
-        "marker": CROSSINGS[effect][0],
-        "markersize": mark(5),
-        "markerfacecolor": "white",
+        "marker": crossing.marker,
+        "markersize": mark(4.5),
+        "markerfacecolor": crossing.face,
         "markeredgewidth": wide(0.7),
         "zorder": 4,  # on thick lines
     }

@@ -5,7 +5,8 @@ import xarray as xr
 from disc_model.data.variables import flag_names
 from disc_model.figures.campbell_crossings import meeting_of
 from disc_model.figures.campbell_looks import beyond_look, dot_look, multiple_look, speed_look
-from disc_model.figures.campbell_peaks import Peak, followed_frequency
+from disc_model.figures.campbell_multiples import draw_multiple
+from disc_model.figures.campbell_peaks import Peak
 from disc_model.figures.types import Axes
 
 EDGE = 1.0  # height of a mark at this edge, as a share of the panel
@@ -18,7 +19,7 @@ def draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: f
     rate = study["growth_rate"].values[peak.place]
     for ax in (top, bottom):
         ax.axvline(speed, zorder=0, **speed_look())
-    bottom.plot(speed, rate, **dot_look(peak.alone, crossed=peak.crossing is not None))
+    bottom.plot(speed, rate, **dot_look(peak.is_open, crossed=peak.crossing is not None))
     if peak.crossing is None:
         return
     place = meeting_of(peak.crossing)
@@ -28,7 +29,10 @@ def draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: f
         return
 
     by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
-    line = followed_frequency(study) if by_slips else study["rotation_frequency"]
     multiple = float(peak.crossing["crossing_multiple"])
-    top.plot(study["Omega"], multiple * line, zorder=0, **multiple_look())
-    top.plot(*place, **dot_look(peak.alone))
+    if by_slips:
+        draw_multiple(top, study, multiple, zorder=0)
+    else:
+        turns = multiple * study["rotation_frequency"]
+        top.plot(study["Omega"], turns, zorder=0, **multiple_look())
+    top.plot(*place, **dot_look(peak.is_open))

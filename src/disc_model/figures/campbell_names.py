@@ -38,13 +38,12 @@ def name_peaks(
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
     lines = [(speeds, mode) for mode in modes]
-    marks = places_of_marks(study, multiples, highest)
+    marks = places_of_marks(column, multiples, highest)
     above = Names(top, lines=np.vstack([_along_lines(lines), marks]))
     followed = followed_rates(study)
     of_rates = _along_lines([opened(speeds, followed, opens(followed))])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
     outline = halo()
-    name_multiples(above, study, multiples, highest)
     for peak in column.peaks:
         if peak.crossing is None:
             continue
@@ -63,6 +62,7 @@ def name_peaks(
             )
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
         below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
+    name_multiples(above, column, multiples, highest)  # anywhere along lines
 
 
 def _upright_lines(ax: Axes, speeds: Sequence[float]) -> Array:

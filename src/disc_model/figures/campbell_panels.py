@@ -19,6 +19,8 @@ from disc_model.figures.words import SPEED
 
 FREQUENCY = "Frequency in the slider's frame (Hz)"
 RATE = "Largest growth rate\nof the cycle (1/s)"
+ROOM = 3.0  # ends of the axis of growth rates over the largest ones, for names of peaks
+ROOM_LINEAR = 1.3  # and on a linear scale
 
 
 def draw_panels(
@@ -32,16 +34,49 @@ def draw_panels(
     are asked for, and growth rates below them, on one scale."""
     for top, bottom, column in zip(above, below, columns, strict=True):
         _draw_column(top, bottom, column, highest)
-        draw_multiples(top, column.study, multiples, highest)
+        draw_multiples(top, column, multiples, highest)
+    _scale_alike(below)
     rates = [column.study["growth_rate"].values for column in columns]
     low = min(float(np.fmin.reduce(rate, initial=0.0)) for rate in rates)
     high = max(float(np.fmax.reduce(rate, initial=0.0)) for rate in rates)
-    above[0].set_ylim(0, highest)
-    below[0].set_ylim(min(3 * low, -LINEAR), max(3 * high, LINEAR))
-    above[0].set_ylabel(FREQUENCY)
-    below[0].set_ylabel(RATE)
+    for ax in above:
+        ax.set_ylim(0, highest)
+    for ax in below:
+        _limit_rates(ax, low, high)
+    _label_rows(above, FREQUENCY)
+    _label_rows(below, RATE)
     for ax in (*above, *below):
         whole_marks(ax)
+
+
+def _label_rows(axes: Sequence[Axes], label: str) -> None:
+    """Label the vertical axes of panels, but those beside a labelled one that they share."""
+    for ax in axes:
+        alike = ax.get_shared_y_axes().get_siblings(ax)
+        if not any(other.get_ylabel() and _are_beside(ax, other) for other in alike):
+            ax.set_ylabel(label)
+
+
+def _are_beside(ax: Axes, other: Axes) -> bool:
+    """Whether axes stand at one height of a figure."""
+    height = ax.get_position(original=True).y0
+    return bool(np.isclose(height, other.get_position(original=True).y0))
+
+
+def _scale_alike(axes: Sequence[Axes]) -> None:
+    """Give panels of growth rates one scale, as the rates of all of them need it."""
+    ends = np.concatenate([ax.dataLim.intervaly for ax in axes])
+    ends = ends[np.isfinite(ends)]
+    for ax in axes:
+        if ends.size:
+            ax.update_datalim([(0, ends.min()), (0, ends.max())], updatex=False)
+        scale_rates(ax)
+
+
+def _limit_rates(ax: Axes, low: float, high: float) -> None:
+    """End the axis of growth rates beyond the lowest and highest, by as much as its scale needs."""
+    room = ROOM_LINEAR if ax.get_yscale() == "linear" else ROOM
+    ax.set_ylim(min(room * low, -LINEAR), max(room * high, LINEAR))
 
 
 def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> None:
@@ -54,7 +89,6 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
     draw_modes(top, study, highest)
     _draw_rates(bottom, speeds, followed_rates(study))
     bottom.plot(speeds[elsewhere], rate[elsewhere], **elsewhere_look())
-    scale_rates(bottom)
     for peak in column.peaks:
         draw_peak(top, bottom, study, peak, highest)
     if modes_above(study["sliding_frequency"], highest):
@@ -63,6 +97,7 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
     for ax in (top, bottom):
         ax.set_xlim(speeds[0], speeds[-1])
     bottom.set_xlabel(SPEED)
+    bottom.tick_params(labelbottom=True)  # which a shared axis leaves to the lowest row
 
 
 def _draw_rates(ax: Axes, speeds: Array, rate: Array) -> None:

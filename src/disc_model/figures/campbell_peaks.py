@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 import xarray as xr
 
+from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.figures.campbell_crossings import meeting_of
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.rate_scale import LINEAR, opens
@@ -18,11 +19,11 @@ NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossin
 
 class Peak(NamedTuple):
     """A peak of the cycle's growth rate: the place of its speed, the crossing at it, if any, and whether
-    it is a point by itself, which the steps do not resolve."""
+    the line of growth rates is open beside it, so that the steps do not resolve it."""
 
     place: int
     crossing: xr.Dataset | None
-    alone: bool = False
+    is_open: bool = False
 
 
 class Column(NamedTuple):
@@ -71,13 +72,18 @@ def followed_frequency(study: xr.Dataset) -> xr.DataArray:
     return study["stick_slip_frequency"].where(near)
 
 
+def jumps_of(study: xr.Dataset) -> Mask:
+    """The steps of the speed over which this frequency jumps."""
+    return frequency_jumps(study["Omega"].values, followed_frequency(study).values)
+
+
 def peaks(study: xr.Dataset) -> Iterator[Peak]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
     crossing, of the leading mode if possible; without ends of lines, beyond which the rate may rise, and
     points by themselves beside gaps, which are of another cycle."""
     speeds = study["Omega"].values
     followed = followed_rates(study)
-    alone = unjoined(followed)
+    is_open = beside_open_step(followed)
     rate = _without_lone_points(followed)
     extent = np.ptp(speeds)
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
@@ -93,7 +99,7 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
         crossing = None
         if np.isfinite(distance).any():
             crossing = study.isel(crossing=int(distance.argmin()))
-        yield Peak(int(i), crossing, bool(alone[i]))
+        yield Peak(int(i), crossing, bool(is_open[i]))
 
 
 def _above_neighbours(rate: Array) -> Mask:
@@ -120,3 +126,9 @@ def unjoined(rate: Array) -> Mask:
     between = np.isfinite(rate[:-1]) & np.isfinite(rate[1:])
     joined = np.concatenate([[False], between & ~opens(rate), [False]])
     return np.isfinite(rate) & ~(joined[:-1] | joined[1:])
+
+
+def beside_open_step(rate: Array) -> Mask:
+    """Points beside which the line of growth rates is open, on one side or on both."""
+    between = np.concatenate([[False], opens(rate), [False]])
+    return between[:-1] | between[1:]

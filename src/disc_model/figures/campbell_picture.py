@@ -7,18 +7,23 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.campbell import column_of, highest_of
-from disc_model.figures.campbell_arguments import checked_study
+from disc_model.figures.campbell_arguments import checked_study, dims_of_columns
+from disc_model.figures.campbell_grid import (
+    grid_for,
+    name_panels,
+    page_of,
+    panels_of,
+    say_quantities,
+    with_name_below,
+)
 from disc_model.figures.campbell_legend import entries_of
 from disc_model.figures.campbell_names import name_peaks
-from disc_model.figures.campbell_panels import FREQUENCY, RATE, draw_panels
-from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.drawing import COLUMN
+from disc_model.figures.campbell_panels import FREQUENCY, draw_panels
+from disc_model.figures.canvas import Wishes
 from disc_model.figures.head_texts import what_case
-from disc_model.figures.named_axes import Quantities, check_free
+from disc_model.figures.left_out import parts_shown, titles_of_panels
+from disc_model.figures.named_axes import check_free
 from disc_model.figures.sweep_titles import values_of
-from disc_model.figures.words import SPEED
-
-HEIGHT = 5.4  # inch, with its legend
 
 
 def plot_campbell(
@@ -35,17 +40,23 @@ def plot_campbell(
     describes."""
     drawn, limit = checked_study(study, highest, multiples)
     asked_for = tuple(multiples)
-    column = column_of(drawn)
-    shown = limit or highest_of([column])
+    by = next(iter(dims_of_columns(drawn)), None)
+    parts = parts_shown(drawn, by)
+    columns = [column_of(part.data.transpose("Omega", ...)) for part in parts]
+    shown = limit or highest_of(columns)
+    names = titles_of_panels(parts, drawn, by)
+    if ax is not None:
+        title = with_name_below(title, names[0])
     wishes = Wishes(ax, legend, labels, title)
-    case = what_case(values_of(drawn))
-    shared: dict[str, Any] = {"sharex": True, "height_ratios": [3, 2]}
-    with page_for(wishes, COLUMN, HEIGHT, 2, 1, title=case, **shared) as page:
+    grid = grid_for(len(parts), is_own=ax is None)
+    with page_of(wishes, grid, what_case(values_of(drawn))) as page:
         check_free(page.axes, FREQUENCY, "a Campbell diagram")
-        page.show(Quantities(SPEED, FREQUENCY), Quantities(SPEED, " ".join(RATE.split())))
-        top, bottom = page.axes
-        draw_panels([top], [bottom], [column], shown, asked_for)
-        name_peaks(top, bottom, column, shown, asked_for)
+        above, below = panels_of(page, grid, len(parts))
+        say_quantities(page, above)
+        draw_panels(above, below, columns, shown, asked_for)
+        name_panels(page, above, names)
+        for top, bottom, column in zip(above, below, columns, strict=True):
+            name_peaks(top, bottom, column, shown, asked_for)
         page.is_small = True
-        page.explain(entries_of([column], shown, asked_for), beside="below")
-    return np.array(page.axes, dtype=object)
+        page.explain(entries_of(columns, shown, asked_for), beside="below")
+    return np.array([above, below] if by else [*above, *below], dtype=object)

@@ -39,7 +39,7 @@ def portrait(plot: Portrait, case: xr.DataTree) -> Figure:
     """Draw a portrait of the samples in a window."""
     figure, [ax] = panels(plot.inches, 2.7)
     samples = dataset.samples(case, plot.window)
-    figure_legend(figure, draw_portrait(ax, samples, plot.x, plot.y))
+    figure_legend(figure, draw_portrait(ax, case, samples, plot.x, plot.y))
     return figure
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.drawing import mark, wide
 from disc_model.figures.family import LOOKS
+from disc_model.figures.still_motions import ends_shown
 from disc_model.figures.types import Array, Artist, Axes
 
 MARKERS = "osD^vP"
@@ -79,6 +80,12 @@ class Lines(NamedTuple):
     limits: Limits
     what: str = ""
     stretch: tuple[float, float] | None = None
+
+
+def limits_of_motion(values: Array, share: float, size: float) -> tuple[float, float]:
+    """Limits of a variable of a motion, which show one that stands still in comparison with a size as
+    a flat line."""
+    return limits_of(np.array(ends_shown(values, size)), share)
 
 
 def limits_of(values: Array, share: float) -> tuple[float, float]:

@@ -98,7 +98,7 @@ def _note_of(critical: Critical, curve: Curve) -> str:
     factor = curve.factor
     unit = curve.unit
     step = f"{critical.resolution * factor:.2g} {unit}".strip()
-    overlooked = f"tongues below {step} may be missed"
+    overlooked = f"tongues narrower than {step} may be missed"
     if np.isnan(critical.value):
         return overlooked
     first = f"unstable from {critical.value * factor:.5g} {unit}".strip()

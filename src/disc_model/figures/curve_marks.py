@@ -27,7 +27,7 @@ from disc_model.figures.selection import (
 )
 from disc_model.figures.settled_motions import calm_points
 from disc_model.figures.types import Array, Axes, Mask
-from disc_model.figures.words import NO_VALUE, WORDS, Measured, measured
+from disc_model.figures.words import KINDS, NO_VALUE, WORDS, Measured, measured
 
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 FILLED = 1.9  # order of filled marks, just below that of lines
@@ -40,7 +40,8 @@ def measured_along(coordinate: xr.DataArray) -> Measured:
     across = measured(coordinate)
     if coordinate.dtype.kind not in "UO":
         return across
-    names = [WORDS.get(str(word), str(word)) for word in coordinate.values]
+    known = KINDS if coordinate.name == "kind" else WORDS
+    names = [known.get(str(word), str(word)) for word in coordinate.values]
     return across._replace(values=np.array(names))
 
 

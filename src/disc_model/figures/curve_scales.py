@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
+from textwrap import fill
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from disc_model.figures.words import are_counts, label_in
 
 LINE = 1.1  # height of a line of text over its size
 CHARACTER = 0.6  # mean width of a character over its size
+MOST_LINES = 4  # of words along a horizontal axis
 
 
 def set_scales(
@@ -52,17 +54,28 @@ def _scale_across(ax: Axes, values: xr.DataArray, along: Array) -> None:
 
 
 def _turn_words(ax: Axes, words: Sequence[str]) -> None:
-    """Turn words along the horizontal axis if they have no room beside each other, and write only some
-    of them if they have none then, either."""
+    """Break words along the horizontal axis into lines if they have no room beside each other, turn them
+    if that is not enough, and write only some of them if they have none then, either."""
     page: Any = ax.get_figure(root=True)
     label: Any = ax.xaxis.get_major_ticks()[0].label1
     # over the size of the words, which on a reader's own axes is larger
     room = page.get_figwidth() * ax.get_position().width * 72 / label.get_fontsize()
     if CHARACTER * len(words) * _widest_pair(words) <= room:
         return
+    length = int(room / (CHARACTER * len(words))) - 1
+    broken = [fill(word, max(length, 1), break_long_words=False) for word in words]
+    if all(_fits(text, length) for text in broken):
+        ax.set_xticks(range(len(words)), labels=broken)
+        return
     ax.tick_params(axis="x", labelrotation=90)
     every = int(np.ceil(LINE * len(words) / room))
     ax.set_xticks(range(0, len(words), every), labels=words[::every])
+
+
+def _fits(text: str, length: int) -> bool:
+    """Whether a text in lines has few of them, none of them longer than a number of characters."""
+    lines = text.splitlines()
+    return len(lines) <= MOST_LINES and max(map(len, lines), default=0) <= length
 
 
 def _widest_pair(words: Sequence[str]) -> float:

@@ -1,15 +1,14 @@
 """Entries of a picture without a legend, from which its reader can make one."""
 
-from weakref import WeakKeyDictionary
-
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
+from disc_model.figures.kept import Kept
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Artist, Axes
 
 OUTSIDE = (2.0, 2.0)  # over the sides of axes, which cut off what lies there
-_KEPT: WeakKeyDictionary[Axes, list[Artist]] = WeakKeyDictionary()
+_KEPT: Kept[list[Artist]] = Kept("entries")
 """What was added to axes for the sake of its label alone."""
 
 
@@ -31,7 +30,8 @@ def _remove_replaced(page: Page) -> None:
 
 def _keep(ax: Axes, entry: Artist) -> None:
     """Add an entry to axes, where it is not seen."""
-    kept = _KEPT.setdefault(ax, [])
+    kept = _KEPT.get(ax, [])
+    _KEPT[ax] = kept
     if isinstance(entry, Line2D):
         kept.append(ax.add_line(_empty(entry)))
     elif isinstance(entry, Patch):

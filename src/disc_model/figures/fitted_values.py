@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 from disc_model.data.variables import presentation_of, typeset
@@ -25,7 +25,9 @@ UNBROKEN = "\u00a0"
 def fitted_text(fit: Fit) -> str:
     """The fitted values, with standard deviations unless these mean nothing, and then why not."""
     values = [_fitted(fit, name) for name in fit.parameters]
-    known = [_combined(formula, each) for formula, each in fit.determined.items()]
+    known = []
+    if not fit.gap:  # where values are not those of a minimum
+        known = [_combined(formula, each) for formula, each in fit.determined.items()]
     return ", ".join([*values, *known, *_doubts(fit)])
 
 
@@ -88,20 +90,33 @@ def _doubts(fit: Fit) -> Iterator[str]:
     """Yield in few words the reasons why values mean nothing that are not said beside these."""
     if fit.gap:
         yield "the search stopped in front of a gap"
+        if len(fit.indistinct) > 1:
+            yield _not_apart(fit.indistinct)
         return
     if not fit.converged:
         yield "the search has not converged"
     if fit.converged and fit.misses:
-        certainty = "are" if fit.is_wrong else "may be"
-        yield f"model or uncertainties {certainty} wrong"
+        yield _misfit(fit)
     if fit.indistinct:
-        symbols = [_symbol(name) for name in fit.indistinct]
-        apart = " apart" if len(symbols) > 1 else ""
-        yield f"{' and '.join(symbols)} not determined{apart}"
+        yield _not_apart(fit.indistinct)
     if fit.unpredicted:
         yield f"no such motion at an end of {_intervals(fit.unpredicted)}"
     if fit.outside:
         yield f"no case at an end of {_intervals(fit.outside)}"
+
+
+def _not_apart(names: Sequence[str]) -> str:
+    """That some parameters are not determined, or not apart from each other."""
+    symbols = [_symbol(name) for name in names]
+    apart = " apart" if len(symbols) > 1 else ""
+    return f"{' and '.join(symbols)} not determined{apart}"
+
+
+def _misfit(fit: Fit) -> str:
+    """That chi squared is too large, and in which share of fits of the right model it is as large."""
+    if not fit.freedom:
+        return "model or uncertainties are wrong"
+    return f"model or uncertainties may be wrong ({fit.share_text})"
 
 
 def _intervals(names: Iterable[str]) -> str:

@@ -16,6 +16,7 @@ from matplotlib.transforms import ScaledTranslation, blended_transform_factory
 
 from disc_model.figures.covered import twins_of
 from disc_model.figures.drawing import GREY, large, mark, wide
+from disc_model.figures.kept import Kept
 from disc_model.figures.types import Array, Axes
 
 FIRST = 4.0  # points, height of the first row above its panel,
@@ -72,7 +73,7 @@ class Row:
     below: Any = None
 
 
-_ROWS: WeakKeyDictionary[Axes, dict[str, Rows]] = WeakKeyDictionary()
+_ROWS: Kept[dict[str, Rows]] = Kept("rows")
 """The rows above panels, by their reasons, in their order."""
 _MAY_BE_SMALL: WeakSet[Axes] = WeakSet()
 """The panels of readers, above which rows and words are smaller if there are many,"""
@@ -102,10 +103,11 @@ def add_row(
     dashes : of the line, "" if none joins its points
     """
     ax = _host_of(ax)
+    reasons = _ROWS.get(ax, {})
     if not rows_above(ax):
-        _ROWS[ax] = {}
+        reasons = {}
         _SMALL.discard(ax)
-    reasons = _ROWS[ax]
+    _ROWS[ax] = reasons
     if reason not in reasons:
         words = ax.text(0, 1, reason, fontsize=large(TEXT), ha="left", va="bottom")
         strip = Rectangle((0, 0), 1, 0, color=STRIP, linewidth=0, zorder=0, clip_on=False)

@@ -9,7 +9,7 @@ from disc_model.figures.kinds import NORM, General, Plot
 from disc_model.figures.selection import normalizations, picked
 from disc_model.figures.stated_case import with_ramps
 from disc_model.figures.value_texts import named_value
-from disc_model.figures.varied_discs import varied_numbers, with_frequencies
+from disc_model.figures.varied_discs import single_disc, varied_numbers, with_frequencies
 from disc_model.figures.words import MODES
 
 
@@ -32,6 +32,7 @@ def _stated(study: xr.Dataset) -> str:
     by_itself = [name for name in ("N", "Omega") if not base.get(name)]
     varied = {*map(str, study.coords), *by_itself}
     kept = {name: value for name, value in base.items() if name not in varied}
+    kept |= single_disc(study)
     return what_case(with_frequencies(kept, varied_numbers(*varied)))
 
 

@@ -1,6 +1,5 @@
 """Histories: variables against time, over stick and separation."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,13 +8,14 @@ import xarray as xr
 
 from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
-from disc_model.figures.case_lines import Lines, Style, limits_of
+from disc_model.figures.case_lines import Lines, Style, limits_of_motion
 from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
 from disc_model.figures.runs import TIME, end_of_ranges, sampled, show, spans_in, window_of
 from disc_model.figures.shades import shade_phases, shade_ramps
 from disc_model.figures.stated_case import ramps_of, stated, told_apart
+from disc_model.figures.still_motions import size_of
 from disc_model.figures.types import Artist, Axes
 
 LINE = 0.8  # points, width of the lines of several runs,
@@ -67,7 +67,7 @@ def plot_run(
         page.show(*_quantities(shown, variables))
         apart = told_apart(case, name, window=f"window {windows[0]}")
         overlaid = Case("run", apart, stated(case))
-        panels = [_lines(window, variable) for variable in variables for window in shown]
+        panels = [_lines(case, window, variable) for variable in variables for window in shown]
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         alone = draw_case(
             page, overlaid, panels, lambda: _draw_alone(page, grid, case, shown, variables)
@@ -126,7 +126,7 @@ def _stands_above(ax: Axes, other: Axes) -> bool:
     """Whether axes stand above others, whose numbers then are those of both."""
     place = ax.get_position(original=True)
     below = other.get_position(original=True)
-    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
+    return bool(np.isclose(place.x0, below.x0)) and place.y0 >= below.y1
 
 
 def _share_heights(grid: Any) -> None:
@@ -138,7 +138,7 @@ def _share_heights(grid: Any) -> None:
             ax.set_ylim(limits[:, 0].min(), limits[:, 1].max())
 
 
-def _lines(window: xr.Dataset, name: str) -> Lines:
+def _lines(case: xr.DataTree, window: xr.Dataset, name: str) -> Lines:
     """How a variable in a window is drawn beside those of other runs: as a line, or as a band that
     these show through, with edges in the look of the run."""
     label, factor, _ = sampled(name, window)
@@ -161,7 +161,8 @@ def _lines(window: xr.Dataset, name: str) -> Lines:
 
     stretch = (float(time[0]), float(time[-1]))
     across = (0.0, end_of_ranges(time)) if ranges else stretch
-    upward = limits_of(np.concatenate([low, high]), ROOM)
+    size = size_of(name, case) * factor
+    upward = limits_of_motion(np.concatenate([low, high]), ROOM, size)
     lines = Lines(draw, (across, upward), label.rpartition(" (")[0])
     return lines if ranges else lines._replace(stretch=stretch)
 

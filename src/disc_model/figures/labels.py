@@ -18,8 +18,10 @@ ROOM_BESIDE = 0.6  # or so many inches more beside panels that have none above o
 SHARE_BESIDE = 0.5  # or this share of the height of the page,
 SHARE_OF_ROW = 0.7  # and this share of that of a row, beside low panels
 MOST_ABOVE = 2  # lines of words above a panel that are not left out after a colon
-WHOLE = re.compile(r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?")
-"""What stays on one line: a unit, and a value with its name and unit."""
+WHOLE = re.compile(
+    r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?|(?<!\S)-?[\d.]+ (?=\S{1,5}(,|$))"
+)
+"""What stays on one line: a unit, and a value with its unit, and its name."""
 COLOUR_BAR = "<colorbar>"  # what matplotlib calls the axes of one, above which a title may stand
 HARD = "\ue000"  # stands for a blank at which no line ends
 

@@ -14,7 +14,7 @@ from matplotlib.transforms import Bbox, ScaledTranslation, Transform
 from disc_model.figures.covered import covers, other_legends, twins_of
 from disc_model.figures.head_texts import CHARACTER
 from disc_model.figures.legend_samples import draw_legend
-from disc_model.figures.places import set_places
+from disc_model.figures.places import has_settled, set_places
 from disc_model.figures.types import Artist, Axes, FigureBase, Legend
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
@@ -266,6 +266,8 @@ def legend_below(
     for _ in range(MOVES):
         set_places(page)
         move_to_page(ax, bars)
+        if has_settled(page):
+            break
     return legend
 
 

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
+from disc_model.data.swept_speeds import SPEED, number_swept, text_swept
 from disc_model.data.variables import stated_in
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text
@@ -155,11 +156,14 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
 
 def _none_swept_over(study: xr.Dataset) -> str:
     """What is said where no speed of a sweep is one at which separation begins or ends."""
-    if "sweep_Omega" not in study.coords:
+    along = f"sweep_{number_swept(study)}"
+    if along not in study.coords:
         return NOT_SWEPT_OVER
-    speeds = study["sweep_Omega"].values
-    found = f"none found from {speeds.min():g} to {speeds.max():g} rad/s"
-    return found + _steps_of(study, "sweep_Omega")
+    values = study[along].values
+    found = f"none found from {values.min():g} to {text_swept(study, values.max())}"
+    if along != f"sweep_{SPEED}":
+        return found
+    return found + _steps_of(study, along)
 
 
 def _without_in_ramps(study: xr.Dataset, reason: str) -> str:
@@ -175,10 +179,13 @@ def _without_in_ramps(study: xr.Dataset, reason: str) -> str:
 
 def text_below_lowest(study: xr.Dataset) -> str:
     """What is said of points at which separation begins or ends below all speeds of a sweep."""
-    text = "contact lost at the lowest speed"
-    if "sweep_Omega" not in study.coords:
+    name = number_swept(study)
+    text = (
+        "contact lost at the lowest speed" if name == SPEED else "contact lost at the lowest value"
+    )
+    if f"sweep_{name}" not in study.coords:
         return text
-    return f"{text}, {study['sweep_Omega'].values.min():g} rad/s"
+    return f"{text}, {text_swept(study, study[f'sweep_{name}'].values.min())}"
 
 
 def _steps_of(study: xr.Dataset, scanned: str) -> str:

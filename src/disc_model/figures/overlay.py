@@ -7,12 +7,13 @@ marks, in a look of its own: phases, first separations and frequencies beside pe
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
-from weakref import WeakKeyDictionary, ref
+from weakref import ref
 
 from disc_model.figures.case_lines import Lines, Style, limits_around
 from disc_model.figures.common_stretch import stretch_shown
 from disc_model.figures.family import Member, name_in, names_of
 from disc_model.figures.family_titles import retitle
+from disc_model.figures.kept import Kept
 from disc_model.figures.named_axes import shown_on
 from disc_model.figures.pages import Page
 from disc_model.figures.stated_case import stated, stated_values
@@ -62,7 +63,7 @@ class Panel:
         return replace(self.case.shown, values=values)
 
 
-_PANELS: WeakKeyDictionary[Axes, list[Panel]] = WeakKeyDictionary()
+_PANELS: Kept[list[Panel]] = Kept("cases")
 """The cases that axes show."""
 
 

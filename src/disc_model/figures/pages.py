@@ -135,6 +135,13 @@ class Page:
         check_axes(self.axes, panels, self.asked)
         self.shown = panels
 
+    def remove(self, ax: Axes) -> None:
+        """Remove a panel that is not needed from a new figure, before anything is drawn."""
+        place = self.axes.index(ax)
+        for listed in (self.axes, self._before, self._labelled):
+            del listed[place]
+        ax.remove()
+
     def keep_labels(self) -> None:
         """Give axes the labels of their reader back."""
         for ax, labels in zip(self.axes, self._labelled, strict=True):
@@ -178,7 +185,9 @@ def restate(page: Page, wishes: Wishes) -> None:
         if page.note:
             page.ax.set_title(page.note, loc="left", fontsize=large(8))
     elif not page.own:
-        page.ax.set_title(str(wishes.title or ""))
+        page.ax.set_title("")
+        if wishes.title:  # at the left, in the size of the values of a case that others have there
+            page.ax.set_title(str(wishes.title), loc="left", fontsize=large(8))
     _relabel(page, wishes.labels or {})
     keep_least_span(page.axes)
 

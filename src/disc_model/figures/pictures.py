@@ -131,30 +131,33 @@ def plot_campbell(
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
 
-    At the five highest peaks of growth at most are the multiples of a frequency that meet a mode there; a
-    peak without such a crossing is a diamond. All other crossings are in the table of the study only,
-    unless `multiples` asks for their lines. Lines are thick and red where a mode of steady sliding grows. Speeds
-    without a cycle are shaded, with what there is in its place, such as "unstable steady sliding". What
-    lies above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at the
-    speed of a crossing above it.
+    At the five highest peaks of growth at most are the multiples of a frequency that meet a mode there; a peak
+    without such a crossing is a diamond. One beside a step over which the line is open is hollow. All other crossings
+    are in the table of the study only, unless `multiples` asks for their lines. Lines are thick and red where a mode
+    of steady sliding grows. Speeds without a cycle are shaded, with what there is in its place, such as "unstable
+    steady sliding". What lies above `highest` is said: a dotted edge is where modes go on, and a triangle on it is at
+    the speed of a crossing above it.
 
     Parameters
     ----------
-    study : of ``quantity: campbell``, such as `run_study` returns; along the speed only
+    study : of ``quantity: campbell``, such as `run_study` returns; one further axis, such as two preloads, has a
+        column of panels for each of up to six values
     highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
     multiples : whole numbers or halves, such as ``[2, 2.5]``: these multiples of the stick-slip frequency are drawn
-        at all speeds with a cycle near the motion, with marks where modes cross them, by what growth rates do there
-    ax : two axes to draw on, that of frequencies first, without another Campbell diagram
+        at all speeds with a cycle near the motion, open where it jumps, with marks where modes cross them: filled
+        where a growth rate rises there. ``crossing_effect`` of the study says more
+    ax : two axes to draw on, that of frequencies first, without another Campbell diagram; of a further axis, two
+        for each of its values, those of frequencies first
     legend, labels, title : as in `Result.plot`
 
     Returns
     -------
-    array of two Axes
+    array of two Axes; with a further axis, of two rows of Axes, frequencies in the first
 
     Raises
     ------
     ParameterError
-        If an argument breaks a rule, or the study varies along something else than the speed.
+        If an argument breaks a rule, or the study varies along two further axes, or has more values along one.
 
     Examples
     --------

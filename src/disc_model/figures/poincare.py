@@ -5,7 +5,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.figures.canvas import Wishes, page_for
@@ -16,6 +15,7 @@ from disc_model.figures.overlay import Case, draw_case, name_of_case
 from disc_model.figures.runs import sampled, show_thickness
 from disc_model.figures.stages import ON_THE_WAY, SECTIONS, STAGES, stages_of
 from disc_model.figures.stated_case import stated, told_apart
+from disc_model.figures.still_motions import ends_shown, size_of
 from disc_model.figures.types import Array, Artist, Axes, Mask
 
 HOLLOW = {"s": 8, "linewidths": 0.5}
@@ -49,7 +49,7 @@ def plot_poincare(
     legend: Any = True,
     labels: Any = None,
     title: str | bool | None = None,
-) -> NDArray[Any]:
+) -> np.ndarray:
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)
@@ -59,17 +59,17 @@ def plot_poincare(
         fate = stages_of(case, samples).fate
         apart = told_apart(case, called, window=f"window {name}")
         overlaid = Case("sections", apart, stated(case), (fate,))
-        panels = [_points(samples, of) for of in SECTIONS]
+        panels = [_points(case, samples, of) for of in SECTIONS]
         draw_case(
             page, overlaid, panels, lambda: page.explain(draw_sections(page.axes, case, samples))
         )
     return np.array(page.axes)
 
 
-def _points(samples: xr.Dataset, name: str) -> Lines:
+def _points(case: xr.DataTree, samples: xr.Dataset, name: str) -> Lines:
     """How a section is drawn beside others: in marks of one kind, whatever the stage."""
-    x = _axis(name, samples, ())
-    y = _axis(f"{name}_velocity", samples, ())
+    x = _axis(case, name, samples, ())
+    y = _axis(case, f"{name}_velocity", samples, ())
 
     def draw(ax: Axes, style: Style) -> Artist:
         look = style.marks(2.5)
@@ -119,15 +119,17 @@ def draw_sections(
     """
     found = stages_of(case, samples)
     for ax, name in zip(axes, SECTIONS, strict=True):
-        x = _axis(name, samples, compared)
-        y = _axis(f"{name}_velocity", samples, compared)
+        x = _axis(case, name, samples, compared)
+        y = _axis(case, f"{name}_velocity", samples, compared)
         if x.share > 0 and max(x.share, y.share) < SMALL:
-            own_x = _axis(name, samples, ())
-            own_y = _axis(f"{name}_velocity", samples, ())
-            note = f"enlarged {own_x.share / x.share:.0f} times"
-            ax.text(BESIDE_LETTER, 1.03, note, transform=ax.transAxes, color=GREY)
-            x = own_x
-            y = own_y
+            own_x = _axis(case, name, samples, ())
+            own_y = _axis(case, f"{name}_velocity", samples, ())
+            factor = own_x.share / x.share
+            if factor > 1:
+                note = f"enlarged {factor:.0f} times"
+                ax.text(BESIDE_LETTER, 1.03, note, transform=ax.transAxes, color=GREY)
+                x = own_x
+                y = own_y
         ax.set_xlabel(x.label)
         ax.set_ylabel(y.label)
         ax.set_xlim((x.low, x.high))
@@ -149,12 +151,13 @@ def draw_sections(
     return handles
 
 
-def _axis(variable: str, samples: xr.Dataset, compared: Sequence[xr.Dataset]) -> Axis:
+def _axis(
+    case: xr.DataTree, variable: str, samples: xr.Dataset, compared: Sequence[xr.Dataset]
+) -> Axis:
     """The axis of a variable, which shows the points of all sections that are compared."""
     label, factor, _ = sampled(variable, samples)
     every = np.concatenate([section[variable] for section in (samples, *compared)]) * factor
-    low = float(every.min())
-    high = float(every.max())
+    low, high = ends_shown(every, size_of(variable, case) * factor)
     room = 0.05 * (high - low) or 1e-6 * max(abs(high), 1e-6)  # for the marks
     return Axis(label, samples[variable].values * factor, low - room, high + room)
 

@@ -1,5 +1,6 @@
 """Phase portraits: one variable over another, coloured by phase."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -7,13 +8,14 @@ import xarray as xr
 
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.figures.canvas import Wishes, page_for
-from disc_model.figures.case_lines import Lines, Style, limits_of
-from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, sample, wide
+from disc_model.figures.case_lines import Lines, Style, limits_of_motion
+from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, mark, sample, wide
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, name_of_case
 from disc_model.figures.runs import sampled, window_of
 from disc_model.figures.stated_case import stated, told_apart
-from disc_model.figures.types import Artist, Axes
+from disc_model.figures.still_motions import ends_shown, is_still, show_ends, size_of
+from disc_model.figures.types import Array, Artist, Axes
 
 LINES = {"stick": 1.6, "slip": 0.5, "separation": 1.4}
 """Widths of the lines of phases, points: where slip lies on stick, both show."""
@@ -24,6 +26,8 @@ EDGED = "stick"
 EDGE = 0.4
 """and the width of this edge, points."""
 
+POINT = 3.0
+"""Size of the point that a motion is in comparison with its variables, points."""
 ROOM = 0.04
 """Free share of the values on both sides of them."""
 
@@ -45,33 +49,51 @@ def plot_phase_portrait(
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=stated(case)) as page:
         page.show(Quantities(*(sampled(each, samples)[0] for each in (x, y))))
         overlaid = Case("portrait", told_apart(case, name, window=f"window {window}"), stated(case))
-        panels = [_lines(samples, x, y)]
+        panels = [_lines(case, samples, x, y)]
         draw_case(
-            page, overlaid, panels, lambda: page.explain(draw_portrait(page.ax, samples, x, y))
+            page,
+            overlaid,
+            panels,
+            lambda: page.explain(draw_portrait(page.ax, case, samples, x, y)),
         )
     return page.ax
 
 
-def _lines(samples: xr.Dataset, x: str, y: str) -> Lines:
+def _lines(case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> Lines:
     """How a portrait is drawn beside others: as a line in one look, whatever the phase."""
     across, in_x, _ = sampled(x, samples)
     up, in_y, _ = sampled(y, samples)
     values = (samples[x].values * in_x, samples[y].values * in_y)
+    sizes = (size_of(x, case) * in_x, size_of(y, case) * in_y)
+    point = _point_of_rest(values, sizes)
 
     def draw(ax: Axes, style: Style) -> Artist:
-        ax.plot(*values, rasterized=True, **style.layered())
+        ax.plot(*values, rasterized=True, **style.layered(), **point)
         ax.set_xlabel(across)
         ax.set_ylabel(up)
-        return sample(**style.layered())
+        return sample(**style.layered(), **point)
 
-    across_limits, upward_limits = (limits_of(each, ROOM) for each in values)
+    across_limits, upward_limits = (
+        limits_of_motion(each, ROOM, size) for each, size in zip(values, sizes, strict=True)
+    )
     return Lines(draw, (across_limits, upward_limits))
 
 
-def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
+def _point_of_rest(values: Sequence[Array], sizes: Sequence[float]) -> dict[str, Any]:
+    """Options of a line that is a point, as neither of its values moves in comparison with its size; none
+    of another line."""
+    if all(is_still(each, size) for each, size in zip(values, sizes, strict=True)):
+        return {"marker": "o", "markersize": mark(POINT)}
+    return {}
+
+
+def draw_portrait(ax: Axes, case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
     """Draw one variable over another, coloured by phase; returns entries of a legend."""
     across, in_x, _ = sampled(x, samples)
     up, in_y, _ = sampled(y, samples)
+    values = (samples[x].values * in_x, samples[y].values * in_y)
+    sizes = (size_of(x, case) * in_x, size_of(y, case) * in_y)
+    point = _point_of_rest(values, sizes)
     words = flag_names(samples["phase"])
     handles = []
     for name in PHASES:
@@ -79,15 +101,17 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> list[Artist]
         if not inside.any():
             continue
         # broken where the phase changes, so that no chord is drawn across others
-        height = np.where(inside, samples[y].values * in_y, np.nan)
+        height = np.where(inside, values[1], np.nan)
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
         look["linestyle"] = DASHES.get(name, "-")
         width = wide(LINES[name])
         if name == EDGED:
             look["path_effects"] = halo(width + 2 * wide(EDGE), BLACK)
-        ax.plot(samples[x].values * in_x, height, linewidth=width, rasterized=True, **look)
-        handles.append(sample(linewidth=width + 0.5, **look))
+        ax.plot(values[0], height, linewidth=width, rasterized=True, **look, **point)
+        handles.append(sample(linewidth=width + 0.5, **look, **point))
     ax.margins(ROOM)
+    ends = [np.array(ends_shown(each, size)) for each, size in zip(values, sizes, strict=True)]
+    show_ends(ax, *ends)
     ax.set_xlabel(across)
     ax.set_ylabel(up)
     return handles

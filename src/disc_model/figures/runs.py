@@ -14,6 +14,7 @@ from disc_model.data.variables import PHASES, axis_of, flag_names, ranged_variab
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
 from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
+from disc_model.figures.still_motions import ends_shown, show_ends, size_of
 from disc_model.figures.types import Array, Axes
 
 Span = tuple[float, float]  # s, begin and end
@@ -148,10 +149,14 @@ def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: b
     label, factor, colour = sampled(name, window)
     if f"{name}_min" in window:
         envelope(ax, window, name)
+        values = np.stack([window[f"{name}_{end}"].values for end in ("min", "max")]) * factor
     else:
         values = window[name].values * factor
         ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
         ax.set_xlim(*window["time"].values[[0, -1]])
+    if np.isfinite(values).any():
+        ends = ends_shown(values, size_of(name, case) * factor)
+        show_ends(ax, window["time"].values[[0, -1]], np.array(ends))
     ax.set_xlabel(TIME)
     ax.set_ylabel(label)
     mark_first_separation(ax, case, named=named)

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data import dataset
-from disc_model.data.swept_speeds import has_settled, swept_speeds
+from disc_model.data.swept_speeds import ENDS, ONSETS, has_settled, number_swept, swept_speeds
 from disc_model.data.variables import EXCLUDED, Outcome, flag_names, stated_in
 from disc_model.figures.classes import (
     GROWING,
@@ -367,10 +367,11 @@ def unstable_everywhere(study: xr.Dataset, variable: str) -> xr.DataArray | None
 def beyond_lowest_speed(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Points of sweeps of the speed at which contact is lost at the lowest speed already, or still, so
     that separation begins or ends at a lower one; None of other variables."""
-    if variable not in ("onset_speed", "offset_speed") or "separation_rate" not in study:
+    is_swept = "separation_rate" in study and number_swept(study)
+    if variable not in (*ONSETS, *ENDS) or not is_swept:
         return None
     swept = swept_speeds(study)
-    return swept.onset_at_bound if variable == "onset_speed" else swept.end_at_bound
+    return swept.onset_at_bound if variable in ONSETS else swept.end_at_bound
 
 
 def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
@@ -384,10 +385,11 @@ def unsettled(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     dims = {*study["sweep_settled"].dims}
     if variable in OF_STAYS and dims <= {*study[variable].dims}:
         return ~has_settled(study) & study[variable].notnull()
-    of_sweeps = {"direction", *study["sweep_Omega"].dims[-1:]} if "sweep_Omega" in study else set()
-    if variable in ("onset_speed", "offset_speed") and of_sweeps and dims >= of_sweeps:
+    name = number_swept(study)
+    of_sweeps = {"direction", *study[f"sweep_{name}"].dims[-1:]} if name else set()
+    if variable in (*ONSETS, *ENDS) and of_sweeps and dims >= of_sweeps:
         swept = swept_speeds(study)
-        return swept.onset_unsettled if variable == "onset_speed" else swept.end_unsettled
+        return swept.onset_unsettled if variable in ONSETS else swept.end_unsettled
     return None
 
 

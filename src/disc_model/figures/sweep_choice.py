@@ -7,7 +7,7 @@ from typing import NamedTuple
 import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
-from disc_model.errors import Fault, ParameterError, require, suggestion
+from disc_model.errors import Fault, ParameterError, require, rule_of_choice, suggestion
 from disc_model.figures.settled_motions import without_zeros
 from disc_model.figures.sweep_dimensions import (
     columns_along,
@@ -193,7 +193,7 @@ def _paired(study: xr.Dataset, x: str) -> Paired:
         beside = [name for name in drawn_dims(study) if name != dim]
         if x in columns or not (named or x in beside):
             column = x or columns[0]
-            rule = f"must be one of {', '.join([*columns, *beside])}"
+            rule = rule_of_choice(x, [*columns, *beside])
             require((column in columns, "x", x, rule))
             return Paired(study.swap_dims({dim: column}), column=column)
         if not named:
@@ -268,7 +268,7 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
     require((len(dims) < 3, "study", ", ".join(dims), many))
     known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
-    require((across in known, "x", across, f"must be one of {', '.join(known)}"))
+    require((across in known, "x", across, rule_of_choice(across, known)))
     second = next((dim for dim in dims if dim != across), None)
     counted = second is not None and only_counts(study, second)
     drawn = Drawn(variable, across, second, mapped=False, counted=counted)

@@ -8,7 +8,14 @@ from disc_model.figures.covered import twins_of
 from disc_model.figures.family import Member, names_of
 from disc_model.figures.family_titles import retitle
 from disc_model.figures.pages import Page
-from disc_model.figures.sweep_lines import Lines, add_lines, common_tail, lines_beside, lines_on
+from disc_model.figures.sweep_lines import (
+    Lines,
+    add_lines,
+    common_tail,
+    lines_beside,
+    lines_on,
+    without_sought,
+)
 from disc_model.figures.sweep_options import COMPARED, unset_text
 from disc_model.figures.valueless_lines import name_line
 
@@ -61,6 +68,7 @@ def join_lines(page: Page, new: Lines) -> list[int]:
     tail = common_tail([each.phrase for each in family])  # which the axis says
     for each in family:
         short = each.phrase.removesuffix(tail).rstrip(" ,")
+        short = without_sought(short, each.sought)
         each.shown.values = {**each.shown.values, "variable": short, "sought": each.sought}
     if len({each.function for each in family}) > 1:
         _compare_functions(family)

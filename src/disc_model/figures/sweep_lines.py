@@ -3,10 +3,11 @@ calls them."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
-from weakref import WeakKeyDictionary, ref
+from weakref import ref
 
 import xarray as xr
 
@@ -14,6 +15,7 @@ from disc_model.errors import require
 from disc_model.figures.covered import twins_of
 from disc_model.figures.durations import duration_of
 from disc_model.figures.family import Member, name_in
+from disc_model.figures.kept import Kept
 from disc_model.figures.named_axes import Quantities, shown_on
 from disc_model.figures.sweep_options import function_of, sought_in
 from disc_model.figures.types import Axes
@@ -21,6 +23,8 @@ from disc_model.figures.words import named
 
 CASE = "case"
 """The label by which a reader names all lines of a sweep."""
+EDGE = " at separation (onset|end)$"
+"""What phrases say of a number of a sweep at which separation begins or ends."""
 KINDS = {"Whether ": "Yes or no", "Share of ": "Share"}
 """Names of several variables without a unit, by how their own names begin."""
 OF_UNITS = {"s": "Time", "ms": "Time", "J": "Energy", "Hz": "Frequency", "N": "Force"}
@@ -59,7 +63,7 @@ class Lines:
     parts: Sequence[tuple[str, ref[Any]]] = ()
 
 
-_LINES: WeakKeyDictionary[Axes, list[Lines]] = WeakKeyDictionary()
+_LINES: Kept[list[Lines]] = Kept("lines of sweeps")
 """The lines of sweeps that axes have."""
 
 
@@ -93,6 +97,15 @@ def names_asked(labels: Any, variables: Sequence[str]) -> tuple[dict[str, str], 
     return names, {name: text for name, text in labels.items() if name not in variables}
 
 
+OF_INSTABILITY = re.compile(" for (?:instability of|separation)")
+"""How a name begins to say what its values are critical for."""
+
+
+def without_sought(phrase: str, sought: str) -> str:
+    """The name of a variable without what its values are critical for, if other words say this."""
+    return OF_INSTABILITY.split(phrase)[0] if sought else phrase
+
+
 def lines_of(
     study: xr.Dataset, variable: str, labels: tuple[str, str], name: str, case: Mapping[str, Any]
 ) -> Lines:
@@ -105,7 +118,7 @@ def lines_of(
     phrase, unit, _ = named(study[variable])
     duration = duration_of(study, variable)
     sought = sought_in(study)
-    shown = Member(name, {"variable": phrase, "sought": sought, **case})
+    shown = Member(name, {"variable": without_sought(phrase, sought), "sought": sought, **case})
     return Lines(*labels, phrase, unit, duration, shown, function_of(study), sought)
 
 
@@ -143,7 +156,17 @@ def kind_of_phrases(phrases: Collection[str]) -> str:
     for beginning, name in KINDS.items():
         if all(phrase.startswith(beginning) for phrase in phrases):
             return name
-    return ""
+    return _swept_number(phrases)
+
+
+def _swept_number(phrases: Collection[str]) -> str:
+    """What all phrases call a number at which separation begins or ends, "" if they are of others."""
+    numbers = {re.sub(EDGE, "", phrase) for phrase in phrases}
+    are_edges = all(re.search(EDGE, phrase) for phrase in phrases)
+    if not are_edges or len(numbers) > 1:
+        return ""
+    number = numbers.pop()
+    return number[0].upper() + number[1:]
 
 
 def common_name(phrases: Sequence[str], unit: str = "") -> str:

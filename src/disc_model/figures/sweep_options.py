@@ -8,8 +8,7 @@ from typing import Any, NamedTuple
 import xarray as xr
 
 from disc_model.data.variables import stated_in, unit_of_parameter
-from disc_model.figures.value_texts import KINDS
-from disc_model.figures.words import STAYS
+from disc_model.figures.words import KINDS, STAYS
 from disc_model.units import is_number
 
 
@@ -120,9 +119,10 @@ def _phrases_of(study: xr.Dataset) -> dict[str, Phrase]:
     function = function_of(study)
     phrases = {**PHRASES, **OF_FUNCTIONS.get(function, {})}
     searched = stated_in(study, "options").get("name")
-    if function == "critical" and isinstance(searched, str):
+    if function in ("critical", "hysteresis") and isinstance(searched, str):
         unit = unit_of_parameter(searched)
-        phrases["bounds"] = phrases["bounds"]._replace(unit=unit)
+        for name in ("bounds", "step"):
+            phrases[name] = phrases[name]._replace(unit=unit)
     return phrases
 
 

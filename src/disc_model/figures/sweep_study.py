@@ -147,7 +147,7 @@ def with_words(study: xr.Dataset) -> xr.Dataset:
             answers = np.where(values, "yes", "no")
             named[name] = (values.dims, answers, {**values.attrs, **TRUTH})
         discs = [value for value in values.values.flat if isinstance(value, Disc)]
-        if discs and values.ndim == 1:
+        if len(discs) > 1 and values.ndim == 1:
             shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
             words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
             named[name] = (values.dims, words, values.attrs)

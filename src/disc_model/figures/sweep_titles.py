@@ -12,7 +12,7 @@ from disc_model.figures.sweep_choice import Drawn
 from disc_model.figures.sweep_dimensions import numbers_along
 from disc_model.figures.sweep_options import option_text, stays_in
 from disc_model.figures.value_texts import symbol_of, value_text
-from disc_model.figures.varied_discs import varied_numbers, with_frequencies
+from disc_model.figures.varied_discs import single_disc, varied_numbers, with_frequencies
 from disc_model.figures.words import known_name
 
 
@@ -25,6 +25,7 @@ def values_of(study: xr.Dataset) -> dict[str, Any]:
     for name, values in study.coords.items():
         if not values.ndim or values.size == 1:
             single[str(name)] = values.item()
+    single.update(single_disc(study))
     return with_frequencies({**fixed, **single}, {**varied_numbers(*shown), **single})
 
 

@@ -8,15 +8,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SHOWN, typeset
-from disc_model.figures.words import MISSING, UNITS, WORDS, is_truth, named
+from disc_model.figures.words import KINDS, MISSING, UNITS, WORDS, is_truth, named
 from disc_model.parameters import NUMBER_OR_WORD
 
-KINDS = {
-    "stick_slip": "stick-slip cycle",
-    "slipping": "cycle that never sticks",
-    "sliding": "steady sliding",
-}
-"""What options and a dimension of them call kinds of motions."""
 MODELS = {
     "normal": WORDS["normal"],
     "exponential": WORDS["exponential"],

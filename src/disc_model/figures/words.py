@@ -39,6 +39,12 @@ WORDS = {
     "exponential": "exponential friction",
 }
 """Names of words along a dimension, in the order in which they are drawn: those of the paper first."""
+KINDS = {
+    "stick_slip": "stick-slip cycle",
+    "slipping": "cycle that never sticks",
+    "sliding": "steady sliding",
+}
+"""What options and a dimension of them call kinds of motions."""
 OF_MODES = ("n_diameters", "n_circles")
 """Parameters that say how many modes there are."""
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
@@ -50,7 +56,8 @@ POWERS = {"": "", "1": "", "2": "²", "3": "³"}
 SHORT = {
     "outcome": "outcome",
     "scan_outcome": "outcome",
-    "critical_speed": "critical speed",
+    "critical_speed": "critical speed for separation",
+    "disc": "disc",
     "horizon": "horizon",
     "mode": "mode",
     "onset_speed": "speed at separation onset",
@@ -60,10 +67,12 @@ SHORT = {
     "rate_status": "what became of the computation at a rate of the ramp",
 }
 """What labels call variables whose long names explain them."""
-CRITICAL = ("critical value of ", "")
-"""What long names of critical values say before and after that of the parameter."""
-BORDER = ("", " above which the motion stays unstable")
-"""What those of borders of stability say before and after it."""
+CRITICAL = re.compile(r"critical value of (?P<parameter>.+?)( for instability of (?P<motion>.+))?")
+"""What long names of critical values say."""
+BORDER = re.compile(r"(?P<parameter>.+) above which (?P<motion>.+) stays unstable")
+"""What those of borders of stability say."""
+MOTIONS = {"the stick-slip cycle": "the cycle", "steady sliding": "sliding"}
+"""What labels call the motions that these name."""
 PERSONS = ("Young", "Poisson")
 """Beginnings of names that are always written with a capital."""
 INFINITE = "infinite"
@@ -131,12 +140,16 @@ def named(variable: xr.DataArray) -> Named:
     if critical:
         shown = SHOWN[critical]
         symbol = f"Critical {_within_words(shown.name)} {shown.symbol}".strip()
+        motion = _motion_within(variable, CRITICAL)
+        if motion:
+            symbol += f" for instability of {motion}"
         return Named(symbol, shown.unit, shown.factor)
     border = parameter_within(variable, BORDER)
     if border:
         shown = SHOWN[border]
         symbol = f"{shown.name} {shown.symbol}".strip()
-        return Named(symbol + BORDER[1], shown.unit, shown.factor)
+        above = f" above which {_motion_within(variable, BORDER)} stays unstable"
+        return Named(symbol + above, shown.unit, shown.factor)
     phrase = words[0].upper() + words[1:]
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
@@ -154,14 +167,18 @@ def named(variable: xr.DataArray) -> Named:
     return Named(phrase, unit_text(units), 1.0)
 
 
-def parameter_within(variable: xr.DataArray, around: tuple[str, str]) -> str:
-    """The parameter whose long name a variable says between two phrases, as of the values that `critical`
+def parameter_within(variable: xr.DataArray, said: re.Pattern[str]) -> str:
+    """The parameter whose long name a variable says within other words, as of the values that `critical`
     finds; "" if it says none."""
-    before, after = around
-    words = _words_of(variable)
-    if not (words.startswith(before) and words.endswith(after)):
-        return ""
-    return _parameter_of_meaning(words.removeprefix(before).removesuffix(after))
+    found = said.fullmatch(_words_of(variable))
+    return _parameter_of_meaning(found["parameter"]) if found else ""
+
+
+def _motion_within(variable: xr.DataArray, said: re.Pattern[str]) -> str:
+    """What labels call the motion that a variable says to be unstable; "" if it says none."""
+    found = said.fullmatch(_words_of(variable))
+    motion = found["motion"] if found else None
+    return MOTIONS.get(motion, motion) if motion else ""
 
 
 def _parameter_of_meaning(meaning: str) -> str:

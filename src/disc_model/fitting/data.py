@@ -10,7 +10,8 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.missing import explained
-from disc_model.data.variables import Variable, attributes, unit_of_parameter
+from disc_model.data.variables import Variable, attributes, attributes_of_mode, unit_of_parameter
+from disc_model.mode_units import column_of
 from disc_model.parameters import RATIOS, Disc, Parameters
 from disc_model.sources import versions_text
 from disc_model.units import is_number
@@ -152,6 +153,8 @@ def _setting(name: str, cases: Sequence[Parameters]) -> xr.Variable:
     attrs: dict[str, Any] = {"long_name": name}
     if name in (*Parameters.model_fields, *RATIOS):
         attrs = attributes(name)
+    elif column_of(name):
+        attrs = attributes_of_mode(name)
     values = [case.numbers.get(name, getattr(case, name, math.nan)) for case in cases]
     if not all(map(is_number, values)):
         values = [_word(value) for value in values]

@@ -96,10 +96,7 @@ def indistinct_names(
         rule = f"cannot be determined by these measurements{only}: fewer parameters, or others"
         raise ParameterError(Fault.of(("vary",), list(weak), rule))
 
-    # what acts alike, where deviations may be larger than the uncertainties say
-    freedom = max(len(search.fun) - len(names), 1)
-    scatter = math.sqrt(max(2 * search.cost / freedom, 1.0))
-    extent = np.maximum(np.abs(search.x), 1.0) / scatter
+    extent = _extent(search)
     alike = _alike(search.jac, at_end, extent)
     if alike.any():
         return _chosen(names, alike)
@@ -117,6 +114,24 @@ def indistinct_names(
     if _rises(problem, search, direction / at_end.sizes[-1], deviations):
         return ()
     return _chosen(names, np.abs(direction) > WEAK)
+
+
+def names_alike(names: Sequence[str], search: Any, first: Array) -> tuple[str, ...]:
+    """Return the names of parameters that act alike by the Jacobian at the start of a search, or else by
+    that at its end, where the measured quantities may be about to end."""
+    for jacobian in (first, search.jac):
+        alike = _alike(jacobian, sensitivity_of(jacobian), _extent(search))
+        if alike.any():
+            return _chosen(names, alike)
+    return ()
+
+
+def _extent(search: Any) -> Array:
+    """Return the sizes of the scaled parameters at an end, (n,), smaller by the factor by which deviations
+    exceed the uncertainties."""
+    freedom = max(len(search.fun) - len(search.x), 1)
+    scatter = math.sqrt(max(2 * search.cost / freedom, 1.0))
+    return np.asarray(np.maximum(np.abs(search.x), 1.0) / scatter)
 
 
 def _alike(jacobian: Array, sensitivity: Sensitivity, extent: Array) -> Mask:

@@ -74,6 +74,9 @@ def fit(
     or has no such quantity, makes the next step shorter. A time, length or frequency that is a hundred times what the
     case gives at the start, or a hundredth, is an `ImplausibleValue`, since its unit is probably another one.
 
+    Quantities of a cycle are those near the static start. Another of several cycles is measured by a function of the
+    case, as with the last `state` of a simulation: ``lambda case: floquet(case, guess=state, releases=2).period``.
+
     Examples
     --------
     >>> import disc_model as dm
@@ -140,7 +143,8 @@ def _search(
         begin = _inside(problem, end.x * problem.scale, limits)
         end, gap = search.run_across_gaps(begin / problem.scale, limits)
     if gap:
-        return Outcome(end, limits, gap, False)
+        alike = search.alike(end)
+        return Outcome(end, limits, gap, False, alike, search.combinations((end,), alike))
     end, is_minimum = search.to_minimum(end, limits)
     indistinct = search.indistinct(end)
     if len(indistinct) > 1:

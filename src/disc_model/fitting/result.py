@@ -29,8 +29,8 @@ from disc_model.parameters import Parameters
 
 UNLIKELY = 0.05
 """Share of fits of the right model with as large a chi squared, below which a fit is doubtful,"""
-ALL_BUT_IMPOSSIBLE = 1e-3
-"""and below which something is wrong."""
+LEAST_SHARE = 1e-6
+"""and below which only this bound of it is said."""
 VALUE_DIGITS = 6
 NAMED = 3
 """Largest number of unstable cycles that a note names before others that it counts."""
@@ -106,9 +106,10 @@ class Fit(Summarised, Drawn, EqualByValue):
     gap : values of the parameters in front of which the search has stopped, since measured quantities do not exist
         there, as where a case has no cycle, and the names of these measurements; None where it has not
     doubt : all reasons why values and intervals mean nothing: a search that has stopped in front of a gap, which is
-        then the only one said, or has not converged, a value at a bound, parameters that are not determined, an
-        interval in which the motion or the model ends, too large a chi squared, with the measurement that deviates
-        most; "" where there is none
+        then the only one said but for parameters that act alike there, or has not converged, a value at a bound,
+        parameters that are not determined, an interval in which the motion or the model ends, too large a chi squared,
+        with the share of fits of the right model that are as bad and the measurement that deviates most; "" where
+        there is none
     consistent : whether there is no `doubt`
     unstable : by name of a measurement of a cycle that is unstable in the fitted case, its growth rate (1/s) if above
         0.01/s; a period, for example, cannot be measured for long there
@@ -201,7 +202,7 @@ class Fit(Summarised, Drawn, EqualByValue):
     def doubt(self) -> str:
         """All reasons why values and intervals mean nothing; "" where the fit is consistent."""
         if self.gap:
-            return _stopped(self.gap)
+            return "; ".join([_stopped(self.gap), *self._alike_at_gap()])
         reasons = []
         if not self.converged:
             reasons.append(_unconverged(self.message))
@@ -217,6 +218,16 @@ class Fit(Summarised, Drawn, EqualByValue):
         for name, ends in self.outside.items():
             reasons += [_ends_outside(name, self._place_of(name, end)) for end in ends]
         return "; ".join(reasons)
+
+    def _alike_at_gap(self) -> Iterator[str]:
+        """Yield in words which parameters act alike where a search has stopped in front of a gap, as it may
+        because of them."""
+        if len(self.indistinct) > 1:
+            known = f", only {_listed([*self.determined])}" if self.determined else ""
+            names = _listed(self.indistinct)
+            remedy = "fix one of them, or measure more"
+            apart = f"the measurements do not determine {names} apart{known}"
+            yield f"judged by derivatives, {apart}: {remedy}"
 
     def _place_of(self, name: str, end: float) -> list[str]:
         """The values of all parameters at an end of the interval of one, which comes first, in words."""
@@ -242,7 +253,10 @@ class Fit(Summarised, Drawn, EqualByValue):
         return "; ".join(filter(None, said))
 
     def _combination_texts(self) -> Iterator[str]:
-        """Yield in words each combination that the measurements determine."""
+        """Yield in words each combination that the measurements determine; none in front of a gap, where
+        its value is not that of a minimum."""
+        if self.gap:
+            return
         for formula, known in self.determined.items():
             value = number_text(known.value, "")
             deviation = rounded_text(known.deviation, DEVIATION_DIGITS)
@@ -330,14 +344,17 @@ class Fit(Summarised, Drawn, EqualByValue):
         return is_unlikely(self._least, self.freedom)
 
     @property
-    def _chance(self) -> float:
-        """Share of fits of the right model whose chi squared is at least as large."""
-        return _chance_of(self._least, self.freedom)
+    def share_as_bad(self) -> float:
+        """Share of fits of the right model whose chi squared is at least as large; nan without degrees of
+        freedom."""
+        return _chance_of(self._least, self.freedom) if self.freedom else math.nan
 
     @property
-    def is_wrong(self) -> bool:
-        """Whether hardly any fit of the right model has as large a chi squared."""
-        return self.freedom == 0 or self._chance < ALL_BUT_IMPOSSIBLE
+    def share_text(self) -> str:
+        """This share in words."""
+        if self.share_as_bad < LEAST_SHARE:
+            return f"less than {100 * LEAST_SHARE:g} % of fits of the right model are this bad"
+        return f"{100 * self.share_as_bad:.2g} % of fits of the right model are this bad"
 
     @property
     def _misfit(self) -> str:
@@ -349,10 +366,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         size = f"{cost} is {self._least / self.freedom:.3g} times its degrees of freedom"
         worst = int(np.argmax(np.abs(self.deviations)))
         most = f"{self.measurements[worst].name} deviates most"
-        if self.is_wrong:
-            return f"{wrong} are wrong, {size}, and {most}"
-        share = f"{100 * self._chance:.2g} % of right ones have as much"
-        return f"{wrong} may be wrong, {size}: {share}, and {most}"
+        return f"{wrong} may be wrong, {size}: {self.share_text}, and {most}"
 
     @property
     def correlation(self) -> Array:

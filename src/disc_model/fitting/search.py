@@ -17,7 +17,7 @@ from disc_model.errors import Fault, ParameterError
 from disc_model.fitting.arguments import Interval
 from disc_model.fitting.combinations import combinations_of
 from disc_model.fitting.descent import decrease_over, free_of_limits, lower_point, next_step
-from disc_model.fitting.determination import indistinct_names, sensitivity_of
+from disc_model.fitting.determination import indistinct_names, names_alike, sensitivity_of
 from disc_model.fitting.nearness import (
     HALVINGS,
     cost_that_is_as_good,
@@ -218,6 +218,12 @@ class Search:
         """Return the names of parameters that the measurements do not determine at an end."""
         assert self.first is not None
         return indistinct_names(self.problem, end, self.first, self.deviations)
+
+    def alike(self, end: Any) -> tuple[str, ...]:
+        """Return the names of parameters that act alike by derivatives alone, as in front of a gap, beyond
+        which nothing can be computed."""
+        assert self.first is not None
+        return names_alike(self.problem.names, end, self.first)
 
     def covariance(self, end: Any) -> Array:
         """Return the covariance of the parameters at an end, (n, n)."""

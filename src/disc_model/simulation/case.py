@@ -11,11 +11,18 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
-from pydantic import Field, create_model, field_validator, model_serializer, model_validator
+from pydantic import (
+    BeforeValidator,
+    Field,
+    create_model,
+    field_validator,
+    model_serializer,
+    model_validator,
+)
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.display import html_table
-from disc_model.errors import Fault, ParameterError, as_text, require
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
@@ -438,6 +445,16 @@ class Prerun(Strict):
         return {name: getattr(checked, name) for name in values}
 
 
+def _without_keys_of_studies(kick: Any) -> Any:
+    """Perturbations by name; raises `ParameterError` for what a study file has around them."""
+    if isinstance(kick, Mapping):
+        rule = "is a key of study files. In functions it is "
+        written = {"perturbation": "start={'u': 1e-4}", "prerun": "initial_state(case, prerun=...)"}
+        known = [name for name in written if name in kick]
+        raise_faults([Fault((name,), "", rule + written[name]) for name in known])
+    return kick
+
+
 class Start(Strict):
     """The state from which a motion starts: the static start, unless one of these keys is given.
 
@@ -451,6 +468,7 @@ class Start(Strict):
     )
     perturbation: Annotated[
         dict[Literal["u", "u_velocity", "f"], Finite],
+        BeforeValidator(_without_keys_of_studies),
         Unit({"u": "m", "u_velocity": "m/s", "f": "rad/s"}),
     ] = Field({}, description="what is added to coordinates of the start, u, u_velocity or f")
 

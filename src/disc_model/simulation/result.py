@@ -21,7 +21,7 @@ from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
-from disc_model.errors import Fault, ParameterError, Status, require, suggestion
+from disc_model.errors import Fault, ParameterError, Status, require, rule_of_choice, suggestion
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
@@ -148,12 +148,7 @@ class Result(Summarised, RunPictures, EqualByValue):
         """
         seconds = in_si(times, "s", [], ())
         require(
-            (
-                isinstance(name, str) and name in RAMPED,
-                "name",
-                name,
-                f"must be one of {', '.join(RAMPED)}",
-            ),
+            (isinstance(name, str) and name in RAMPED, "name", name, rule_of_choice(name, RAMPED)),
             (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),
         )
         knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)

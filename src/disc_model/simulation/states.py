@@ -34,7 +34,15 @@ from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
 from disc_model.engine.state import SEPARATION, SLIP, STICK, EngineState
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, suggestion
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    as_text,
+    raise_faults,
+    require,
+    rule_of_choice,
+    suggestion,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.sources import versions_text
 from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
@@ -651,7 +659,7 @@ def _check(state: State, case: EngineCase) -> None:
             (is_finite(x := getattr(state, name)), path + name, x, "must be finite")
             for name in PLAIN
         ),
-        (known, path + "phase", state.phase, f"must be one of {', '.join(PHASES)}"),
+        (known, path + "phase", state.phase, rule_of_choice(state.phase, PHASES)),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
         angle_rule(state.drive_angle, path),
     )

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import Variable, attributes
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.data.variables import Variable, attributes_of_number
 from disc_model.sources import versions_text
+from disc_model.stability.cycle import STICK_SLIP
+from disc_model.stability.parameter_scan import SLIDING
 
 if TYPE_CHECKING:
     from disc_model.stability.critical_values import Critical
@@ -33,23 +34,31 @@ VERDICTS = {
         "1", "whether the motion from the static start may be near the unstable cycle"
     ),
 }
+UNSTABLE = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
+"""What names of variables call the kinds of motion whose stability is followed."""
 OF_PARAMETER = {
-    "value": "critical value of {}",
-    "border": "{} above which the motion stays unstable",
-    "crossings": "{} at which stability changes",
-    "resolution": "largest step in {} between computed values",
+    "value": "critical value of {parameter} for instability of {motion}",
+    "border": "{parameter} above which {motion} stays unstable",
+    "crossings": "{parameter} at which stability of {motion} changes",
+    "values": "{parameter} at which the motion was computed",
+    "resolution": "largest step in {parameter} between computed values",
 }
 """Variables in the unit of the parameter, and their names."""
+SAVED = ("value", "border", "crossings", "resolution")
+"""Those of them in a dataset, along which the values are a coordinate."""
+
+
+def long_name_of(name: str, kind: str, meaning: str) -> str:
+    """The name of a variable in the unit of the parameter, by what this means and the kind of motion."""
+    return OF_PARAMETER[name].format(parameter=meaning, motion=UNSTABLE[kind])
 
 
 def dataset_of(found: Critical) -> xr.Dataset:
     """Critical values as a dataset, as `Critical.to_dataset` describes it."""
-    described: dict[str, Any] = {"long_name": found.name}  # as of a mode of a disc
-    if found.name in (*Parameters.model_fields, *RATIOS):
-        described = attributes(found.name)
+    described = attributes_of_number(found.name)
     variables: dict[str, xr.Variable] = {}
-    for name, phrase in OF_PARAMETER.items():
-        attrs = {**described, "long_name": phrase.format(described["long_name"])}
+    for name in SAVED:
+        attrs = {**described, "long_name": long_name_of(name, found.kind, described["long_name"])}
         variables[name] = _variable(getattr(found, name), "crossing", attrs)
     for name in ("growth_rate", "sliding_growth_rate"):
         variables[name] = _variable(getattr(found, name), found.name, RATES[name].attributes)

@@ -104,7 +104,9 @@ class Critical(Drawn, EqualByValue):
             rows.append((f"{low:.9g}", f"{high:.9g}", stability))
         if self.message:
             rows.append((self.message, "", ""))
-        rows.append(("tongues overlooked", f"below {self.resolution:.2g} {unit}".strip(), ""))
+        rows.append(
+            ("tongues overlooked", f"narrower than {self.resolution:.2g} {unit}".strip(), "")
+        )
         upper = f"to ({unit})" if unit else "to"
         return html_table((f"{self.name} from", upper, MOTIONS[self.kind]), rows)
 

@@ -121,11 +121,8 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         yield "share of stick", number_text(self.stick_fraction, "", 3)
         for leading in self.multipliers[:1]:
             yield "leading multiplier", f"{leading:.6g}, modulus {abs(leading):.9g}"
-        rate = self.sliding.growth_rate
-        if math.isnan(rate):
-            yield "steady sliding", self.sliding.message
-        else:
-            yield "steady sliding", f"growth rate {rate:.6g} 1/s"
+        rate = self.sliding.rate_text
+        yield "steady sliding", f"growth rate {rate}" if rate else self.sliding.message
 
     @cached_property
     def sliding(self) -> SteadySliding:

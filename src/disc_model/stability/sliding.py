@@ -89,7 +89,7 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
             return f"SteadySliding({self.message})"
-        numbers = f"growth rate {self.growth_rate:.6g} 1/s, {self.eigenvalues.size} eigenvalues"
+        numbers = f"growth rate {self.rate_text}, {self.eigenvalues.size} eigenvalues"
         return f"SteadySliding({self.message}, {numbers})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
@@ -98,11 +98,17 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
         yield "status", self.message
         yield "contact force", number_text(self.contact_force, "N")
         yield "angle psi", number_text(self.psi, "rad")
-        yield "growth rate", number_text(self.growth_rate, "1/s")
+        yield "growth rate", self.rate_text
         growing = self.growing
         yield "unstable modes", growing.size if self.eigenvalues.size else ""
         frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
         yield "growing frequencies", ", ".join(frequencies)
+
+    @property
+    def rate_text(self) -> str:
+        """The growth rate with its unit; 0 if it is nothing but rounding, "" if there is none."""
+        is_rounding = abs(self.growth_rate) <= _rounding(self.eigenvalues)
+        return number_text(0.0 if is_rounding else self.growth_rate, "1/s")
 
     @property
     def stable(self) -> bool:

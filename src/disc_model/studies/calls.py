@@ -16,6 +16,7 @@ from disc_model.errors import (
     as_text,
     raise_faults,
     require,
+    rule_of_choice,
     suggestion,
     violations,
 )
@@ -131,7 +132,7 @@ class Call:
 def are_recorded(errors: Any) -> bool:
     """Whether a sweep goes on after any error; raises `ParameterError`."""
     known = isinstance(errors, str) and errors in ERRORS
-    require((known, "errors", errors, f"must be one of {', '.join(ERRORS)}"))
+    require((known, "errors", errors, rule_of_choice(errors, ERRORS)))
     return bool(errors == "record")
 
 

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from operator import methodcaller
 from typing import Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.data.swept_speeds import doubtful_contact, swept_speeds
+from disc_model.data.swept_speeds import SPEED, doubtful_contact, swept_speeds
 from disc_model.errors import renamed, require, with_known_names
 from disc_model.parameters import Parameters
 from disc_model.studies.of_case import compute_quantity
+from disc_model.studies.swept_along import named_along, scan_along, unit_along
 from disc_model.units import in_si, is_number
 
 PRECISION = 0.1
@@ -282,20 +284,24 @@ def hysteresis(
     bounds: tuple[float, float],
     dwell: float | str,
     *,
-    step: float = 1.0,
+    name: str = "Omega",
+    step: float | str = 1.0,
     max_dwell: float | str = 480.0,
     evaluation_time: float = 5.0,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Sweep the speed up and down, continuing the same motion, and describe it at each speed.
+    """Sweep the speed or another number of a case up and down, continuing the same motion, and describe it at
+    each value.
 
     Parameters
     ----------
-    case : the case; its own speed is not used
-    bounds : rad/s, the lowest and the highest speed
-    dwell : s at each speed; doubled until the motion has settled
-    step : rad/s, between speeds
-    max_dwell : s, longest stay at a speed
+    case : the case; its own value of what is swept is not used
+    bounds : the lowest and the highest value, of the speed in rad/s
+    dwell : s at each value; doubled until the motion has settled
+    name : what is swept: the speed, or another number of the case that leaves the shapes of the modes as they are,
+        such as ``N``, ``mu_s`` or ``k_p``. The height over static equilibrium goes on where a value changes this
+    step : between values, in the unit of what is swept
+    max_dwell : s, longest stay at a value
     evaluation_time : s, the last stretch of a stay, which is described
     tol : as in `simulate`
 
@@ -306,7 +312,8 @@ def hysteresis(
         which it persists on the way down. They are nan where the bounds do not show them, such as where contact is
         still lost at the lower bound; the attribute `message` says why, and where a motion in contact had not
         settled (`sweep_settled`): the onset may then be lower, with a longer `max_dwell`. `separation_rate` (1/s),
-        `stay` (s), which is the length of the stay, and others by direction and speed
+        `stay` (s), which is the length of the stay, and others by direction and speed. Of another number than the
+        speed, such as N, they are `onset` and `offset` in its unit, and its values are `sweep_N`
 
     Raises
     ------
@@ -320,27 +327,35 @@ def hysteresis(
     >>> sweep["onset_speed"].item(), sweep["separation_rate"].dims
     (16.0, ('direction', 'sweep_Omega'))
     """
+    is_speed = isinstance(name, str) and name == SPEED
+    scan = _scan(bounds, step) if is_speed else scan_along(case, name, bounds, step)
     options = {
-        "scan": _scan(bounds, step),
+        "scan": scan,
         "dwell": dwell,
         "max_dwell": max_dwell,
         "evaluation_time": evaluation_time,
         "tol": tol,
     }
-    return _with_reasons(compute_quantity("hysteresis", case, options))
+    if is_speed:
+        return _with_reasons(compute_quantity("hysteresis", case, options))
+    prepare = methodcaller("go_along", name)
+    found = _with_reasons(compute_quantity("hysteresis", case, options, prepare=prepare), name)
+    return named_along(found, name)
 
 
-def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
-    """A sweep of the speed whose message says why it has no onset or no end of separation, and where
+def _with_reasons(sweep: xr.Dataset, name: str = SPEED) -> xr.Dataset:
+    """A sweep up and down whose message says why it has no onset or no end of separation, and where
     contact may yet be lost, unless it says what went wrong."""
     if sweep.attrs["message"]:
         return sweep
     values = sweep["sweep_Omega"].values
-    lowest = f"{values[0]:g} rad/s"
-    highest = f"{values[-1]:g} rad/s"
+    unit = unit_along(name)
+    swept = "speeds" if name == SPEED else "values"
+    lowest = f"{values[0]:g}{unit}"
+    highest = f"{values[-1]:g}{unit}"
     if not (sweep["separation_rate"] > 0).any():
-        reason = f"contact is kept at all {values.size} speeds from {values[0]:g} to {highest}"
-        return sweep.assign_attrs(message="; ".join([reason, *_doubts_of_contact(sweep)]))
+        reason = f"contact is kept at all {values.size} {swept} from {values[0]:g} to {highest}"
+        return sweep.assign_attrs(message="; ".join([reason, *_doubts_of_contact(sweep, unit)]))
 
     speeds = swept_speeds(sweep)
     reasons = []
@@ -354,11 +369,11 @@ def _with_reasons(sweep: xr.Dataset) -> xr.Dataset:
         reasons.append(f"contact is kept at {highest}, where the way down begins")
     if speeds.onset_at_bound or speeds.end_at_bound:
         reasons.append("bounds further down may show where it is kept")
-    reasons += _doubts_of_contact(sweep)
+    reasons += _doubts_of_contact(sweep, unit)
     return sweep.assign_attrs(message="; ".join(reasons))
 
 
-def _doubts_of_contact(sweep: xr.Dataset) -> list[str]:
+def _doubts_of_contact(sweep: xr.Dataset, unit: str) -> list[str]:
     """Where a motion in contact had not settled when its stay ended, in words."""
     doubtful = doubtful_contact(sweep)
     doubts = []
@@ -367,7 +382,7 @@ def _doubts_of_contact(sweep: xr.Dataset) -> list[str]:
         if speeds.size:
             at = ", ".join(f"{speed:g}" for speed in speeds[:3])
             more = f" and {speeds.size - 3} more" if speeds.size > 3 else ""
-            doubts.append(f"at {at}{more} rad/s on the way {direction}")
+            doubts.append(f"at {at}{more}{unit} on the way {direction}")
     if not doubts:
         return []
     where = " and ".join(doubts)

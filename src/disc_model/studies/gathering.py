@@ -13,6 +13,7 @@ import xarray as xr
 from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.swept_branches import variables_of_branch
 from disc_model.data.variables import CycleStatus
+from disc_model.errors import StatusBase
 from disc_model.simulation.result import Result
 from disc_model.stability.critical_values import Critical
 from disc_model.studies.result_attributes import attributes_of
@@ -61,6 +62,15 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     return variables
 
 
+def message_of(result: Any) -> str:
+    """The message of a result, "" without one. One of this package whose own status is "ok" only says its
+    numbers again: that is "" too, as in studies."""
+    status = getattr(result, "status", None)
+    if isinstance(status, StatusBase) and status == "ok":
+        return ""
+    return getattr(result, "message", "")
+
+
 def _is_whole_dataset(result: Any) -> bool:
     """Whether a result of this package is gathered as its dataset; critical values are by their fields, as
     each point has values of its own along the parameter."""
@@ -93,6 +103,8 @@ def _values_of_fields(result: Any) -> dict[str, Any]:
     for name in BY_METHODS:
         if hasattr(result, name):
             values[name] = getattr(result, name)
+    if "message" in values:
+        values["message"] = message_of(result)
     if _lacks_cycle(result):
         values |= dict.fromkeys(OF_A_CYCLE, math.nan)
     if "near_motion" in values and values["near_motion"] is None:

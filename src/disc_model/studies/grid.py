@@ -717,8 +717,8 @@ class GridStudy:
                     yield Fault.of((axis,), name, rule)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of the grid, whose caption states the values that differ from Table 1 and do not
-        vary."""
+        """A figure of the grid, in the units in which its file gives what varies unless the figure has
+        its own, whose caption states the values that differ from Table 1 and do not vary."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
@@ -728,7 +728,8 @@ class GridStudy:
         if values:
             source += f", with {values}"
         caption = f"{plot.caption} From {source}.".strip()
-        return FigureEntry(plot, inputs, category, plot.section, title, caption)
+        shown = plot.model_copy(update={"units": {**self.file.axis_units, **plot.units}})
+        return FigureEntry(shown, inputs, category, plot.section, title, caption)
 
 
 # ---- Batches

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import xarray as xr
@@ -32,6 +32,7 @@ def compute_quantity(
     start: Mapping[str, float] | None = None,
     *,
     progress: bool = False,
+    prepare: Callable[[Any], None] | None = None,
 ) -> xr.Dataset:
     """Compute a quantity of a case.
 
@@ -41,6 +42,7 @@ def compute_quantity(
     case : the case
     start : perturbations of the static start by name
     progress : whether a bar on standard error shows how many motions are done, where there are several
+    prepare : what is done to the quantity before
 
     Returns
     -------
@@ -59,6 +61,8 @@ def compute_quantity(
     )
     raise_faults(faults)
 
+    if prepare is not None:
+        prepare(quantity)
     with progress_bar(name, quantity.starts, progress) as bar:
         quantity.report_to(bar.advance)
         row, message = quantity.compute_point(point)
@@ -85,5 +89,6 @@ def _fault_of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:
         return Fault.of(("bounds",), (scan["start"], scan["stop"]), rule)
     if fault.path[:1] == ("scan",):
         return Fault((OF_SCANS[fault.path[1]],), fault.value, fault.rule)
-    path = tuple(ARGUMENTS.get(part, part) for part in fault.path)
+    name, *within = fault.path or ("",)
+    path = (ARGUMENTS.get(name, name), *within) if name else ()
     return Fault(path, fault.value, fault.rule)

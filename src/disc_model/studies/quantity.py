@@ -20,7 +20,7 @@ from disc_model.data.variables import (
     SCALARS,
     CycleStatus,
     Variable,
-    attributes,
+    attributes_of_number,
 )
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
@@ -199,10 +199,8 @@ DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "dow
 
 
 def units_of(parameter: str) -> str:
-    """The unit of a number of the case, as datasets have it; "" for one of a disc's modes."""
-    if parameter in (*Parameters.model_fields, *RATIOS):
-        return str(attributes(parameter).get("units", ""))
-    return ""
+    """The unit of a number of the case, as datasets have it."""
+    return str(attributes_of_number(parameter).get("units", ""))
 
 
 def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
@@ -284,7 +282,9 @@ SETTLED_TO_BY: Mapping[str, str] = MappingProxyType(
 NUMBERS = tuple(
     name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
 )
-_FREE = re.compile("|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio)_\d+_\d+"]))
+_FREE = re.compile(
+    "|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+"])
+)
 Free = Annotated[
     str,
     AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case")),

@@ -6,10 +6,9 @@ from dataclasses import is_dataclass
 from functools import cache
 from typing import Any
 
-from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, attributes_of_number
+from disc_model.stability.critical_data import OF_PARAMETER, long_name_of
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.studies.run import describe
 
 
 @cache
@@ -47,16 +46,6 @@ def _of_kind(kind: str) -> dict[str, dict[str, Any]]:
     return {name: column.attributes for name, column in columns.items() if not column.flags}
 
 
-OF_PARAMETER = {
-    "value": "critical value of {}",
-    "border": "{} above which the motion stays unstable",
-    "crossings": "{} at which stability changes",
-    "values": "{} at which the motion was computed",
-    "resolution": "largest step in {} between computed values",
-}
-"""Variables of `Critical` that are in the unit of its parameter, and their names."""
-
-
 def attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
     """Unit and name of a variable of a result of this package; empty if they are not known, and of a
     reader's own results, whose names need not mean the same."""
@@ -64,11 +53,7 @@ def attributes_of(result: Any, name: str, function: str) -> dict[str, Any]:
     if not is_dataclass(type(result)):
         return _of_kind(function).get(name, {})
     if kind == "Critical" and name in OF_PARAMETER:
-        along = result.name
-        parameter = {}
-        # numbers of a disc's modes have no unit here
-        if along in (*Parameters.model_fields, *RATIOS):
-            parameter = describe(along)
-        meaning = parameter.get("long_name", along)
-        return {**parameter, "long_name": OF_PARAMETER[name].format(meaning)}
+        parameter = attributes_of_number(result.name)
+        meaning = parameter["long_name"]
+        return {**parameter, "long_name": long_name_of(name, result.kind, meaning)}
     return _of_kind(kind).get(name) or _common().get(name, {})

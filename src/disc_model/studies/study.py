@@ -40,6 +40,7 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
+from disc_model.studies.given_units import given_units
 from disc_model.studies.grid import (
     GRID_KEYS,
     STATIC,
@@ -355,6 +356,7 @@ class Study(Strict):
         {}
     )  # of values in these files, by the name of the study
     _tables: dict[str, str] = PrivateAttr(default_factory=dict)
+    _axis_units: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -384,6 +386,11 @@ class Study(Strict):
     def tables(self) -> Mapping[str, str]:
         """The files of the grid's discs, by their names along an axis; that of `base` is ""."""
         return self._tables
+
+    @property
+    def axis_units(self) -> Mapping[str, str]:
+        """The units in which the file gives what varies, by parameter."""
+        return self._axis_units
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -546,6 +553,7 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
     except ParameterError as error:
         faults = all_faults(content, error.faults, _validated)
         raise StudyError(*faults, source=source) from None
+    study._axis_units = given_units(mapping(raw))
     if folder is not None:
         study._tables = _tables_of(raw, folder)
     return study

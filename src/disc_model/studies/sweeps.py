@@ -16,7 +16,7 @@ from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
 from disc_model.studies.calls import Call, are_recorded, checked_call
-from disc_model.studies.gathering import variables_of_result
+from disc_model.studies.gathering import message_of, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
@@ -81,10 +81,10 @@ def sweep(  # noqa: PLR0913
     xarray.Dataset
         Numbers, words and arrays of the results along the dimensions in their order, that of `zip` last. `status` is
         "ok", the result's own status, or "failed" where the function raised an error of this package or of arithmetic
-        (any error if `errors` is "record"), or returned nothing; `message` then says which. Numbers are nan there,
-        words "", whole numbers are real ones, and a variable of True and False, such as `stable`, consists of 1, 0 and
-        nan: select by ``found["stable"] == 1``. Attributes are the `function`, its other arguments (`options`), the
-        `parameters` of the case, and the `versions` of disc_model and of what it uses; the last three are in JSON
+        (any error if `errors` is "record"), or returned nothing; `message` then says which, and is "" if all is well.
+        Numbers are nan there, words "", whole numbers are real ones, and a variable of True and False, such as
+        `stable`, consists of 1, 0 and nan: select by ``found["stable"] == 1``. Attributes are the `function`, its other
+        arguments (`options`), the case's `parameters`, and the `versions` of what is used; the last three are in JSON
 
     Raises
     ------
@@ -164,9 +164,9 @@ def _refuse_what_is_left_out(call: Call) -> None:
 
 def _searched(call: Call) -> set[str]:
     """Parameters that a function of this package varies by itself, so that their values in the case
-    mean nothing: of `critical` and `continue_cycle` the one along which they go, of a quantity those
-    of its scan."""
-    if call.ours in ("critical", "continue_cycle"):
+    mean nothing: of `critical`, `continue_cycle` and `hysteresis` the one along which they go, of a quantity
+    those of its scan."""
+    if call.ours in ("critical", "continue_cycle", "hysteresis"):
         return {name for name in call.values_of("name") if isinstance(name, str)}
     if call.ours in quantity_names():
         return {*quantity_of(call.ours).scans}
@@ -279,7 +279,7 @@ def _row(
         message = result.attrs.get("message", "")
     else:
         status = str(getattr(result, "status", "ok"))
-        message = getattr(result, "message", "")
+        message = message_of(result)
     words = {"status": xr.Variable((), status), "message": xr.Variable((), message)}
     return {**words, **variables}
 

@@ -144,16 +144,26 @@ def test_a_rigid_disc_has_no_modes() -> None:
     assert sizes["mode"] == 0
 
 
-def test_a_frequency_of_a_given_disc_is_a_parameter_too() -> None:
-    """It is no field of `Parameters`, whose fields are described there."""
+@pytest.mark.parametrize(
+    ("name", "bounds", "units", "meaning"),
+    [
+        ("omega_1_0", (1510, 1520), "rad s-1", "natural frequency"),
+        ("damping_ratio_1_0", (9e-4, 1.1e-3), "1", "damping ratio"),
+    ],
+)
+def test_a_number_of_a_mode_of_a_given_disc_is_a_parameter_too(
+    name: str, bounds: tuple[float, float], units: str, meaning: str
+) -> None:
+    """It is no field of `Parameters`, and had no unit, nor a meaning but its name."""
     disc = dm.Disc(
         diameters=[0, 1], omega=[1490, 1515], amplitude=[1.53, 2.16], damping_ratio=[1e-3, 1e-3]
     )
     case = dm.Parameters(N=385, Omega=10, disc=disc, r_0=0.1)
-    bounds = (1510, 1520)
-    branch = dm.continue_cycle(case, "omega_1_0", bounds)
-    along = branch.to_dataset()["omega_1_0"]
-    assert along.long_name == "omega_1_0"
+    data = dm.continue_cycle(case, name, bounds).to_dataset()
+    along = data[name]
+    said = f"{meaning} of the mode of 1 nodal diameter and 0 circles"
+    assert (along.units, along.long_name) == (units, said)
+    assert data[f"special_{name}"].units == units
     assert along.min() == bounds[0]
     assert along.max() == bounds[1]
 

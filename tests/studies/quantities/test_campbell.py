@@ -141,7 +141,7 @@ def test_a_rise_is_one_above_both_ends_of_the_window(
     first, last = ends
     leading = np.array([0.5, first, *[-0.2] * 2, within, *[-0.2] * 2, last, 0.5])
     growth = np.column_stack([np.full(9, -0.3), leading])
-    rates = Rates(growth, leading, np.zeros(9, dtype=bool))
+    rates = Rates(growth, leading, np.zeros(9, dtype=bool), np.zeros(8, dtype=bool))
     found = effect_of(detuning, 3, rates, Campbell())
     assert found["effect"] == effect
     assert found["growth_rate"] == within

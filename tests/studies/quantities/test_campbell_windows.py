@@ -80,3 +80,26 @@ def test_the_step_of_a_crossing_resolves_it() -> None:
     for first in range(spacing):
         finer = made_up().isel(Omega=slice(first, 401, spacing))
         assert effects(finer) == ["rises"]
+
+
+def jumping() -> np.ndarray:
+    """A stick-slip frequency that jumps over that of the mode between two speeds."""
+    return np.where(SPEEDS < MEETING - 0.005, SPEEDS * 9.0, SPEEDS * 11.0)
+
+
+def test_no_crossing_lies_where_the_stick_slip_frequency_jumps() -> None:
+    """Its table had one there, and asked for steps of 0.0003 rad/s."""
+    assert Campbell().summarise(made_up(stick_slip_frequency=jumping()))["n_crossings"] == 0
+
+
+def test_a_crossing_at_the_last_speed_before_a_jump_is_found() -> None:
+    at_last = made_up(stick_slip_frequency=np.where(SPEEDS > MEETING + 0.001, 130.0, 10 * SPEEDS))
+    [crossing] = found_crossings(at_last)
+    assert crossing[0] == pytest.approx(MEETING)
+
+
+def test_growth_rates_are_not_compared_over_a_jump() -> None:
+    """The rate falls there to that of another kind of cycle, which said nothing of the crossing."""
+    beyond = SPEEDS > MEETING + 0.035
+    frequency = np.where(beyond, 130.0, 10 * SPEEDS)
+    assert effects(made_up(stick_slip_frequency=frequency)) == ["unresolved"]

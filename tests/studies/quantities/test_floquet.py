@@ -35,6 +35,20 @@ def test_a_study_says_as_a_sweep_where_the_motion_is_not_near_a_cycle(study: xr.
 
 
 @pytest.mark.compiled
+def test_a_study_and_a_sweep_say_nothing_of_points_that_are_good(study: xr.Dataset) -> None:
+    """A sweep said "ok: cycle of ..." at each point, and a study nothing."""
+    swept = dm.sweep(dm.floquet, dm.Parameters(N=375, Omega=7.35), N=LOADS, Omega=SPEEDS)
+    assert set(swept["message"].values.flat) == {""}
+    assert set(study["message"].values.flat) == {""}
+    sliding = dm.sweep(dm.steady_sliding, dm.Parameters(N=375, Omega=7.35), Omega=SPEEDS)
+    assert set(sliding["message"].values.flat) == {""}
+    runs = dm.sweep(dm.simulate, dm.Parameters(N=375, Omega=7.35), t_end=1.0, N=[1.0])
+    assert set(runs["message"].values.flat) == {""}
+    at_rest = dm.sweep(dm.floquet, dm.Parameters(N=375, Omega=7.35), Omega=[0.0])
+    assert at_rest["message"].values[0].startswith("at_rest: ")
+
+
+@pytest.mark.compiled
 @pytest.mark.parametrize("variable", ["growth_rate", "period", "stick_fraction", "multiplier_re"])
 @pytest.mark.parametrize("width", ["column", "page"])
 def test_figures_of_a_study_mark_such_points(study: xr.Dataset, variable: str, width: str) -> None:

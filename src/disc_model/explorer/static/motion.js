@@ -87,13 +87,16 @@ const SWEPT = "direction"; // the dimension of what a sweep has found on its way
 
 /** What the call of a motion shows. A case may hold several motions, such as those after kicks at random. */
 function saidOfCall(study, place) {
-  if (startOf(study, place)) return "The motion of this case from its start, with both as above:";
+  const lines = element("motion-call").textContent;
+  const above = lines.includes("(case,") && !lines.startsWith("case = ") ? ", with the case above" : "";
+  if (startOf(study, place)) return `The motion of this case from its start${above}:`;
   if (view.variable.dims.includes(SWEPT)) return "The motion of this case from the static start; that of the sweep came from the speed before, and may differ:";
-  const above = element("motion-call").textContent.includes("(case,") ? ", with the case above" : "";
   return `The motion of this case from the static start${above}:`;
 }
 
 const PANEL = { gap: 34, top: 20, bottom: 44, right: 12 };
+const STILL = 1e-6; // span over the size of its variable below which a history is a flat line,
+const MARGIN_OF_STILL = 0.05; // and share of this size that is shown on either side
 let motionDrawn = null;
 
 function drawMotion() {
@@ -122,7 +125,7 @@ function drawMotion() {
   const { traces, samples } = study.motions;
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;
   const histories = traces.map((trace) => history(trace, study.motions.points.indexOf(motion), samples));
-  const axes = histories.map((numbers) => rangeOf(numbers));
+  const axes = histories.map((numbers, n) => rangeOf(numbers, traces[n].size));
   const left = Math.max(...axes.map((axis) => widest(ink, axis.ticks))) + 14;
   const last = samples - 1;
   const horizontal = linear(0, last, left, width - PANEL.right);
@@ -130,8 +133,9 @@ function drawMotion() {
     const top = PANEL.top + n * (each + PANEL.gap);
     const box = { left, right: width - PANEL.right, top, bottom: top + each };
     const vertical = linear(axes[n].least, axes[n].greatest, box.bottom, box.top);
-    const { label, unit } = traces[n];
-    yAxis(ink, box, axes[n].ticks, vertical, [`${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`]);
+    const { label, unit, origin } = traces[n];
+    const head = `${label} (${axes[n].power ? `10${raised(axes[n].power)} ` : ""}${unit})`;
+    yAxis(ink, box, axes[n].ticks, vertical, [origin ? `${head}, ${origin}` : head]);
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
     ink.strokeStyle = style("--accent");
     polyline(ink, [...histories[n]].map((x, i) => [horizontal(i), vertical(x)]), true);
@@ -151,18 +155,21 @@ const history = (trace, point, samples) =>
     (n) => trace.least[point] + trace.step[point] * n,
   );
 
-/** Axis of a history: its range, a power of ten taken out of its labels, and ticks. */
-function rangeOf(numbers) {
+/** Axis of a history: its range, a power of ten taken out of its labels, and ticks. `size`: the greatest value of all
+ * histories of the variable; one that hardly varies beside it stands still, and is a flat line. */
+function rangeOf(numbers, size = 0) {
   const [low, high] = [Math.min(...numbers), Math.max(...numbers)];
   const middle = Math.max(Math.abs(low), Math.abs(high));
-  // what 16 bits cannot tell from a constant is drawn as one
-  const room = Math.max((high - low) / 15, middle * 1e-9, 1e-300);
+  const greatestSize = Math.max(middle, size);
+  const isStill = high - low <= STILL * greatestSize;
+  const room = Math.max(isStill ? MARGIN_OF_STILL * greatestSize : (high - low) / 15, 1e-300);
   const [least, greatest] = [low - room, high + room];
-  const size = Math.floor(log10(middle || 1));
-  const power = size < -2 || size > 4 ? 3 * Math.floor(size / 3) : 0;
+  const reach = isStill ? Math.max(-least, greatest) : middle;
+  const decade = Math.floor(log10(reach || 1));
+  const power = decade < -2 || decade > 4 ? 3 * Math.floor(decade / 3) : 0;
   let steps = [];
   for (let most = 4; steps.length < 2; most++) steps = roundTicks(least, greatest, most);
-  const digits = Math.max(2, Math.ceil(log10((middle || 1) / (greatest - least))) + 3);
+  const digits = Math.max(2, Math.ceil(log10((reach || 1) / (greatest - least))) + 3);
   return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
 }
 
@@ -179,6 +186,12 @@ function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
   element("phases").replaceChildren(...seen.filter(Boolean).map(legendEntry));
 }
 
+/** A number of a trace with its unit, and from where it counts. */
+function numberOf(trace, one) {
+  const said = `${trace.label} ${withUnit(number(one), trace.unit)}`;
+  return trace.origin ? `${said} ${trace.origin}` : said;
+}
+
 function hoverMotion(event) {
   if (!motionDrawn) return;
   const { histories, horizontal, last, ms } = motionDrawn;
@@ -187,5 +200,5 @@ function hoverMotion(event) {
   const { traces } = view.study.motions;
   element("motion-hovered").textContent =
     i < 0 || i > last ? "" : [`${number((i / last) * ms, 4)} ms`,
-      ...traces.map((trace, n) => `${trace.label} ${withUnit(number(histories[n][i]), trace.unit)}`)].join(", ");
+      ...traces.map((trace, n) => numberOf(trace, histories[n][i]))].join(", ");
 }

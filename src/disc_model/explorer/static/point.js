@@ -214,18 +214,12 @@ function computation(study, place, variable) {
   };
 }
 
-/** The call in Python for a point: its case, the start of its motion, and what computes the value that is shown. */
+/** The call in Python for a point: its case, and what computes the value that is shown. */
 function call(study, place, variable) {
   if (isLeftOut(study, place)) return "";
   const written = caseOf(study, place, variable);
-  const start = startOf(study, place);
   const known = computation(study, place, variable);
-  if (!start && !known) return written;
-  const lines = [`case = ${written}`];
-  if (start) lines.push(`start = dm.initial_state(case, ${start})`);
-  if (known) lines.push(`found = ${known.found}`);
-  if (known) lines.push(known.number);
-  return lines.join("\n");
+  return known ? [`case = ${written}`, `found = ${known.found}`, known.number].join("\n") : written;
 }
 
 /** Why a point is left out, in words. */
@@ -273,9 +267,15 @@ function simulation(study, place, variable) {
   const scanned = scannedAt(study, place, variable);
   if (Object.keys(study.call.begins).some((name) => !(name in scanned))) return "";
   const time = simulatedFor(study, place);
-  if (startOf(study, place)) return `dm.simulate(case, ${time}, initial_state=start).plot()`;
   const written = caseOf(study, place, variable);
-  const long = written.length > LONGEST_CASE && call(study, place, variable).startsWith("case = ");
+  const above = call(study, place, variable).startsWith("case = ");
+  const start = startOf(study, place);
+  if (start) {
+    const lines = above ? [] : [`case = ${written}`];
+    lines.push(`start = dm.initial_state(case, ${start})`, `dm.simulate(case, ${time}, initial_state=start).plot()`);
+    return lines.join("\n");
+  }
+  const long = written.length > LONGEST_CASE && above;
   return `dm.simulate(${long ? "case" : written}, ${time}).plot()`;
 }
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
-from disc_model.data.variables import unit_of_parameter
+from disc_model.data.variables import attributes_of_number, unit_of_parameter
 from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
@@ -18,7 +18,6 @@ from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import (
     VARIABLES,
     StoredBranch,
-    attributes_of,
     dataset_of,
     stored_extremes,
 )
@@ -155,7 +154,7 @@ class Branch:
         columns["multiplier"] = [special.multiplier for special in self.special]
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
-        described = {name: attributes_of(name) for name in self.parameters}
+        described = {name: attributes_of_number(name) for name in self.parameters}
         described |= {name: known.attributes for name, known in VARIABLES.items()}
         return special_table(columns, described)
 

@@ -9,9 +9,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep, refuse_failed
-from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes
+from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes_of_number
 from disc_model.errors import require
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.sources import versions_text
 from disc_model.stability.return_map import MapFactory, ReturnMap
@@ -98,13 +98,6 @@ def dataset_of(branch: Branch) -> xr.Dataset:
     return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
 
 
-def attributes_of(name: str) -> dict[str, Any]:
-    """Unit and meaning of a free parameter; only a name of a number of a mode of a disc."""
-    if name in (*Parameters.model_fields, *RATIOS):
-        return attributes(name)
-    return {"long_name": name}
-
-
 class StoredBranch:
     """What a dataset of a branch holds, or a point of a sweep; raises `ParameterError` if it is of
     something else."""
@@ -179,7 +172,7 @@ class _Columns:
     def add_parameters(self, names: Iterable[str], values: np.ndarray) -> None:
         """Add the free parameters as coordinates, from their values, (n, n_parameters)."""
         for i, name in enumerate(names):
-            column = xr.Variable(self.dim, values[:, i], attributes_of(name))
+            column = xr.Variable(self.dim, values[:, i], attributes_of_number(name))
             self.coordinates[self.begin + name] = column
 
     def add(self, columns: dict[str, Variable], values_of: Callable[[str], Any]) -> None:

@@ -4,8 +4,9 @@ two speeds.
 
 A mode's frequency is that of the cycle's multiplier. Without one of its shape, as in a resonance,
 it is that of steady sliding, with the difference interpolated. Multiples of the stick-slip frequency have
-crossings between two neighbouring speeds with a cycle only. A speed at which the motion from the
-static start is not near the cycle counts as one without: the cycle there is another.
+crossings between two neighbouring speeds with a cycle only, and none where that frequency jumps from
+one kind of cycle to another. A speed at which the motion from the static start is not near the cycle
+counts as one without: the cycle there is another.
 """
 
 import math
@@ -15,7 +16,8 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, Mask
+from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names
 from disc_model.studies.quantity import (
     BESIDE_MOTION,
@@ -47,8 +49,9 @@ EFFECTS = (
     "beyond_scan",
 )
 """At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
-there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window; the
-motion is not near the cycle somewhere in the window; or the window goes beyond an end of the axis."""
+there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window, or the
+stick-slip frequency jumps in it; the motion is not near the cycle somewhere in the window; or the window goes beyond an
+end of the axis."""
 LEAST_SPEEDS = 3
 """Least number of speeds in a window by which the effect of a crossing is known."""
 OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_growth_rate")
@@ -125,7 +128,7 @@ class Campbell(Quantity):
         "crossing_effect": _crossing(
             "1",
             "what the growth rates do in the window; beyond_scan where it leaves the scan, unresolved "
-            "where it has too few speeds",
+            "where it has too few speeds, or the stick-slip frequency jumps",
             EFFECTS,
         ),
         "crossing_step": _crossing(
@@ -184,11 +187,13 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
     away = cell["near_motion"] == 0
     cell = cell.assign({name: cell[name].where(~away) for name in OF_CYCLE})
     growth = cell["cycle_growth_rate"].transpose("Omega", "mode").values
-    rates = Rates(growth, cell["growth_rate"].values, away.values)
     speeds = cell["Omega"].values
     turns = cell["rotation_frequency"].values
     releases = cell["stick_slip_frequency"].values
     joined = cell["stick_slip_frequency"].interpolate_na("Omega").values
+    jumps = frequency_jumps(speeds, releases)
+    rates = Rates(growth, cell["growth_rate"].values, away.values, jumps)
+    nowhere = np.zeros_like(jumps)
     for i, mode in enumerate(cell["mode"].values):
         of_mode = frequency_of(cell.isel(mode=i))
         if not np.isfinite(of_mode).any():
@@ -197,12 +202,12 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
         if np.isfinite(releases).any():
             most = math.floor(2 * np.nanmax(of_mode) / np.nanmin(releases)) + 1
         halves = np.arange(1, most + 1) / 2
-        lines = [Line("stick_slip", half, half * releases, half * joined) for half in halves]
+        lines = [Line("stick_slip", half, half * releases, half * joined, jumps) for half in halves]
         for l in range(1, int(cell["diameters"].max()) + 1):
-            lines.append(Line("rotation", l, l * turns, l * turns))
+            lines.append(Line("rotation", l, l * turns, l * turns, nowhere))
         for line in lines:
             joined_detuning = of_mode - line.joined
-            for index, part in _changes_of_sign(of_mode - line.frequency):
+            for index, part in _changes_of_sign(of_mode - line.frequency, line.jumps):
                 yield {
                     "Omega": _between(speeds, index, part),
                     "frequency": _between(line.frequency, index, part),
@@ -216,19 +221,20 @@ def crossings(cell: Dataset, options: Campbell) -> Iterator[dict[str, Any]]:
 
 class Line(NamedTuple):
     """A multiple of a frequency over the speed, Hz: where there is one, and joined over gaps, which the
-    window of a crossing may have."""
+    window of a crossing may have; and the steps at which it jumps."""
 
     kind: str
     multiple: float
     frequency: Array
     joined: Array
+    jumps: Mask
 
 
-def _changes_of_sign(detuning: Array) -> Iterator[tuple[int, float]]:
-    """Yield the interval of each change of sign, and the part of it before the change. A zero at a
-    speed belongs to the interval that begins there, if that has another end."""
-    followed = np.append(np.isfinite(detuning[2:]), False)
-    for index in np.flatnonzero(detuning[:-1] * detuning[1:] <= 0):
+def _changes_of_sign(detuning: Array, jumps: Mask) -> Iterator[tuple[int, float]]:
+    """Yield the interval of each change of sign but jumps, and the part of it before the change. A zero at
+    a speed belongs to the interval that begins there, if that has another end and is no jump."""
+    followed = np.append(np.isfinite(detuning[2:]) & ~jumps[1:], False)
+    for index in np.flatnonzero((detuning[:-1] * detuning[1:] <= 0) & ~jumps):
         before, after = detuning[index : index + 2]
         if before == after or (after == 0 and followed[index]):
             continue
@@ -263,11 +269,13 @@ def frequency_of(mode: Dataset) -> Array:
 
 class Rates(NamedTuple):
     """Growth rates over the speed: of the modes, shape (speeds, modes), and of the cycle, (speeds,);
-    nan without a cycle, and where the motion is away from it."""
+    nan without a cycle, and where the motion is away from it; and the steps over which the stick-slip
+    frequency jumps."""
 
     growth: Array
     leading: Array
     away: Array
+    jumps: Mask
 
     def missing(self, speeds: slice) -> str:
         """The effect of a crossing where some of these speeds have no cycle near the motion."""
@@ -277,7 +285,7 @@ class Rates(NamedTuple):
 def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> dict[str, Any]:
     """The effect of a crossing after the speed of an index, as far as it is known, by the growth
     rates in the window, compared with those at its ends."""
-    growth, leading, _ = rates
+    growth, leading, _, jumps = rates
     beside = slice(index, index + 2)
     if not np.isfinite(leading[beside]).all():
         return {"effect": rates.missing(beside)}
@@ -298,7 +306,7 @@ def effect_of(detuning: Array, index: int, rates: Rates, options: Campbell) -> d
         return {"effect": "beyond_scan", "growth_rate": highest}
     ends = np.array([growth[first], growth[last]])
     rises = growth[within].max(axis=0) - ends.max(axis=0)
-    if not np.isfinite(rises).any():
+    if jumps[first:last].any() or not np.isfinite(rises).any():
         return {"effect": "unresolved", "growth_rate": highest}
     mode = int(np.nanargmax(rises))
     rise = float(np.nanmax(rises))

@@ -6,6 +6,7 @@ from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
 import numpy as np
+from pydantic import PrivateAttr
 
 from disc_model.analysis.classify import ANSWER
 from disc_model.data.variables import Variable
@@ -38,6 +39,8 @@ class Hysteresis(Quantity):
     """longest time at a speed"""
     evaluation_time: Seconds = 5.0
     """length of the last stretch at a speed, which is described"""
+
+    _parameter: str = PrivateAttr(default="Omega")
 
     _rules = (
         (
@@ -96,6 +99,10 @@ class Hysteresis(Quantity):
         ),
     }
 
+    def go_along(self, parameter: str) -> None:
+        """Sweep another number of the case than the speed, whose values `scan` then has."""
+        self._parameter = parameter
+
     def cost(self, unit: UnitCosts) -> float:
         """Stays are doubled about half as often as they may be."""
         stay = math.sqrt(self.dwell * self.max_dwell)
@@ -113,7 +120,7 @@ class Hysteresis(Quantity):
                 values[name] = column.empty((2, len(speeds)))
         steps = sweep(
             point.parameters,
-            "Omega",
+            self._parameter,
             speeds,
             self.dwell,
             self.max_dwell,
@@ -123,7 +130,7 @@ class Hysteresis(Quantity):
         for index, result, late, reached in steps:
             if late is None:
                 status = result.status.value
-                message = f"Omega={speeds[index[1]]:g}: {result.message}"
+                message = f"{self._parameter}={speeds[index[1]]:g}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
             values["stay"][index] = reached.stay

@@ -1,0 +1,65 @@
+"""The units in which a study file gives what varies, and in which its figures show it."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from disc_model.data.variables import SHOWN
+from disc_model.figures.kinds.base import si_unit
+from disc_model.units import ENDS, in_si, unit_of_text
+
+PARTS = (*ENDS, "extra", "blocks")
+"""Keys of an axis under which it has values."""
+OF_OPTIONS = {
+    "scan": ("parameter", "Omega"),
+    "x_range": ("x", "Omega"),
+    "y_lines": ("y", "N"),
+    "low": ("", "Omega"),
+}
+"""Options with values of a parameter: the option that names it, and the parameter where it does not."""
+
+
+def given_units(content: Mapping[str, Any]) -> dict[str, str]:
+    """Units of the parameters along the axes of a study file, zips and ranges of its options included:
+    those in which all values of an axis are given, where figures have another one by themselves."""
+    units = {}
+    for name, values in _axes(content):
+        found = {unit_of_text(text) for text in _texts(values)}
+        unit = found.pop() if len(found) == 1 else ""
+        if unit and _is_another(name, unit):
+            units[name] = unit
+    return units
+
+
+def _axes(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the parameters that a file varies, with their values as they are given."""
+    options = content.get("options")
+    for key, (naming, usual) in OF_OPTIONS.items():
+        if isinstance(options, Mapping) and key in options:
+            yield str(options.get(naming, usual)), options[key]
+    zips = content.get("zip") or []
+    groups = zips if isinstance(zips, list) else [zips]
+    for group in (*groups, content.get("axes")):
+        if isinstance(group, Mapping):
+            yield from group.items()
+
+
+def _texts(values: Any) -> Iterator[str]:
+    """Yield the numbers of an axis as texts, with their units if they have any."""
+    match values:
+        case Mapping():
+            for key in PARTS:
+                yield from _texts(values.get(key, []))
+        case list() | tuple():
+            for value in values:
+                yield from _texts(value)
+        case _:
+            yield str(values)
+
+
+def _is_another(name: str, unit: str) -> bool:
+    """Whether a unit is of the kind of a parameter's, and another one than figures have for it."""
+    if name not in SHOWN or si_unit(name) in ("", "1"):
+        return False
+    wrong: list[Any] = []
+    size = in_si(f"1 {unit}", si_unit(name), wrong, ())
+    return not wrong and abs(size * SHOWN[name].factor - 1) > 1e-12

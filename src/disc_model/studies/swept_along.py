@@ -1,0 +1,76 @@
+"""Sweeps up and down along any number of a case, as `hysteresis` makes them: what they need before, and
+what their variables are called."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.swept_speeds import ENDS, ONSETS
+from disc_model.data.variables import attributes_of_number, presentation_of, unit_of_parameter
+from disc_model.errors import Fault, raise_faults, require
+from disc_model.parameters import RATIOS, foreign_case
+from disc_model.simulation.states import mode_arrays
+from disc_model.stability.continuation.arguments import free_faults, values_in_si
+
+PERSONS = ("Young’s", "Young's", "Poisson’s", "Poisson's")
+"""Words that begin with a capital anywhere."""
+
+
+def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
+    """The range of a sweep along a number of a case, in SI units; raises `ParameterError` where a value at
+    its bounds makes no case, or other modes, in which no motion goes on."""
+    require(
+        (np.shape(bounds) == (2,), "bounds", bounds, "must be the lowest and the highest value")
+    )
+    faults: list[Fault] = []
+    ends = values_in_si(name, bounds, faults, "bounds")
+    [length] = values_in_si(name, [step], faults, "step")
+    raise_faults(foreign_case(case) or [*free_faults(case, [name]), *faults])
+    low, high = (mode_arrays(case.replace(**{name: end})).psi for end in ends)
+    same = low.shape == high.shape and np.allclose(low, high, rtol=1e-9)
+    require((same, "name", name, "must be a number that does not change the shapes of the modes"))
+    return {"start": ends[0], "stop": ends[1], "step": length}
+
+
+def unit_along(name: str) -> str:
+    """The unit of values along a sweep with the space before, as texts have it."""
+    return f" {unit_of_parameter(name)}".rstrip()
+
+
+def named_along(sweep: xr.Dataset, name: str) -> xr.Dataset:
+    """A sweep along another number than the speed, with its values under the name of that number."""
+    onset, end = ONSETS[1], ENDS[1]
+    along = f"sweep_{name}"
+    renamed = sweep.rename({"sweep_Omega": along, ONSETS[0]: onset, ENDS[0]: end})
+    for variable in renamed.variables.values():
+        variable.attrs["long_name"] = _of_values(variable.attrs["long_name"])
+    units = attributes_of_number(name).get("units", "1")
+    noun = _noun(name)
+    names = {along: f"{noun}, in the sweep"}
+    names[onset] = f"{noun} at separation onset, {_condition(renamed[onset])}"
+    names[end] = f"{noun} at separation end, {_condition(renamed[end])}"
+    for each, long_name in names.items():
+        renamed[each].attrs.update(units=units, long_name=long_name)
+    return renamed
+
+
+def _of_values(long_name: str) -> str:
+    """The name of a variable in which the values of the sweep are no speeds."""
+    return long_name.replace("at a speed", "at a value")
+
+
+def _noun(name: str) -> str:
+    """What a number is called, such as preload."""
+    shown = presentation_of(name).name
+    if not shown or name in RATIOS:
+        return str(attributes_of_number(name)["long_name"])
+    first = shown.partition(" ")[0]
+    return shown[0].lower() + shown[1:] if first not in PERSONS else shown
+
+
+def _condition(variable: xr.DataArray) -> str:
+    """Where a variable has no value, as its name says."""
+    return f"nan {variable.attrs['long_name'].partition(', nan ')[2]}"
