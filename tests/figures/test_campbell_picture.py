@@ -397,9 +397,9 @@ def test_the_sample_of_unresolved_peaks_without_a_crossing_is_hollow() -> None:
 @pytest.mark.parametrize(
     ("effects", "said"),
     [
-        (["unresolved"] * 3, ["3 crossings: all unresolved"]),
-        (["unresolved", "unresolved", "rises"], ["3 crossings: 2 unresolved"]),
-        (["unresolved", "no_rise", "rises"], ["3 crossings: 1 not marked, 1 unresolved"]),
+        (["unresolved"] * 3, ["3 crossings: all unresolved (2 marked)"]),
+        (["unresolved", "unresolved", "rises"], ["3 crossings: 2 unresolved (1 marked)"]),
+        (["unresolved", "no_rise", "rises"], ["3 crossings: 1 not marked, 1 unresolved (marked)"]),
         (["no_rise", "no_rise", "rises"], []),
     ],
 )
@@ -564,13 +564,40 @@ def test_names_of_multiples_stand_clear_of_modes() -> None:
     study = campbell_study()
     near_end = study["Omega"] > 15
     doubled = 2 * study["stick_slip_frequency"]
-    study["sliding_frequency"][:, 1] = xr.where(near_end, doubled + 1, doubled + 30)
+    mode = xr.where(near_end, doubled + 1, doubled + 30)
+    study["sliding_frequency"][:, 1] = mode
     top, _ = dm.plot_campbell(study, multiples=[2])
-    [name] = [text for text in top.texts if text.xy[1] in doubled.values]
-    assert name.xy[0] <= 15
+    top.figure.draw_without_rendering()
+    [name] = [text for text in top.texts if text.get_text().startswith("2 ")]
+    speeds = np.linspace(8, 18, 500)
+    heights = np.interp(speeds, study["Omega"], mode)
+    points = top.transData.transform(np.column_stack([speeds, heights]))
+    assert name.get_visible()
+    assert not name.get_window_extent().count_contains(points)
 
 
-@pytest.mark.parametrize("multiples", [2, [0], [2.5], [True], "2"])
+@pytest.mark.parametrize("multiples", [2, [0], [2.3], [True], "2"])
 def test_what_are_no_multiples_is_refused(multiples: Any) -> None:
-    with refusal("must be whole numbers > 0, such as"):
+    with refusal("must be whole numbers or halves > 0, such as"):
         dm.plot_campbell(campbell_study(), multiples=multiples)
+
+
+@pytest.mark.parametrize("multiples", [[2.5], (2.5,), np.array([2.5, 3.0])])
+def test_halves_of_the_stick_slip_frequency_are_multiples(multiples: Any) -> None:
+    """Crossings are at n and n + 1/2, and only whole numbers were taken."""
+    study = with_a_crossing_at_no_peak("rises")
+    study["crossing_multiple"][0] = 2.5
+    top, _ = dm.plot_campbell(study, multiples=multiples)
+    assert "2.5 $f_s$" in named_multiples(top)
+    assert "crossing: a rate rises" in labels(top.figure)
+    assert_fit_for_print(top.figure)
+
+
+def test_the_figure_of_a_study_takes_halves() -> None:
+    figure = drawn("campbell", campbell_study(), multiples=[2, 2.5])
+    assert {"2 $f_s$", "2.5 $f_s$"} <= {*named_multiples(figure.axes[0])}
+
+
+def test_the_figure_of_a_study_refuses_other_fractions() -> None:
+    with refusal("multiples.0=2.3: must be a multiple of 0.5"):
+        drawn("campbell", campbell_study(), multiples=[2.3])

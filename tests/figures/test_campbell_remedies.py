@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.campbell_crossings import rounded_down
+from disc_model.figures.campbell_counts import rounded_down
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.described import campbell_study
@@ -34,30 +34,30 @@ def said_of(study: xr.Dataset) -> list[str]:
 def test_the_legend_names_the_step_of_the_narrowest_unresolved_window() -> None:
     """It said "smaller steps"; steps of the study are 0.5 rad/s."""
     study = study_of(["unresolved", "unresolved", "rises"], [0.048, 0.2, 0.01])
-    assert said_of(study) == ["3 crossings: 2 need steps of 0.04 rad/s"]
+    assert said_of(study) == ["3 crossings: 2 need steps of 0.04 rad/s (1 marked)"]
 
 
 def test_the_legend_names_no_step_wider_than_those_of_the_study() -> None:
     study = study_of(["unresolved"] * 3, [0.6, 0.7, 0.8])
-    assert said_of(study) == ["3 crossings: all unresolved"]
+    assert said_of(study) == ["3 crossings: all unresolved (2 marked)"]
 
 
 def test_the_legend_asks_for_a_wider_scan_where_a_window_leaves_it() -> None:
     """It asked for smaller steps."""
     study = study_of(["beyond_scan", "beyond_scan", "rises"], [0.1] * 3)
-    assert said_of(study) == ["3 crossings: 2 need a wider scan"]
+    assert said_of(study) == ["3 crossings: 2 need a wider scan (1 marked)"]
 
 
 def test_both_remedies_are_told_apart() -> None:
     study = study_of(["beyond_scan", "unresolved", "rises"], [0.1] * 3)
-    said = "3 crossings: 1 needs steps of 0.1 rad/s, 1 needs a wider scan"
+    said = "3 crossings: 1 needs steps of 0.1 rad/s, 1 needs a wider scan (marked)"
     assert said_of(study) == [said]
 
 
 def test_steps_that_differ_much_are_named_from_the_least_on() -> None:
     """One of 279 crossings needed steps of 2e-6 rad/s, and the legend asked for these alone."""
     study = study_of(["unresolved", "unresolved", "rises"], [0.0005, 0.2, 0.01])
-    assert said_of(study) == ["3 crossings: 2 need steps of 0.0005 to 0.2 rad/s"]
+    assert said_of(study) == ["3 crossings: 2 need steps of 0.0005 to 0.2 rad/s (1 marked)"]
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import disc_model as dm
 from disc_model.figures.end_names import spread
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS
-from tests.figures.described import campbell_study
+from tests.figures.described import campbell_study, drawn
 from tests.figures.every_kind import flag
 from tests.figures.reading import assert_fit_for_print
 
@@ -89,7 +89,7 @@ def test_the_legend_of_all_there_is_leaves_room_for_panels() -> None:
 
 def test_a_reader_gives_an_entry_of_several_lines_other_words() -> None:
     study = with_all_there_is()
-    said = "3 crossings: 1 needs steps of 0.04 rad/s, 1 needs a wider scan"
+    said = "3 crossings: 1 needs steps of 0.04 rad/s (marked), 1 needs a wider scan"
     _, bottom = own_panels(study, PAGE, labels={said: "crossings"})
     assert "crossings" in [text.get_text() for text in bottom.get_legend().get_texts()]
 
@@ -113,3 +113,75 @@ def test_a_smooth_curve_of_large_rates_has_no_ring() -> None:
 
 def test_a_jump_of_small_rates_has_a_ring() -> None:
     assert rings_of([-0.05, -0.05, -0.05, 0.2, -0.05, -0.05]) == {0.2}
+
+
+def over_loads(width: str) -> Any:
+    """A figure of two preloads with multiples, of a width."""
+    study = campbell_study()
+    loads = xr.concat([study, study], xr.Variable("N", np.array([300.0, 385.0])), data_vars="all")
+    return drawn("campbell", loads, by="N", multiples=[2, 2.5, 3], width=width)
+
+
+@pytest.mark.parametrize(("width", "columns"), [("column", 1), ("page", 2)])
+def test_panels_of_two_preloads_have_room(width: str, columns: int) -> None:
+    """In a column they stood beside each other, 25 mm wide, and names of multiples touched."""
+    figure = over_loads(width)
+    figure.draw_without_rendering()
+    places = {round(ax.get_position().x0, 3) for ax in figure.axes}
+    assert len(places) == columns
+    titles = [ax.get_title("left") for ax in figure.axes]
+    assert titles[0].startswith("(a) ")
+    assert sum("385 N" in title for title in titles) == 1
+    named = [ax.get_ylabel() for ax in figure.axes if ax.get_ylabel()]
+    assert len(named) == 4 // columns
+    assert_fit_for_print(figure)
+
+
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+@pytest.mark.parametrize("highest", [None, 200.0])
+def test_names_of_multiples_are_on_no_other_name(width: float, highest: float | None) -> None:
+    """They stood on each other, on marks, or on the numbers of the axis beside a cut."""
+    top, _ = own_panels(campbell_study(), width, multiples=[2, 2.5, 3, 3.5], highest=highest)
+    named = [text for text in top.texts if "f_s" in text.get_text() and text.get_visible()]
+    assert len(named) >= 4
+    frame = top.get_window_extent()
+    boxes = [text.get_window_extent() for text in named]
+    for i, box in enumerate(boxes):
+        assert frame.count_contains(box.corners()) == 4
+        assert not box.count_overlaps(boxes[i + 1 :])
+
+
+def test_the_name_of_a_multiple_is_not_on_the_line_of_another() -> None:
+    """Where a multiple ran along a mode, its name stood on the line of the next multiple."""
+    study = campbell_study()
+    study["stick_slip_frequency"][:] = 225.2
+    study["sliding_frequency"][:] = [1930.0, 2130.0, 2750.0]
+    top, _ = own_panels(study, PAGE, multiples=[9.5, 10], highest=6000)
+    named = [text for text in top.texts if "f_s" in text.get_text() and text.get_visible()]
+    [of_lower] = [text for text in named if text.get_text().startswith("9.5")]
+    speeds = np.linspace(8, 18, 500)
+    other = top.transData.transform(np.column_stack([speeds, np.full(500, 2252.0)]))
+    assert not of_lower.get_window_extent().count_contains(other)
+
+
+def test_the_name_of_a_multiple_is_not_on_the_line_of_one_at_a_peak() -> None:
+    """The name of 4.5 times the stick-slip frequency stood on the line of 5 times, which a peak has."""
+    study = campbell_study()
+    study["stick_slip_frequency"][:] = 225.2
+    study["sliding_frequency"][:] = [1930.0, 2130.0, 2750.0]
+    study["crossing_multiple"] = ("crossing", [10.0, 3.0, 1.0])
+    study["crossing_frequency"][0] = 2252.0
+    top, _ = own_panels(study, PAGE, multiples=[9.5], highest=6000)
+    [name] = [text for text in top.texts if text.get_text().startswith("9.5")]
+    speeds = np.linspace(8, 18, 500)
+    other = top.transData.transform(np.column_stack([speeds, np.full(500, 2252.0)]))
+    assert name.get_visible()
+    assert not name.get_window_extent().count_contains(other)
+
+
+def test_names_at_peaks_come_before_those_along_lines() -> None:
+    """A multiple's name took the only room beside a peak, which had none, and read as that of the peak."""
+    top, _ = own_panels(campbell_study(), COLUMN, multiples=[2, 3])
+    first, *others = [text for text in top.texts if "f_s" in text.get_text()]
+    assert first.get_text().startswith("2.5 ")
+    assert len(others) == 2

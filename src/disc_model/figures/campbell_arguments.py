@@ -8,7 +8,7 @@ import xarray as xr
 
 from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.selection import without_single
-from disc_model.units import in_si, is_number, is_whole
+from disc_model.units import in_si, is_number
 
 NEEDED = ("Omega", "sliding_frequency", "growth_rate", "crossing_Omega")
 """What a study has that such a diagram can show."""
@@ -19,7 +19,7 @@ MOST_COLUMNS = 6
 
 
 def checked_study(
-    study: xr.Dataset, highest: float | str | None, multiples: Sequence[int]
+    study: xr.Dataset, highest: float | str | None, multiples: Sequence[float]
 ) -> tuple[xr.Dataset, float | None]:
     """The study along its speeds, and the highest frequency shown (Hz) if one is asked for, after all
     checks."""
@@ -34,7 +34,7 @@ def checked_study(
             _are_multiples(multiples),
             "multiples",
             multiples,
-            "must be whole numbers > 0, such as [2, 3]",
+            "must be whole numbers or halves > 0, such as [2, 2.5]",
         ),
     )
     raise_faults(faults)
@@ -57,10 +57,10 @@ def dims_of_columns(study: xr.Dataset) -> list[str]:
 
 
 def _are_multiples(multiples: Any) -> bool:
-    """Whether these are whole numbers from 1 on, or none."""
+    """Whether these are multiples of one half from one half on, or none."""
     if np.ndim(multiples) != 1:
         return False
-    return all(is_whole(each) and each >= 1 for each in multiples)
+    return all(is_number(each) and each > 0 and each % 0.5 == 0 for each in multiples)
 
 
 def _first_place(study: xr.Dataset, dims: Sequence[str]) -> str:

@@ -5,12 +5,8 @@ from collections.abc import Sequence
 import xarray as xr
 
 from disc_model.figures.campbell_bands import entries_of_bands
-from disc_model.figures.campbell_crossings import (
-    SYMBOLS,
-    entries_of_counts,
-    meeting_of,
-    symbol_of_line,
-)
+from disc_model.figures.campbell_counts import entries_of_counts
+from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of, symbol_of_line
 from disc_model.figures.campbell_looks import (
     beyond_look,
     dot_look,
@@ -19,7 +15,7 @@ from disc_model.figures.campbell_looks import (
     multiple_look,
     speed_look,
 )
-from disc_model.figures.campbell_multiples import entries_of_crossings, unmarked_crossings
+from disc_model.figures.campbell_multiples import entries_of_crossings
 from disc_model.figures.campbell_peaks import Column, Peak, followed_rates, growing_modes, unjoined
 from disc_model.figures.cut import entries_of_left_out, entry_of_cut, modes_cut
 from disc_model.figures.drawing import BLACK, open_line, open_ring, sample, wide
@@ -35,7 +31,7 @@ SHORT = 24  # characters of entries that stand in the first columns
 
 
 def entries_of(
-    columns: Sequence[Column], highest: float, multiples: Sequence[int] = ()
+    columns: Sequence[Column], highest: float, multiples: Sequence[float] = ()
 ) -> list[Artist]:
     """Entries of a legend for the lines, marks and bands that are drawn, for what lies above the
     highest frequency shown (Hz), and for crossings of multiples that are asked for; short ones first,
@@ -55,7 +51,7 @@ def entries_of(
     handles += entries_of_crossings(columns, multiples, highest)
     handles += _entries_of_rates(studies, found)
     handles.sort(key=_is_long)
-    return handles + entries_of_counts(studies, unmarked_crossings(columns, multiples, highest))
+    return handles + entries_of_counts(columns, multiples, highest)
 
 
 def _is_long(handle: Artist) -> bool:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from disc_model.figures.campbell_crossings import meeting_of, multiple_text
+from disc_model.figures.campbell_multiples import name_multiples, places_of_marks
 from disc_model.figures.campbell_peaks import Column, followed_rates
 from disc_model.figures.drawing import halo, large
 from disc_model.figures.names import Names
@@ -23,14 +24,22 @@ UPRIGHT = 200  # points along the line at the speed of a peak
 BESIDE_PEAK = ((2, 3), (-2, 3), (2, 10), (-2, 10), (2, 17), (-2, 17))  # and beside peaks
 
 
-def name_peaks(top: Axes, bottom: Axes, column: Column, highest: float = np.inf) -> None:
-    """Write the multiples at peaks, and at crossings up to the highest frequency shown (Hz), where there
-    is room."""
+def name_peaks(
+    top: Axes,
+    bottom: Axes,
+    column: Column,
+    highest: float = np.inf,
+    multiples: Sequence[float] = (),
+) -> None:
+    """Write the multiples at peaks, at crossings up to the highest frequency shown (Hz), and beside the
+    lines of multiples that are asked for, where there is room."""
     study = column.study
     speeds = study["Omega"].values
     rate = study["growth_rate"].values
     modes = study["sliding_frequency"].transpose(..., "Omega").values
-    above = Names(top, lines=_along_lines([(speeds, mode) for mode in modes]))
+    lines = [(speeds, mode) for mode in modes]
+    marks = places_of_marks(column, multiples, highest)
+    above = Names(top, lines=np.vstack([_along_lines(lines), marks]))
     followed = followed_rates(study)
     of_rates = _along_lines([opened(speeds, followed, opens(followed))])
     below = Names(bottom, lines=np.vstack([of_rates, np.column_stack([speeds, rate])]))
@@ -53,6 +62,7 @@ def name_peaks(top: Axes, bottom: Axes, column: Column, highest: float = np.inf)
             )
         place = (study["Omega"].values[peak.place], study["growth_rate"].values[peak.place])
         below.add(name, place, BESIDE_PEAK, fontsize=large(7), path_effects=outline)
+    name_multiples(above, column, multiples, highest)  # anywhere along lines
 
 
 def _upright_lines(ax: Axes, speeds: Sequence[float]) -> Array:

@@ -28,7 +28,7 @@ def draw_panels(
     below: Sequence[Axes],
     columns: Sequence[Column],
     highest: float,
-    multiples: Sequence[int] = (),
+    multiples: Sequence[float] = (),
 ) -> None:
     """Draw frequencies up to the highest shown (Hz), with multiples of the stick-slip frequency that
     are asked for, and growth rates below them, on one scale."""
@@ -50,11 +50,17 @@ def draw_panels(
 
 
 def _label_rows(axes: Sequence[Axes], label: str) -> None:
-    """Label the vertical axes of panels, but those that share a labelled one."""
+    """Label the vertical axes of panels, but those beside a labelled one that they share."""
     for ax in axes:
         alike = ax.get_shared_y_axes().get_siblings(ax)
-        if not any(other.get_ylabel() for other in alike):
+        if not any(other.get_ylabel() and _are_beside(ax, other) for other in alike):
             ax.set_ylabel(label)
+
+
+def _are_beside(ax: Axes, other: Axes) -> bool:
+    """Whether axes stand at one height of a figure."""
+    height = ax.get_position(original=True).y0
+    return bool(np.isclose(height, other.get_position(original=True).y0))
 
 
 def _scale_alike(axes: Sequence[Axes]) -> None:

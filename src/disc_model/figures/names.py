@@ -60,6 +60,7 @@ class Names(Artist):
         self._names: list[Annotation] = []
         self._places: list[list[Place]] = []
         self._rivals: list[Array] = []
+        self._over_lines = set[int]()  # of these names
         self.set_zorder(-1)  # chosen before they are drawn
         self.set_in_layout(False)
         ax.add_artist(self)
@@ -86,10 +87,15 @@ class Names(Artist):
         points: Sequence[tuple[float, float]],
         offsets: Iterable[tuple[float, float]],
         rivals: Array | None = None,
+        *,
+        over_lines: bool = False,
         **look: Any,
     ) -> None:
         """Add the name of a line, by the points of it beside which it may stand, and the offsets
-        from these, best first; it stands nearer to these than to points of rival lines where there is room."""
+        from these, best first; it stands nearer to these than to points of rival lines where there is room.
+        One that may stand over lines does so rather than nearer to rivals."""
+        if over_lines:
+            self._over_lines.add(len(self._names))
         self._add(text, [Place(*place) for place in product(points, offsets)], rivals, **look)
 
     def _add(
@@ -120,14 +126,19 @@ class Names(Artist):
         apart = np.vstack([others, self._rivals[i]])
         if self._place(i, apart, taken, renderer):
             return True
+        if i in self._over_lines:
+            return self._place(i, apart, taken, renderer, lines=np.empty((0, 2)))
         return len(apart) > len(others) and self._place(i, others, taken, renderer)
 
-    def _place(self, i: int, points: Array, taken: list[Any], renderer: Any) -> bool:
-        """Move a name to the first of its places with room, nearer to its point than to other ones;
-        its box, in pixels, is added to those taken. Whether there is such a place."""
+    def _place(
+        self, i: int, points: Array, taken: list[Any], renderer: Any, lines: Array | None = None
+    ) -> bool:
+        """Move a name to the first of its places with room, nearer to its point than to other ones, and
+        on none of the lines, usually all; its box, in pixels, is added to those taken. Whether there is
+        such a place."""
         panel: Any = self.axes
         frame = panel.get_window_extent(renderer)
-        lines = panel.transData.transform(self._lines)
+        covered = panel.transData.transform(self._lines if lines is None else lines)
         others = panel.transData.transform(points)
         name = self._names[i]
         name.set_visible(True)  # an invisible one has no extent
@@ -136,7 +147,7 @@ class Names(Artist):
             box = Text.get_window_extent(name, renderer).padded(GAP)  # without its leader
             nearness = Nearness(panel.transData.transform(place.point), others)
             inside = frame.count_contains(box.corners()) == len(box.corners())
-            covers = box.count_contains(lines) or box.count_overlaps(taken)
+            covers = box.count_contains(covered) or box.count_overlaps(taken)
             if inside and not covers and self._is_plain(place, nearness, box, taken):
                 figure: Any = self.get_figure(root=True)
                 apart = self._beside * figure.dpi / 72

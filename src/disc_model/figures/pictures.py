@@ -122,7 +122,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
-    multiples: Sequence[int] = (),
+    multiples: Sequence[float] = (),
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
@@ -143,9 +143,9 @@ def plot_campbell(
     study : of ``quantity: campbell``, such as `run_study` returns; one further axis, such as two preloads, has a
         column of panels for each of up to six values
     highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
-    multiples : whole numbers, such as ``[2, 3]``: these multiples of the stick-slip frequency are drawn at all
-        speeds with a cycle near the motion, open where it jumps, with marks where modes cross them: filled where a
-        growth rate rises there. ``crossing_effect`` of the study says more
+    multiples : whole numbers or halves, such as ``[2, 2.5]``: these multiples of the stick-slip frequency are drawn
+        at all speeds with a cycle near the motion, open where it jumps, with marks where modes cross them: filled
+        where a growth rate rises there. ``crossing_effect`` of the study says more
     ax : two axes to draw on, that of frequencies first, without another Campbell diagram; of a further axis, two
         for each of its values, those of frequencies first
     legend, labels, title : as in `Result.plot`

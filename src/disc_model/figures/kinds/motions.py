@@ -9,7 +9,7 @@ from pydantic import Field
 from disc_model.data.variables import SAMPLE
 from disc_model.errors import Fault, suggestion
 from disc_model.figures.kinds.base import NORM, Compared, Names, Plot, Role, Roles, Values, unknown
-from disc_model.units import Count, Finite, Positive, Unit
+from disc_model.units import Finite, Positive, Real, Unit
 
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
 
@@ -161,15 +161,15 @@ class Campbell(Compared):
 
     normalization : the one shown, where the study has several
     highest : Hz, upper end of the axis of frequencies; without it, that of the modes
-    multiples : whole numbers, such as [2, 3]: these multiples of the stick-slip frequency are drawn over all speeds,
-        with marks where modes cross them; without it, only those at the highest peaks of growth
+    multiples : whole numbers or halves, such as [2, 2.5]: these multiples of the stick-slip frequency are drawn over
+        all speeds, with marks where modes cross them; without it, only those at the highest peaks of growth
     """
 
     needs = ("Omega",)
     kind: Literal["campbell"] = "campbell"
     normalization: Literal["as_published", "orthonormal"] | None = None
     highest: Annotated[Positive, Unit("Hz")] | None = None
-    multiples: tuple[Annotated[Count, Field(ge=1, le=1000)], ...] = ()
+    multiples: tuple[Annotated[Real, Field(ge=0.5, le=1000, multiple_of=0.5)], ...] = ()
 
     def wrong_dims(self, values: Values) -> Iterator[Fault]:
         chosen = self.normalization
