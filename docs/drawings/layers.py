@@ -40,6 +40,7 @@ WHAT = {
     "arrays": "types of arrays",
     "hashing": "one text for equal values, and its hash",
     "sources": "files on which a result depends",
+    "without_reader": "what a command does when nobody reads on",
 }
 """A few words for each part of a layer."""
 COLOURS = ("#e8f1f8", "#d3e4f2")

@@ -45,6 +45,7 @@ PHYSICS = (
 """Parts on which every simulation depends."""
 BATCHES = (
     *PHYSICS,
+    "data/frequency_jumps.py",
     "studies/batch.py",
     "studies/distributions.py",
     "studies/quantity.py",

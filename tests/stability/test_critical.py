@@ -484,7 +484,7 @@ def test_intervals_of_instability_lie_between_crossings(
     assert ">0<" in rows
     assert ">1<" in rows
     assert ">to<" in rows
-    assert ">below 0.1<" in rows
+    assert ">narrower than 0.1<" in rows
 
 
 def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:
