@@ -355,7 +355,7 @@ def test_a_dry_run_says_what_there_is_to_compute_and_by_which_options(
     folder.mkdir(parents=True)
     (folder / f"{next(iter(load_study(mine).grid.batches))}.nc").touch()  # type: ignore[union-attr]
     out = command.out("study", str(mine), *options)
-    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1, 1 there", out)
+    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1, of which 1 is computed", out)
     assert len(called) > 0
     assert "plan of" not in command.out("study", str(mine), "--directory", str(mine.parent))
 
@@ -515,4 +515,21 @@ def test_the_advice_to_look_at_times_of_files_alone_is_not_passed_on() -> None:
     assert "--rerun-triggers mtime" in said, "Snakemake has other words now"
     for text, kept in ((advice, False), ("Job stats:", True)):
         record = logging.LogRecord("snakemake.logging", logging.INFO, "", 0, text, (), None)
-        assert cli._is_no_advice(record) == kept
+        assert cli._is_told(record) == kept
+
+
+@pytest.mark.parametrize("text", cli.NOT_TOLD[1:])
+def test_how_snakemake_is_set_up_is_not_told(text: str) -> None:
+    """Such lines stood between the tables of a plan and its end."""
+    logging_parts = (snakemake.workflow.Workflow, snakemake.api.DAGApi)
+    said = "".join(map(inspect.getsource, logging_parts))
+    assert text in said, "Snakemake has other words now"
+    record = logging.LogRecord("snakemake.logging", logging.INFO, "", 0, f"{text}.", (), None)
+    assert not cli._is_told(record)
+
+
+def test_batches_of_a_plan_say_how_many_are_computed() -> None:
+    """A plan had "1, 1 there"."""
+    assert cli._batches_text(4, 0) == "4"
+    assert cli._batches_text(1, 1) == "1, of which 1 is computed"
+    assert cli._batches_text(4, 3) == "4, of which 3 are computed"

@@ -520,7 +520,7 @@ def study(
     import snakemake.cli  # type: ignore[import-untyped]
 
     snakemake.cli.print = _print_without_profile
-    logging.getLogger("snakemake.logging").addFilter(_is_no_advice)
+    logging.getLogger("snakemake.logging").addFilter(_is_told)
     try:
         snakemake.cli.main(options)  # ends with an exit code
     except SystemExit as ended:
@@ -572,10 +572,23 @@ def _print_without_profile(*texts: Any, **options: Any) -> None:
         print(said, **options)
 
 
-def _is_no_advice(record: logging.LogRecord) -> bool:
-    """Whether Snakemake logs anything but the advice to look at times of files alone, by which
-    results would stay that a change has made out of date."""
-    return "--rerun-triggers mtime" not in str(record.msg)
+NOT_TOLD = (
+    # advice to look at times of files alone, by which results would stay that a change has made out of date
+    "--rerun-triggers mtime",
+    # how Snakemake is set up, which no reader has chosen
+    "Assuming unrestricted shared filesystem usage",
+    "Using shell: ",
+    "Provided cores: ",
+    "Rules claiming more threads will be scaled down",
+    "Conda environments: ignored",
+)
+"""Parts of what Snakemake logs that readers are not told."""
+
+
+def _is_told(record: logging.LogRecord) -> bool:
+    """Whether readers are told what Snakemake logs."""
+    said = str(record.msg)
+    return not any(part in said for part in NOT_TOLD)
 
 
 def _show_options(grid: GridStudy) -> None:
@@ -591,6 +604,14 @@ def _show_options(grid: GridStudy) -> None:
         "meaning": [option.meaning for option in options],
     }
     table(f"options of the quantity {grid.quantity}", columns, overflow="fold")
+
+
+def _batches_text(batches: int, computed: int) -> str:
+    """The number of batches of a study, and how many of them are computed already."""
+    if not computed:
+        return str(batches)
+    verb = "is" if computed == 1 else "are"
+    return f"{batches}, of which {computed} {verb} computed"
 
 
 def _show_plan(
@@ -616,8 +637,7 @@ def _show_plan(
     works = [factor * sum(each.seconds) for each in plans]
     batches = []
     for each in plans:
-        there = f", {each.computed} there" if each.computed else ""
-        batches.append(f"{each.batches}{there}")
+        batches.append(_batches_text(each.batches, each.computed))
     columns: dict[str, Iterable[str]] = {
         "study": [each.name for each in plans],
         "quantity": [each.quantity for each in plans],
