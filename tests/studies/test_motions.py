@@ -126,3 +126,14 @@ def test_phases_of_a_history_are_those_of_its_samples() -> None:
     half = (SAMPLES - 1) // 2
     assert words[half] == "stick"
     assert words[-2] == "stick"
+
+
+@pytest.mark.compiled
+def test_a_motion_sampled_at_events_begins_after_its_whole_transient() -> None:
+    """It was that after 20 s, in contact all along; samples were taken after 80 s, with separations."""
+    ratio = {"base": {"N": 385, "Omega": 15.5}, "axes": {"mu_k_over_mu_s": [0.6]}}
+    options = {"section": "event", "transient": 20, "samples": 3}
+    (text,) = texts("bifurcation", options=options, **ratio).values()
+    motion = run_motions(text).isel(point=0)
+    assert "separation" in flag_names(motion["phase"])
+    assert float(motion["P"].min()) == 0.0

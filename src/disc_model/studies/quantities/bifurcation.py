@@ -1,6 +1,6 @@
 """Samples of the settled motion, once a turn of the drive or at events."""
 
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 import numpy as np
 from pydantic import Field
@@ -118,6 +118,10 @@ class Bifurcation(Start, Quantity):
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.starts import state_after
 
+        if self.section == "event":
+            transient = _transient_of(point, self)
+            transient.run.raise_for_status()
+            return transient.end
         return state_after(point.parameters, point.start, self.transient, self.tol)
 
 
@@ -161,37 +165,73 @@ def _once_a_turn(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     return values, ""
 
 
-def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
+class _Transient(NamedTuple):
+    """The time left out before samples at events.
+
+    Attributes
+    ----------
+    run : its last part
+    reached : what it has come to
+    length : in all, s
+    first : time of its first separation, s, nan without
+    separations : their number
+    """
+
+    run: Result
+    reached: Arrival
+    length: float
+    first: float
+    separations: int
+
+    @property
+    def end(self) -> State:
+        """The state in which samples begin: on the attractor, if that is known exactly."""
+        near = self.reached.near
+        if near is None:
+            return self.run.final_state
+        assert near.cycle.state is not None
+        return near.cycle.state
+
+
+def _transient_of(point: Point, options: Bifurcation) -> _Transient:
+    """The transient of a point, doubled until the motion has settled; its run may end early."""
     from disc_model.simulation.api import simulate
     from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.attractors import arrival
-    from disc_model.stability.segments import shares
+    from disc_model.stability.attractors import Arrival, arrival
 
     p = point.parameters
     state = make_initial_state(p, point.start, options.tol)
-    transient = options.transient
+    length = options.transient
     first = np.nan
     separations = 0
     legs: list[Result] = []
     while True:
-        run = simulate(p, transient, tol=options.tol, initial_state=state)
+        run = simulate(p, length, tol=options.tol, initial_state=state)
         if np.isnan(first):
             first = run.first_separation
         separations += int(run.statistics["n_separations"])
         if not run.status.complete:
-            return _ended_early(run, first, separations)
+            return _Transient(run, Arrival(Settling()), length, first, separations)
         legs.append(run)
         state = run.final_state
         reached = arrival(p, legs)
-        if reached.settled or 2 * transient > options.max_transient:
-            break
-        transient *= 2
-    near = reached.near
+        if reached.settled or 2 * length > options.max_transient:
+            return _Transient(run, reached, length, first, separations)
+        length *= 2
+
+
+def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], str]:
+    from disc_model.simulation.api import simulate
+    from disc_model.stability.segments import shares
+
+    p = point.parameters
+    run, reached, transient, first, separations = before = _transient_of(point, options)
+    if not run.status.complete:
+        return _ended_early(run, first, separations)
+    state = before.end
     stick = shares(run).stick
-    if near is not None:  # the attractor is known exactly
-        assert near.cycle.state is not None
-        state = near.cycle.state
-        stick = near.cycle.stick_fraction
+    if reached.near is not None:  # the attractor is known exactly
+        stick = reached.near.cycle.stick_fraction
     record = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state)
     if reached.calm is not None:  # the run has its transient
         stick = shares(record).stick
