@@ -15,6 +15,7 @@ from disc_model.explorer.marks import marked_cells
 from disc_model.explorer.packing import packed
 from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
+from disc_model.explorer.sampled import marks_of_samples, strip_of_kinds
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
@@ -144,6 +145,8 @@ def _study_contents(
         "fixed": [_fixed(parameter, value) for parameter, value in base.items()],
         "dims": [_dimension(study, str(dim), stated.at) for dim in _filled(study)],
         "variables": [_variable(study, x, exact=str(x.name) in exact) for x in drawn],
+        "samples": marks_of_samples(study),
+        "kinds": strip_of_kinds(study),
         "messages": _messages(study),
         "motions": shown_motions,
     }

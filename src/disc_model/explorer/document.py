@@ -22,6 +22,8 @@ SCRIPTS = (
     "contents",
     "view",
     "drawing",
+    "lines",
+    "samples",
     "map",
     "point",
     "motion",

@@ -75,7 +75,7 @@ COMPUTES: Mapping[str, str] = {
 HEADLINES: Mapping[str, Sequence[str]] = {
     "basins": ("separating_fraction",),
     "bifurcation": ("psi",),
-    "branches": ("sweep_range",),
+    "branches": ("range", "sweep_range"),
     "campbell": ("sliding_frequency", "growth_rate"),
     "critical_speed": ("critical_speed",),
     "floquet": ("growth_rate",),

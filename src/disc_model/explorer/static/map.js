@@ -30,11 +30,15 @@ function drawMap() {
     [`${study.title}: ${variable.label}`, where(view.place, selectors())].filter(Boolean).join(", ");
   const { ink, width, height } = prepared(element("map"));
   const curve = y === NONE;
+  const parameter = across();
   const cells = places();
   const numbers = cells.map((cell) => value(study, variable, cell.place));
   const intervals = curve ? intervalsOf(cells) : [];
+  const values = parameter ? cells.map((cell) => value(study, parameter, cell.place)) : [];
+  const scaleOfCurve = parameter ? scaleOfHeights : scaleOfNumbers;
   const [xs, ys] = [
-    scaleOf(study.dim[x]), curve ? scaleOfNumbers(variable, [...numbers, ...intervals.flat()]) : scaleOf(study.dim[y]),
+    parameter ? scaleBetween(values, parameter) : scaleOf(study.dim[x]),
+    curve ? scaleOfCurve(variable, [...numbers, ...intervals.flat()]) : scaleOf(study.dim[y]),
   ];
   const colours = curve || variable.flags ? null : colouring(numbers, variable);
   const [left, right] = [widest(ink, ys.ticks()) + 14, width - 14];
@@ -44,7 +48,8 @@ function drawMap() {
   const box = { left, right, top: 10 + LINE * upward.length, bottom: height - below };
   const room = curve ? BESIDE : 0;
   const horizontal = linear(xs.borders[0], xs.borders.at(-1), box.left + room, box.right - room);
-  const vertical = linear(ys.borders[0], ys.borders.at(-1), box.bottom, box.top);
+  const kinds = kindsAlong(cells);
+  const vertical = linear(ys.borders[0], ys.borders.at(-1), box.bottom - ROW * kinds.length, box.top);
   ink.fillStyle = style(curve ? "--back" : "--empty");
   ink.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const hatch = hatching(ink);
@@ -56,7 +61,7 @@ function drawMap() {
   const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
   const seen = {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
-    hatched: false, open: false, intervals: false,
+    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), kinds,
   };
   const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
@@ -69,7 +74,7 @@ function drawMap() {
       ink.fillStyle = look;
       ink.fillRect(x0, y0, x1 - x0, y1 - y0);
     };
-    const gap = curve && valued.has(i) ? null : gapAt(study, variable, place);
+    const gap = parameter || (curve && valued.has(i)) ? null : gapAt(study, variable, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
     const look = gap ?? (!curve && variable.flags ? variable.looks[numbers[n]] : null);
     if (gap) seen.gaps.add(gap);
@@ -87,14 +92,21 @@ function drawMap() {
     if (!curve && marked(place)) markOfClass(ink, chosen, (x0 + x1) / 2, (y0 + y1) / 2, radiusIn(x1 - x0, y1 - y0));
   });
   ink.fillStyle = style("--text");
-  xAxis(ink, box, xs.ticks(), horizontal, axisLabel(study.dim[x]));
+  xAxis(ink, box, xs.ticks(), horizontal, axisLabel(parameter ?? study.dim[x]));
   yAxis(ink, box, ys.ticks(), vertical, upward);
   if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
   drawn = { box, horizontal, vertical, xs, ys, heights: curve ? numbers.map((one) => vertical(ys.to(one))) : [] };
-  if (curve) {
+  if (parameter) {
+    const height = (one) => vertical(ys.to(one));
+    drawn.points = cells.map(({ place }, n) => ({ x: horizontal(values[n]), y: height(numbers[n]), place }));
+    ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
+    seen.lines = drawLines(ink, drawn.points);
+  } else if (curve) {
     const open = isJoined() ? openSteps(cells) : [];
     if (open.includes(true)) seen.open = openAlong().reason;
-    drawCurve(ink, curveOf(cells, numbers, intervals, marked, seen), open, chosen);
+    const points = curveOf(cells, numbers, intervals, marked, seen);
+    drawKinds(ink, box, kinds, points);
+    seen.samples = drawCurve(ink, points, open, chosen);
   } else markChosen(ink);
   legend(seen, chosen);
 }
@@ -212,7 +224,8 @@ function legend(seen, chosen) {
   if (seen.intervals) entries.push([bareSwatch((ink) => bar(ink, 8, 1, 15)), intervalName(study)]);
   if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), seen.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
-  if (chosen) entries.push([classSwatch(chosen), chosen.title]);
+  entries.push(...entriesOfLines(seen.lines), ...entriesOfSamples(seen.samples, seen.kinds));
+  if (chosen && !seen.lines.size) entries.push([classSwatch(chosen), chosen.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
@@ -266,12 +279,14 @@ function curveOf(cells, numbers, intervals, marked, seen) {
   const { study, variable } = view;
   const { horizontal, vertical, xs, ys } = drawn;
   const height = (one) => vertical(ys.to(one));
+  const isOfSamples = areSampled();
   return cells.map(({ i, place }, n) => {
-    const doubts = Number.isFinite(numbers[n]) ? doubtsAt(study, variable, place) : [];
+    const isDoubtful = Number.isFinite(numbers[n]) && !isOfSamples; // samples have rings instead
+    const doubts = isDoubtful ? doubtsAt(study, variable, place) : [];
     const ends = (intervals[n] ?? []).filter(Number.isFinite).map(height);
     for (const doubt of doubts) seen.doubts.add(doubt);
     if (ends.length) seen.intervals = true;
-    return { x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, marked: marked(place) };
+    return { place, x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, marked: marked(place) };
   });
 }
 
@@ -351,28 +366,32 @@ function markCurve(ink, points, open, chosen) {
   });
 }
 
-/** The curve in its frame, with its marks, and a line at the chosen point, which has a ring among others. */
+/** The curve in its frame, with its marks, and a line at the chosen point, which has a ring among others; returns the looks of
+ * samples, by their names. */
 function drawCurve(ink, points, open, chosen) {
   const { box, horizontal, xs } = drawn;
+  ink.strokeStyle = style("--line");
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const zero = drawn.vertical(0);
   if (view.variable.scale && zero > box.top && zero < box.bottom) line(ink, box.left, zero, box.right, zero);
   ink.strokeStyle = ink.fillStyle = style("--accent");
   const isAtBound = (n) => points[n].doubts.some((doubt) => doubt.is_bound);
   const opens = (n) => open[n] || isAtBound(n) || isAtBound(n + 1); // a value at a bound may lie anywhere below
-  polyline(ink, points.map(({ x, y }) => [x, y]), isJoined(), opens);
+  const samples = areSampled() ? drawSamples(ink, points) : new Map();
+  ink.strokeStyle = ink.fillStyle = style("--accent");
+  if (!areSampled()) polyline(ink, points.map(({ x, y }) => [x, y]), isJoined(), opens);
   markCurve(ink, points, open, chosen);
   ink.strokeStyle = style("--text");
   ink.setLineDash([4, 3]);
   const at = horizontal(xs.at[view.place[view.x]]);
   line(ink, at, box.top, at, box.bottom);
   ink.setLineDash([]);
-  if (view.spread === NONE) return;
   const height = drawn.vertical(drawn.ys.to(value(view.study, view.variable, view.place)));
-  if (!Number.isFinite(height)) return;
+  if (view.spread === NONE || !Number.isFinite(height)) return samples;
   ink.beginPath();
   ink.arc(at, height, 6, 0, 2 * Math.PI);
   ink.stroke();
+  return samples;
 }
 
 const FEW = 200; // points of a line that have squares

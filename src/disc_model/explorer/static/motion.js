@@ -68,6 +68,12 @@ function nearestMotion() {
   return best;
 }
 
+const NEAR = 3; // places along an axis up to which a motion stands for that of another point
+
+/** How many places along any axis a motion is from the chosen point. */
+const placesApart = (motion) =>
+  Math.max(...Object.entries(motionPlaces(view.study, motion)).map(([name, at]) => Math.abs(at - view.place[name])), 0);
+
 /** Whether a motion was computed at a point of the map: along the axes that it does not show, at their chosen values. */
 function isInMap(motion) {
   const { study, place, x, y } = view;
@@ -89,6 +95,8 @@ const SWEPT = "direction"; // the dimension of what a sweep has found on its way
 function saidOfCall(study, place) {
   const lines = element("motion-call").textContent;
   const above = lines.includes("(case,") && !lines.startsWith("case = ") ? ", with the case above" : "";
+  const transient = transientOf(study, place);
+  if (transient > 0) return `The motion of this case after the transient, ${number(transient)} s${above}:`;
   if (startOf(study, place)) return `The motion of this case from its start${above}:`;
   if (view.variable.dims.includes(SWEPT)) return "The motion of this case from the static start; that of the sweep came from the speed before, and may differ:";
   return `The motion of this case from the static start${above}:`;
@@ -99,28 +107,44 @@ const STILL = 1e-6; // span over the size of its variable below which a history 
 const MARGIN_OF_STILL = 0.05; // and share of this size that is shown on either side
 let motionDrawn = null;
 
+/** What a stored motion is, and of which point, as sentences. */
+function noteOfMotion(study, motion) {
+  if (motion.far === 0) return `At this point. ${saidOfMotion(study, motion)}`;
+  const fate = fateOf(study, view.place);
+  const like = fate ? `of the same kind, ${fate}, ` : "";
+  const ring = isInMap(motion) ? " (ring in the map)" : "";
+  const nearest = `earest stored motion ${like}at ${placeOf(study, motion)}${ring}`;
+  if (placesApart(motion) <= NEAR) return `N${nearest}. ${saidOfMotion(study, motion)}`;
+  return `No motion is shown, because none is stored near this point: the n${nearest} is ${placesApart(motion)} cells away.`;
+}
+
+/** Where a motion was computed, in words. */
+const placeOf = (study, motion) => where(motion.places, study.dims.filter((dim) => motion.places[dim.name] !== undefined));
+
+/** Write what is known of the motion that is shown, its point in the title if that is another one, and the call of this point's. */
+function tellOfMotion(study, place, motion, isShown) {
+  const own = motion?.far === 0;
+  const other = isShown && !own;
+  element("motion-title").textContent = other ? `Motion of another point: ${placeOf(study, motion)}` : "The motion";
+  element("motion-note").textContent = motion ? noteOfMotion(study, motion) : lackOfMotion(study, place);
+  // an own motion is that of the usual call only after a transient
+  const isCalled = !own || transientOf(study, place) > 0;
+  element("motion-call").textContent = isCalled ? simulation(study, place, view.variable) : "";
+  element("motion-by-call").hidden = !element("motion-call").textContent;
+  element("motion-says").textContent = saidOfCall(study, place);
+}
+
 function drawMotion() {
   const { study, place } = view;
   const motion = nearestMotion();
-  const own = motion?.far === 0;
+  const isShown = Boolean(motion) && placesApart(motion) <= NEAR;
   const canvas = element("motion");
-  canvas.hidden = !motion;
+  canvas.hidden = !isShown;
   element("motion-hovered").textContent = "";
   element("phases").replaceChildren();
   motionDrawn = null;
-  element("motion-call").textContent = own ? "" : simulation(study, place, view.variable);
-  element("motion-by-call").hidden = !element("motion-call").textContent;
-  element("motion-says").textContent = saidOfCall(study, place);
-  if (!motion) {
-    element("motion-note").textContent = lackOfMotion(study, place);
-    return;
-  }
-  const dims = study.dims.filter((dim) => motion.places[dim.name] !== undefined);
-  const ring = isInMap(motion) ? " (ring in the map)" : "";
-  const fate = fateOf(study, place);
-  const like = fate ? `of the same kind, ${fate}, ` : "";
-  const said = own ? "At this point" : `Nearest stored motion ${like}at ${where(motion.places, dims)}${ring}`;
-  element("motion-note").textContent = `${said}. ${saidOfMotion(study, motion)}`;
+  tellOfMotion(study, place, motion, isShown);
+  if (!isShown) return;
   const { ink, width, height } = prepared(canvas);
   const { traces, samples } = study.motions;
   const each = (height - PANEL.top - PANEL.bottom - 14 - PANEL.gap * (traces.length - 1)) / traces.length;

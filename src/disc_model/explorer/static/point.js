@@ -5,6 +5,7 @@ function cellAt(canvas, event) {
   const [px, py] = [event.clientX - left, event.clientY - top];
   const { box, horizontal, vertical, xs, ys } = drawn;
   if (px < box.left || px > box.right || py < box.top || py > box.bottom) return null;
+  if (drawn.points) return placeOnLines(drawn.points, px, py);
   const inside = (scale, position, pointed) => {
     const [first, last] = [position(scale.borders[0]), position(scale.borders.at(-1))];
     const at = Math.max(Math.min(first, last), Math.min(pointed, Math.max(first, last))); // beside a curve's end: that point
@@ -34,6 +35,8 @@ function where(place, dims = view.study.dims) {
   const valueAlong = (dim) => {
     const i = place[dim.name];
     if (typeof dim.shown[i] === "string" && !isNumber(dim.shown[i])) return dim.shown[i];
+    const holder = valuesAlong(view.study, dim);
+    if (holder) return `${holder.symbol} = ${shown(view.study, holder, { ...view.place, ...place })}, point ${number(dim.values[i])} of the line`;
     const inSI = dim.si_unit ? ` (${withUnit(number(dim.parts[dim.name][i]), dim.si_unit)})` : "";
     return `${dim.symbol} = ${withUnit(number(dim.values[i]), dim.unit)}${inSI}`;
   };
@@ -261,7 +264,24 @@ function simulatedFor(study, place) {
   return isUntimed && horizon > SIMULATED_FOR ? horizon : SIMULATED_FOR;
 }
 
-/** The call in Python that shows the motion of a point from its start; "" if the point is no one case. */
+/** The time before what a study tells of a point, s: its transient, as long as it was there; NaN of a study without. */
+function transientOf(study, place) {
+  const timed = study.variables.find((one) => one.name === "transient_time" && one.unit === "s");
+  return timed ? value(study, timed, place) : Number(study.call.options.transient ?? NaN);
+}
+
+const SHOWN_AFTER = 0.1; // s of motion after a transient, the longest that is stored
+
+/** The lines in Python that show the motion of a point after its transient. */
+function afterTransient(time, start) {
+  const from = start ? ", initial_state=start" : "";
+  return [
+    `later = dm.simulate(case, ${stated(time)}${from}).final_state`,
+    `dm.simulate(case, duration=${SHOWN_AFTER}, initial_state=later).plot()`,
+  ];
+}
+
+/** The call in Python that shows the motion of a point from its start, or after its transient; "" if the point is no one case. */
 function simulation(study, place, variable) {
   if (isLeftOut(study, place)) return "";
   const scanned = scannedAt(study, place, variable);
@@ -270,9 +290,12 @@ function simulation(study, place, variable) {
   const written = caseOf(study, place, variable);
   const above = call(study, place, variable).startsWith("case = ");
   const start = startOf(study, place);
-  if (start) {
+  const transient = transientOf(study, place);
+  if (start || transient > 0) {
     const lines = above ? [] : [`case = ${written}`];
-    lines.push(`start = dm.initial_state(case, ${start})`, `dm.simulate(case, ${time}, initial_state=start).plot()`);
+    if (start) lines.push(`start = dm.initial_state(case, ${start})`);
+    if (transient > 0) lines.push(...afterTransient(transient, start));
+    else lines.push(`dm.simulate(case, ${time}, initial_state=start).plot()`);
     return lines.join("\n");
   }
   const long = written.length > LONGEST_CASE && above;
@@ -292,10 +315,12 @@ function csv() {
   const axes = [x, second()].filter((name) => name !== NONE).map((name) => study.dim[name]);
   const cell = (text) => (/[",\n]/.test(text) ? `"${String(text).replaceAll('"', '""')}"` : text);
   const dims = [...axes, ...selectors()];
-  const rows = [[...dims, variable].map((thing) => cell(heading(thing)))];
+  const shownVariables = [across(), variable].filter(Boolean); // with the values over which lines are drawn
+  const rows = [[...dims, ...shownVariables].map((thing) => cell(heading(thing)))];
+  const text = (one, stored) => (one.flags ? one.flags[stored] : inFull(stored, one));
   for (const { place } of places().sort((a, b) => a.j - b.j || a.i - b.i)) {
-    const stored = value(study, variable, place);
-    rows.push([...dims.map((dim) => cell(dim.values[place[dim.name]])), variable.flags ? variable.flags[stored] : inFull(stored, variable)]);
+    const numbers = shownVariables.map((one) => text(one, value(study, one, place)));
+    rows.push([...dims.map((dim) => cell(dim.values[place[dim.name]])), ...numbers]);
   }
   return rows.map((row) => row.join(",")).join("\n");
 }

@@ -37,9 +37,12 @@ const ALONG = / along /; // and of one that counts points of a line, in their or
 /** Whether a dimension only counts, so that nothing lies between its neighbours, and their order means nothing. */
 const counts = (dim) => COUNTS.test(dim.title) && !ALONG.test(dim.title);
 
-/** Axes of a study of which no figure names them: the speed goes across. Up goes a dimension of the grid, or else one of the
- * quantity's own that is no short list and no count, as a curve shows more than a map of two rows: the longest of them. */
+/** Axes of a study of which no figure names them: the values along a line, or else the speed, go across. Up goes a dimension of
+ * the grid, or else one of the quantity's own that is no short list and no count, as a curve shows more than a map of two rows:
+ * the longest of them. */
 function usualAxes(study, axes) {
+  const line = axes.find((dim) => valuesAlong(study, dim));
+  if (line) return [line];
   const grid = axes.filter((dim) => gridOf(study).includes(dim));
   const own = axes.filter((dim) => !grid.includes(dim));
   const worth = own.filter((dim) => dim.values.length >= MANY && !COUNTS.test(dim.title));
@@ -315,8 +318,12 @@ function listenToSearch() {
   });
 }
 
-/** The name of an axis, without what explains it after a colon. */
-const shortLabel = (dim) => dim.label.split(":")[0];
+/** The name of an axis, without what explains it after a colon; that of the parameter that is stored along a line. */
+function shortLabel(dim) {
+  const holder = valuesAlong(view.study, dim, view.variable) ?? valuesAlong(view.study, dim);
+  if (holder) return dim.title.replace(/^.*(?= along )/, holder.label);
+  return dim.label.split(":")[0];
+}
 
 function fillControls() {
   const { study } = view;
@@ -345,7 +352,7 @@ function fillControls() {
         (name) => (view.colours = name),
       ),
     );
-  if (marks().length)
+  if (marks().length && !across())
     boxes.push(
       choice("Marks", [[NONE, "none"], ...marks().map((mark) => [mark.key, mark.title])],
         view.mark, (key) => (view.mark = key)),
@@ -386,7 +393,7 @@ const canSpread = (dim) => view.y === NONE && counts(dim) && dim.values.length >
 /** The selector of the place along a dimension that is no axis; a curve may show all places of a count, as points. */
 function placeChoice(dim) {
   const places = dim.shown.map((one, i) => [String(i), withUnit(number(one), dim.unit)]);
-  if (canSpread(dim)) places.unshift([ALL, "all, as points"]);
+  if (canSpread(dim)) places.unshift([ALL, across() ? "all, as lines" : "all, as points"]);
   const chosen = dim.name === view.spread ? ALL : String(view.place[dim.name]);
   return choice(shortLabel(dim), places, chosen, (i) => {
     if (i === ALL) view.spread = dim.name;
