@@ -1089,6 +1089,25 @@ def test_the_value_that_was_meant_has_a_unit_of_its_size(
     assert [str(each.message).endswith(said) for each in caught] == ([True] if said else [])
 
 
+def test_a_time_of_a_cycle_in_another_unit_is_refused() -> None:
+    """The search went on without end, among springs so soft that each cycle took seconds."""
+    case = dm.Parameters(N=385, Omega=14)
+    measured = {"period": (15.73, 0.01), "slip_time": (10.52, 0.01)}
+    said = (
+        "measured: period = 15.73 s is 1100 times the 0.01497 s that the case gives: was 15.73 ms meant?;"
+        " 1 other measured value alike; if it is right, start from a case that gives a value nearer to it"
+    )
+    with pytest.raises(dm.ParameterError, match=re.escape(said)):
+        dm.fit(case, ["mu_s", "k_p"], measured)
+
+
+def test_a_fit_counts_the_values_that_it_tries(capsys: pytest.CaptureFixture[str]) -> None:
+    dm.fit(DISC, ["E"], {"frequency_0_0": (239.0, 0.5)}, progress=True)
+    assert re.search(r"fit +[1-9]\d*", capsys.readouterr().err)
+    with refusal("progress='yes'"):
+        dm.fit(DISC, ["E"], {"frequency_0_0": (239.0, 0.5)}, progress="yes")  # type: ignore[arg-type]
+
+
 def test_several_measured_values_in_another_unit_are_one_warning() -> None:
     named = [("period (Omega=12)", 16.3, "s"), ("period", 15.7, "s"), ("slip_time", 0.01, "s")]
     with pytest.warns(
