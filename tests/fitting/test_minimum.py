@@ -329,3 +329,12 @@ def test_a_determined_parameter_keeps_its_interval_beside_others() -> None:
     assert "mu_s=0.377974, mu_k" in repr(found)
     assert "none of mu_s and mu_k" in dict(found.summary())["intervals"]
     assert found.note.startswith("the measurements determine mu_s - mu_k = 0.13004 ± ")
+
+
+@pytest.mark.compiled
+def test_one_parameter_that_is_not_determined_leaves_no_direction() -> None:
+    case = dm.Parameters(N=375, Omega=7.35)
+    measured = {"period": (dm.floquet(case).period, 1e-6)}
+    found = dm.fit(case, ["mu_s"], measured)
+    assert found.indistinct == ("mu_s",)
+    assert np.isnan(found.parameters["mu_s"].low)

@@ -241,6 +241,8 @@ class Search:
             assert self.first is not None
             places = [self.problem.names.index(name) for name in names]
             known = other_directions(undetermined_directions(self.first, places))
+            if not known.size:
+                return np.zeros_like(covariance)
             spread = known @ sensitivity_of(end.jac @ known).inverse
             spread = spread * self.problem.scale[:, None]
             covariance = np.asarray(spread @ spread.T)
