@@ -268,14 +268,37 @@ def test_all_tables_of_a_dataset_are_written_to_a_folder(tmp_path: Path) -> None
     assert events["kind"].tolist() == RUN.events["kind"].tolist()
 
 
-def test_a_table_or_a_run_given_for_a_dataset_is_told_what_to_do(tmp_path: Path) -> None:
+def test_a_table_given_for_a_dataset_is_told_what_to_do(tmp_path: Path) -> None:
     table = tmp_path / "growth.csv"
     table.write_text("N,Omega\n1,2\n")
     with refusal(r"tables are for pandas"):
         dm.load(table)
-    run = dm.simulate(dm.Parameters(N=200, Omega=20), 1e-4)
-    with refusal(r"it has a method save of its own"):
-        dm.save(run, tmp_path / "run.nc")  # type: ignore[arg-type]
+
+
+@SUFFIXES
+def test_a_run_and_a_state_are_written_by_their_own_method(tmp_path: Path, suffix: str) -> None:
+    """They were refused, since they have a method save."""
+    dm.save(RUN, tmp_path / f"run.{suffix}")
+    assert dm.Result.load(tmp_path / f"run.{suffix}") == RUN
+    state = RUN.final_state
+    dm.save(state, tmp_path / f"state.{suffix}")
+    assert dm.State.load(tmp_path / f"state.{suffix}") == state
+    with refusal(r"must end in .nc or .mat"):
+        dm.save(RUN, tmp_path / "run.csv")
+
+
+def test_the_table_of_events_has_units() -> None:
+    units = RUN.events.attrs["units"]
+    of_file = RUN.to_tree()["events"]
+    assert units == {
+        "time": "s",
+        "psi": "rad",
+        "f": "rad s-1",
+        "u": "m",
+        "u_velocity": "m s-1",
+        "P": "N",
+    }
+    assert all(of_file[name].attrs["units"] == unit for name, unit in units.items())
 
 
 def test_an_array_is_written_as_a_dataset_of_it(tmp_path: Path) -> None:

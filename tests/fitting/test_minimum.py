@@ -296,3 +296,45 @@ def test_a_search_along_a_valley_to_missing_cycles_names_what_acts_alike() -> No
     assert found.gap is not None
     assert "determine mu_s and mu_k apart, only mu_s - mu_k: fix one of them" in found.doubt
     assert found.determined["mu_s - mu_k"].value == pytest.approx(0.1904, abs=1e-3)
+
+
+def friction_times() -> list[dm.Measurement]:
+    """Periods and times of slip that determine the difference of the coefficients of friction alone, with errors."""
+    rng = np.random.default_rng(1)
+    truth = CASE.replace(mu_s=0.43, mu_k=0.3, k_p=21e3)
+    found = []
+    for speed in (11.5, 12.0, 13.0, 14.0, 14.5):
+        cycle = dm.floquet(truth.replace(Omega=speed))
+        at = {"Omega": speed}
+        period = cycle.period + 2e-5 * rng.normal()
+        found.append(dm.Measurement("period", period, 2e-5, at))
+        slip_time = cycle.slip_time + 2e-5 * rng.normal()
+        found.append(dm.Measurement("slip_time", slip_time, 2e-5, at))
+    return found
+
+
+@pytest.mark.compiled
+def test_a_determined_parameter_keeps_its_interval_beside_others() -> None:
+    """Its end was said to be no case, at mu_s = -0.71, along the direction that is not determined."""
+    times = friction_times()
+    found = dm.fit(CASE, ["mu_s", "mu_k", "k_p"], times)
+    alone = dm.fit(CASE.replace(mu_s=0.43), ["mu_k", "k_p"], times).parameters["k_p"]
+    stiffness = found.parameters["k_p"]
+    assert found.indistinct == ("mu_s", "mu_k")
+    assert found.outside == {}
+    assert stiffness.value == pytest.approx(alone.value, abs=0.1 * alone.deviation)
+    assert stiffness.deviation == pytest.approx(alone.deviation, rel=0.1)
+    assert np.isfinite([stiffness.low, stiffness.high]).all()
+    assert "k_p=20984.7 ± 21;" in repr(found)
+    assert "mu_s=0.377974, mu_k" in repr(found)
+    assert "none of mu_s and mu_k" in dict(found.summary())["intervals"]
+    assert found.note.startswith("the measurements determine mu_s - mu_k = 0.13004 ± ")
+
+
+@pytest.mark.compiled
+def test_one_parameter_that_is_not_determined_leaves_no_direction() -> None:
+    case = dm.Parameters(N=375, Omega=7.35)
+    measured = {"period": (dm.floquet(case).period, 1e-6)}
+    found = dm.fit(case, ["mu_s"], measured)
+    assert found.indistinct == ("mu_s",)
+    assert np.isnan(found.parameters["mu_s"].low)

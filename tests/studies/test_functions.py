@@ -241,6 +241,18 @@ def test_a_critical_speed_counts_the_speeds_of_its_scan(capsys: pytest.CaptureFi
     assert re.search(r"critical_speed .*3/3", capsys.readouterr().err)
 
 
+@pytest.mark.parametrize(("horizon", "dims"), [(0.5, ()), ([0.5], ("horizon",))])
+def test_a_critical_speed_within_one_horizon_is_a_number(
+    horizon: Any, dims: tuple[str, ...]
+) -> None:
+    """It had a dimension of one place, and `float` of it failed."""
+    speeds = dm.critical_speed(P, (14, 16), horizon)
+    assert speeds["critical_speed"].dims == dims
+    assert speeds["at_lower_bound"].dims == dims
+    assert speeds["crossing"].dims == (*dims, "crossing_number")
+    assert speeds["horizon"].item() == 0.5
+
+
 def test_a_critical_speed_that_is_nan_is_said_in_words() -> None:
     """It was nan with an empty message."""
     quiet = dm.Parameters(N=100, Omega=15)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import xarray as xr
@@ -36,7 +36,16 @@ class HasDataset(Protocol):
     def to_dataset(self) -> xr.Dataset: ...
 
 
-def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str | Path) -> None:
+@runtime_checkable
+class SavesItself(Protocol):
+    """A result that writes itself to a file, such as a `Result`."""
+
+    def save(self, path: str | Path) -> None: ...
+
+
+def save(
+    data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset | SavesItself, path: str | Path
+) -> None:
     """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table;
     or all of its tables to a folder.
 
@@ -44,7 +53,8 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
     ----------
     data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit`, a `Branch` and
         what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
-        has a name as a dataset of it alone
+        has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc or .mat,
+        and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
         order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
@@ -76,13 +86,14 @@ def save(data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset, path: str |
     >>> dm.load("cycles.mat").identical(cycles)
     True
     """
+    if _saves_itself(data):
+        data.save(path)  # type: ignore[union-attr]
+        return
     _check_named(data)
     given = _as_dataset(data)
     rule = "must be an xarray.Dataset or xarray.DataTree"
     if hasattr(data, "to_dataset"):
         rule = f"{rule}, such as its method to_dataset() returns"
-    elif hasattr(data, "save"):
-        rule = f"{rule}; it has a method save of its own"
     require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
     file = None if names_folder(path) else check_suffix(regular_file(path), WRITTEN)
     tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
@@ -152,6 +163,11 @@ def _check_named(data: object) -> None:
     if data.name in data.coords:
         rule = f"must have another name than its coordinate {data.name}: data.rename('name')"
         raise ParameterError(Fault(("data",), "", rule))
+
+
+def _saves_itself(data: object) -> bool:
+    """Whether data is a result of this package that writes itself, such as a `Result`."""
+    return is_dataclass(data) and not isinstance(data, type) and isinstance(data, SavesItself)
 
 
 def _as_dataset(data: object) -> Any:

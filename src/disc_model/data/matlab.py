@@ -191,7 +191,7 @@ def load_mat(file: Path) -> dict[str, xr.Dataset]:
         stored = StoredDataset.model_validate_json(text)
         return {path: _group(content, path, group) for path, group in stored.groups.items()}
     except KeyError:
-        reason = "it holds no dataset of disc_model.save; Result.load and State.load read others"
+        reason = "it holds no dataset; Result.load and State.load read runs and states"
         raise unreadable(file, reason) from None
     except (ParameterError, ValueError, TypeError, IndexError) as error:
         raise unreadable(file, error) from error

@@ -106,14 +106,22 @@ def warn_of_measured(measured: Sequence[tuple[str, float, str]], computed: Seque
     measured : name, value and unit of each, "" for an unknown one
     computed : what the case gives of each
     """
+    if text := doubt_of_measured(measured, computed):
+        _warn(f"measured.{text}")
+
+
+def doubt_of_measured(measured: Sequence[tuple[str, float, str]], computed: Sequence[float]) -> str:
+    """What is implausible of the first measured value that is far from what a case gives, and how many
+    others are; "" where none is. The arguments are those of `warn_of_measured`."""
     texts = []
     for (name, value, unit), given in zip(measured, computed, strict=True):
         if text := _out_of_reach(value, given, unit):
             texts.append(f"{name} = {text}")
-    if texts:
-        others = len(texts) - 1
-        more = f"; {counted(others, 'other measured value')} alike" if others else ""
-        _warn(f"measured.{texts[0]}{more}")
+    if not texts:
+        return ""
+    others = len(texts) - 1
+    more = f"; {counted(others, 'other measured value')} alike" if others else ""
+    return f"{texts[0]}{more}"
 
 
 def warn_without_effect(names: Sequence[str]) -> None:

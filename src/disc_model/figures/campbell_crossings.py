@@ -1,8 +1,10 @@
 """The crossings of a Campbell diagram: where they are, and of which multiple."""
 
+import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
+from disc_model.figures.types import Array
 
 SYMBOLS = ("$f_s$", "$f_Ω$")
 """Of the frequencies whose multiples modes meet: of stick-slip, and of the drive."""
@@ -11,6 +13,13 @@ SYMBOLS = ("$f_s$", "$f_Ω$")
 def meeting_of(crossing: xr.Dataset) -> tuple[float, float]:
     """Speed and frequency at which a mode meets a multiple, rad/s and Hz."""
     return float(crossing["crossing_Omega"]), float(crossing["crossing_frequency"])
+
+
+def places_of(study: xr.Dataset) -> Array:
+    """Speeds and frequencies of all crossings, rad/s and Hz, shape (n, 2); none of a study without."""
+    if "crossing_Omega" not in study:
+        return np.empty((0, 2))
+    return np.column_stack([study["crossing_Omega"], study["crossing_frequency"]])
 
 
 def multiple_text(crossing: xr.Dataset) -> str:

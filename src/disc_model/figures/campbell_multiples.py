@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of
+from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of, places_of
 from disc_model.figures.campbell_looks import CROSSINGS, Crossing, crossing_look, multiple_look
 from disc_model.figures.campbell_peaks import Column, followed_frequency, jumps_of, marked_at_peaks
 from disc_model.figures.drawing import large, sample
@@ -88,9 +88,8 @@ def places_of_marks(column: Column, multiples: Sequence[float], highest: float) 
     """Speeds and frequencies of crossings that have a mark, also that of a peak, shape (n, 2)."""
     study = column.study
     marked = marked_at_peaks(column) | marked_at_multiples(study, multiples)
-    shown = marked & (study["crossing_frequency"].values <= highest)
-    speeds = study["crossing_Omega"].values[shown]
-    return np.column_stack([speeds, study["crossing_frequency"].values[shown]])
+    places = places_of(study)
+    return places[marked & (places[:, 1] <= highest)]
 
 
 def entries_of_crossings(
@@ -110,7 +109,7 @@ def entries_of_crossings(
 def marked_at_multiples(study: xr.Dataset, multiples: Sequence[float]) -> Mask:
     """Crossings of multiples that a reader asks for."""
     if not multiples or "crossing_effect" not in study:
-        return np.zeros(study["crossing_Omega"].shape, dtype=bool)
+        return np.zeros(len(places_of(study)), dtype=bool)
     of_slips = flag_names(study["crossing_line"]) == "stick_slip"
     return of_slips & np.isin(study["crossing_multiple"].values, multiples)
 

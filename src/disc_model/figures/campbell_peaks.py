@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.frequency_jumps import frequency_jumps
-from disc_model.figures.campbell_crossings import meeting_of
+from disc_model.figures.campbell_crossings import meeting_of, places_of
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.rate_scale import LINEAR, opens
 from disc_model.figures.selection import doubts, stretches
@@ -35,13 +35,11 @@ class Column(NamedTuple):
 
 def marked_at_peaks(column: Column) -> Mask:
     """Crossings of a column's study at which a peak lies."""
-    speeds = column.study["crossing_Omega"].values
-    frequencies = column.study["crossing_frequency"].values
-    marked = np.zeros(speeds.shape, dtype=bool)
+    places = places_of(column.study)
+    marked = np.zeros(len(places), dtype=bool)
     for peak in column.peaks:
         if peak.crossing is not None:
-            speed, frequency = meeting_of(peak.crossing)
-            marked |= (speeds == speed) & (frequencies == frequency)
+            marked |= np.all(places == meeting_of(peak.crossing), axis=1)
     return marked
 
 

@@ -6,14 +6,18 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from disc_model.data.variables import unit_of_parameter
+from disc_model.disc.plausibility import doubt_of_measured, warn_of_measured
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, violations
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
+from disc_model.fitting.prediction import is_of_steady_cycle
 from disc_model.fitting.table import in_row, is_table, measurements_in
 from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number, number
 
 Interval = tuple[float, float]
+Named = tuple[str, float, str]
+"""A measured value: its name, value and unit."""
 
 
 def checked_measurements(
@@ -108,6 +112,33 @@ def _bounds_faults(p: Parameters, vary: Sequence[str], bounds: object) -> list[s
             rule = "must have bounds, because its start is 0, which gives it no scale"
             faults.append(Fault.of(("vary", name), 0.0, rule))
     return faults
+
+
+def doubt_far_measurements(measurements: Sequence[Measurement], computed: Sequence[float]) -> None:
+    """Warn of measured frequencies that are far from what the case gives at the start.
+
+    computed : what the case gives of each measurement
+
+    Raises
+    ------
+    ParameterError
+        If a time or length of a cycle is as far away. Its search would lead to cases in which no cycle is known, or
+        each takes minutes.
+    """
+    of_cycles: list[tuple[Named, float]] = []
+    others: list[tuple[Named, float]] = []
+    for each, given in zip(measurements, computed, strict=True):
+        chosen = of_cycles if is_of_steady_cycle(each.quantity) else others
+        chosen.append(((each.name, each.value, each.unit), given))
+    if text := doubt_of_measured(*_unzipped(of_cycles)):
+        remedy = "; if it is right, start from a case that gives a value nearer to it"
+        raise ParameterError(Fault(("measured",), "", text + remedy))
+    warn_of_measured(*_unzipped(others))
+
+
+def _unzipped(pairs: Sequence[tuple[Named, float]]) -> tuple[list[Named], list[float]]:
+    """Measured values, and beside them the computed ones, from pairs of both."""
+    return [named for named, _ in pairs], [given for _, given in pairs]
 
 
 def limits_in_si(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> dict[str, Interval]:

@@ -18,8 +18,15 @@ import numpy as np
 import pandas as pd
 
 from disc_model.arrays import Array
-from disc_model.disc.plausibility import trial_cases, warn_of_doubts, warn_of_measured
-from disc_model.fitting.arguments import Interval, checked_measurements, limits_in_si
+from disc_model.disc.plausibility import trial_cases, warn_of_doubts
+from disc_model.display import progress_bar
+from disc_model.errors import raise_faults, violations
+from disc_model.fitting.arguments import (
+    Interval,
+    checked_measurements,
+    doubt_far_measurements,
+    limits_in_si,
+)
 from disc_model.fitting.limits import limits_of_cases, limits_of_interval, with_limits
 from disc_model.fitting.measured import Measurement
 from disc_model.fitting.outcome import Outcome, fit_of
@@ -41,6 +48,7 @@ def fit(
     *,
     bounds: Mapping[str, tuple[Any, Any]] | None = None,
     confidence: float = 0.95,
+    progress: bool = False,
 ) -> Fit:
     """Fit parameters of a case to measurements by weighted least squares.
 
@@ -55,6 +63,7 @@ def fit(
         empty cell stands for the value of the case, beside columns for readers such as ``comment``
     bounds : least and greatest value of varied parameters, by name; needed where the start is 0
     confidence : probability of the confidence intervals
+    progress : whether standard error shows how many sets of values were tried; how many there will be is not known
 
     Returns
     -------
@@ -66,13 +75,15 @@ def fit(
     ------
     ParameterError
         If an argument breaks a rule, the case has no such quantity at the start of the search, or parameters have no
-        effect at all, or exactly that of others. Of those that are hardly determined `Fit.doubt` tells.
+        effect at all, or exactly that of others. Of those that are hardly determined `Fit.doubt` tells. Or if a time or
+        length of a cycle is more than a hundred times what the case gives at the start, or less than a hundredth: its
+        unit is probably another one, and a search from so far away may take hours.
 
     Notes
     -----
     Derivatives are central differences of relative step 1e-4. A trial case that breaks a rule, such as mu_k <= mu_s,
-    or has no such quantity, makes the next step shorter. A time, length or frequency that is a hundred times what the
-    case gives at the start, or a hundredth, is an `ImplausibleValue`, since its unit is probably another one.
+    or has no such quantity, makes the next step shorter. A frequency that is a hundred times what the case gives at the
+    start, or a hundredth, is an `ImplausibleValue`, since its unit is probably another one.
 
     Quantities of a cycle are those near the static start. Another of several cycles is measured by a function of the
     case, as with the last `state` of a simulation: ``lambda case: floquet(case, guess=state, releases=2).period``.
@@ -86,6 +97,8 @@ def fit(
     >>> found
     Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; ± one standard deviation; chi squared ...)
     """
+    told = isinstance(progress, bool)
+    raise_faults(violations((told, "progress", progress, "must be True or False")))
     measurements = checked_measurements(case, vary, measured, bounds, confidence)
     limits = limits_in_si(vary, bounds or {})
     scales = {name: high - low for name, (low, high) in limits.items() if case.numbers[name] == 0}
@@ -97,10 +110,10 @@ def fit(
     search = Search(problem)
 
     # the start and the result are doubted, not what is tried on the way
-    with trial_cases():
+    with progress_bar("fit", None, progress) as bar, trial_cases():
+        problem.report_to(bar.advance)
         computed = problem.first_predictions(begin)
-        named = [(each.name, each.value, each.unit) for each in measurements]
-        warn_of_measured(named, computed.tolist())
+        doubt_far_measurements(measurements, computed.tolist())
         outcome = _search(search, begin, limits, confidence)
         found = fit_of(search, outcome, confidence)
         found = with_limits(found, problem, outcome.end, search.deviations)

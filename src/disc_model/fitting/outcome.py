@@ -62,7 +62,8 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
         determined = {}
     passed = {name: bounds for name, bounds in passed.items() if name not in indistinct}
     unknown = {*indistinct, *at_bounds}
-    intervals = _intervals_of(problem, fitted, reach, covariance, unknown, passed)
+    changes = search.changes(end, indistinct)
+    intervals = _intervals_of(problem, fitted, reach, changes, unknown, passed)
     deviation[[name in unknown for name in names]] = np.nan
     rows = np.stack([fitted, deviation, intervals.low, intervals.high], axis=1).tolist()
     parameters = {name: Fitted(*row) for name, row in zip(names, rows, strict=True)}
@@ -91,6 +92,7 @@ def fit_of(search: Search, outcome: Outcome, confidence: float) -> Fit:
         gap=gap,
         unstable=unstable,
         elsewhere=problem.elsewhere(fitted, unstable),
+        _changes=changes,
     )
 
 
@@ -98,13 +100,14 @@ def _intervals_of(
     problem: Problem,
     fitted: Array,
     reach: Array,
-    covariance: Array,
+    changes: Array,
     unknown: Collection[str],
     passed: Mapping[str, Sequence[float]],
 ) -> Intervals:
     """Return the intervals of the parameters.
 
     reach : from a value to the ends of its interval, (n,)
+    changes : of all parameters along the interval of each, in columns, (n, n)
     unknown : parameters without an interval
     passed : bounds beyond which an interval would go, by its parameter
     """
@@ -117,8 +120,7 @@ def _intervals_of(
         for bound in passed.get(name, ()):
             beyond = ends.low if bound < fitted[i] else ends.high
             beyond[i] = np.nan
-        # the others change with it as the covariance says
-        move = reach[i] * covariance[:, i] / covariance[i, i]
+        move = reach[i] * changes[:, i]
         own = [float(ends.low[i]), float(ends.high[i])]
         gone, beyond_cases = _lost_ends(problem, fitted, move, own)
         if gone:

@@ -50,9 +50,14 @@ class Problem:
         self.names = tuple(names)
         self.measurements = tuple(measurements)
         start = [case.numbers[name] for name in names]
+        self._tell: Callable[[], object] | None = None
         self.scale = np.array(
             [scales.get(name, abs(value)) or 1.0 for name, value in zip(names, start, strict=True)]
         )
+
+    def report_to(self, tell: Callable[[], object] | None) -> None:
+        """Have a function called whenever predictions of some values were computed."""
+        self._tell = tell
 
     def predictions(self, values: Array) -> Array:
         """Return the predicted quantities, (m,).
@@ -63,7 +68,10 @@ class Problem:
             If a case breaks a rule, or has no such quantity; the message names it.
         """
         known: dict[str, Prediction] = {}
-        return np.array([self._predicted(each, values, known) for each in self.measurements])
+        found = np.array([self._predicted(each, values, known) for each in self.measurements])
+        if self._tell is not None:
+            self._tell()
+        return found
 
     def _prediction(
         self, each: Measurement, values: Array, known: dict[str, Prediction]
@@ -178,7 +186,9 @@ class Problem:
         """Return the problem without the measurements of some names."""
         kept = [each for each in self.measurements if each.name not in names]
         scales = dict(zip(self.names, self.scale.tolist(), strict=True))
-        return Problem(self.case, self.names, kept, scales)
+        others = Problem(self.case, self.names, kept, scales)
+        others.report_to(self._tell)
+        return others
 
     def is_last(self, values: Array, i: int, bound: float, side: int) -> bool:
         """Whether no case has a value of a parameter beyond a bound, on the other side than this."""

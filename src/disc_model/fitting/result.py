@@ -91,7 +91,7 @@ class Fit(Summarised, Drawn, EqualByValue):
         formula, the value, standard deviation and unit of each. Products hold near the fitted values
     unpredicted : by name of a parameter, the ends of its interval at which a measured quantity does not exist, as
         beyond a fold of the cycle; `Fitted` has nan there. At an end of the interval of one parameter the others have
-        changed as the covariance says
+        changed as the covariance says, but not along directions that are not determined
     outside : by name of a parameter, the ends of its interval at which there is no case, since another parameter has
         changed beyond what cases have; `Fitted` has nan there
     at_bounds : by name of a parameter, the bound at which it lies, or that no case can pass, such as 0, but its
@@ -152,16 +152,18 @@ class Fit(Summarised, Drawn, EqualByValue):
     gap: Gap | None = None
     unstable: Mapping[str, float] = field(default_factory=dict)
     elsewhere: tuple[str, ...] = ()
+    _changes: Array = field(default_factory=lambda: np.eye(0))
 
     def __repr__(self) -> str:
-        doubt = self.doubt
         values = []
         for name, fitted in self.parameters.items():
-            spread = "" if doubt else f" ± {rounded_text(fitted.deviation, DEVIATION_DIGITS)}"
+            spread = ""
+            if name in self._relied_on:
+                spread = f" ± {rounded_text(fitted.deviation, DEVIATION_DIGITS)}"
             values.append(f"{name}={self._value_text(name)}{spread}")
-        meaning = "" if doubt else "± one standard deviation"
+        meaning = "± one standard deviation" if self._relied_on else ""
         cost = f"chi squared {self.chi_squared:.3g} with {self.freedom} degrees of freedom"
-        parts = [f"Fit({', '.join(values)}", meaning, cost, doubt, self.note]
+        parts = [f"Fit({', '.join(values)}", meaning, cost, self.doubt, self.note]
         return "; ".join(filter(None, parts)) + ")"
 
     def __str__(self) -> str:
@@ -169,13 +171,24 @@ class Fit(Summarised, Drawn, EqualByValue):
         rows = [("fitted", "value", "deviation", "unit")]
         for name, fitted in self.parameters.items():
             deviation = "-"
-            if not (self.doubt or math.isnan(fitted.deviation)):
+            if name in self._relied_on and not math.isnan(fitted.deviation):
                 deviation = rounded_text(fitted.deviation, DEVIATION_DIGITS)
             rows.append((name, self._value_text(name), deviation, unit_of_parameter(name)))
         cost = f"chi squared {self.chi_squared:.3g}, {counted(self.freedom, 'degree')} of freedom"
         doubts = [f"doubt: {reason}" for reason in self.doubt.split("; ") if reason]
         notes = [f"note: {text}" for text in self.note.split("; ") if text]
         return "\n".join([*aligned(rows), cost, *doubts, *notes])
+
+    @property
+    def _relied_on(self) -> tuple[str, ...]:
+        """Names of the parameters whose intervals can be relied on: all of a consistent fit, and where others
+        not being determined is the only doubt, those that are."""
+        doubt = self.doubt
+        if not doubt:
+            return tuple(self.parameters)
+        if self.indistinct and doubt == _undetermined(self.indistinct):
+            return tuple(name for name in self.parameters if name not in self.indistinct)
+        return ()
 
     def _value_text(self, name: str) -> str:
         """The value of a parameter, that of its bound if it lies there."""
@@ -236,8 +249,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         way = end - self.parameters[name].value
         place = [f"{name}={end:.6g}"]
         for j, other in enumerate(names):
-            if j != i and self.covariance[i, j]:
-                change = way * float(self.covariance[i, j] / self.covariance[i, i])
+            if j != i and self._changes[j, i]:
+                change = way * float(self._changes[j, i])
                 place.append(f"{other}={self.parameters[other].value + change:.6g}")
         return place
 
@@ -426,12 +439,16 @@ class Fit(Summarised, Drawn, EqualByValue):
         doubt = self.doubt
         for name in self.parameters:
             text = f"{self._value_text(name)} {unit_of_parameter(name)}".strip()
-            if not doubt:
+            if name in self._relied_on:
                 text += f" ({self._interval_text(name)})"
             yield name, text
         confidence = f"{self.confidence:.0%}, if the model and the uncertainties are right"
         intervals = "; ".join([confidence, *self._passed_texts()])
-        yield "intervals", f"none: {doubt}" if doubt else intervals
+        if not self._relied_on:
+            intervals = f"none: {doubt}"
+        elif doubt:
+            intervals = f"{intervals}; none of {_listed(self.indistinct)}"
+        yield "intervals", intervals
         yield "chi squared", f"{self.chi_squared:.4g} with {self.freedom} degrees of freedom"
         tested = "yes" if self.freedom else UNTESTED
         yield "consistent", f"no: {doubt}" if doubt else tested

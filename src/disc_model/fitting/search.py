@@ -230,10 +230,29 @@ class Search:
         spread = self._spread(end.jac)
         return np.asarray(spread @ spread.T)
 
+    def changes(self, end: Any, names: Sequence[str]) -> Array:
+        """Return how all parameters change along the interval of each, in columns, (n, n): as the covariance
+        says, but along no direction of parameters that are not determined.
+
+        names : of these
+        """
+        covariance = self.covariance(end)
+        if names:
+            assert self.first is not None
+            places = [self.problem.names.index(name) for name in names]
+            known = other_directions(undetermined_directions(self.first, places))
+            if not known.size:
+                return np.zeros_like(covariance)
+            spread = known @ sensitivity_of(end.jac @ known).inverse
+            spread = spread * self.problem.scale[:, None]
+            covariance = np.asarray(spread @ spread.T)
+        variances = np.diag(covariance)
+        return np.asarray(covariance / np.where(variances > 0, variances, 1.0))
+
     def combinations(self, ends: Sequence[Any], names: Sequence[str]) -> dict[str, Combined]:
         """Return what is known of parameters that are not told apart, by its formula: by derivatives at
         ends of searches, of which the first has the values, or at the start, whichever gives the
-        simplest formula, since predictions may have kinks where others are taken."""
+        simplest formula of several parameters, since predictions may have kinks where others are taken."""
         assert self.first is not None
         values = ends[0].x * self.problem.scale
         found = []
@@ -242,7 +261,7 @@ class Search:
             known = combinations_of(self.problem.names, names, values, spread)
             if known:
                 found.append(known)
-        return min(found, key=lambda known: len("".join(known)), default={})
+        return min(found, key=lambda known: _complexity(known, names), default={})
 
     def _spread(self, jacobian: Array) -> Array:
         """Return what has with its transpose the covariance of the parameters as its product, (n, n)."""
@@ -287,3 +306,10 @@ class Search:
         """Whether scaled parameters lie within limits."""
         low, high = self._scaled(limits)
         return bool(((low < x) & (x < high)).all())
+
+
+def _complexity(known: Mapping[str, Combined], names: Sequence[str]) -> tuple[bool, int]:
+    """How little the formulas of known combinations say: whether one is of a single parameter, which is not
+    told apart from others, and how long they are."""
+    is_alone = any(name in known for name in names)
+    return is_alone, len("".join(known))

@@ -17,7 +17,7 @@ from disc_model import errors
 from disc_model.arrays import EqualByValue
 from disc_model.attachable import RunPictures
 from disc_model.data.files import unreadable
-from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, values_text
+from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, attributes, values_text
 from disc_model.display import Summarised, counted, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
@@ -74,7 +74,7 @@ class Result(Summarised, RunPictures, EqualByValue):
     event_rows : shape (n_events, len(EVENT_ROW)), the data of `events`: phase by its index in `PHASES`, kind by its
         index in `EVENT_KINDS`
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
-        just after the event; made at its first use
+        just after the event; made at its first use; ``events.attrs["units"]`` has the units
     first_separation : s, nan if contact was never lost
     final_state : `State` at the end
     u_0 : m, static height of the slider
@@ -127,7 +127,7 @@ class Result(Summarised, RunPictures, EqualByValue):
     @cached_property
     def events(self) -> pd.DataFrame:
         """The events as a table, made at its first use, because making it takes longer than a short
-        simulation."""
+        simulation; `attrs` has the units of its columns."""
         import pandas as pd
 
         columns: dict[str, Any] = self._event_columns
@@ -135,7 +135,10 @@ class Result(Summarised, RunPictures, EqualByValue):
             columns[name] = pd.Categorical.from_codes(
                 columns[name].astype(np.int64), categories=pd.Index(list(words))
             )
-        return pd.DataFrame(columns)
+        table = pd.DataFrame(columns)
+        units = {name: attributes(name).get("units", "") for name in columns}
+        table.attrs["units"] = {name: unit for name, unit in units.items() if unit not in ("", "1")}
+        return table
 
     def value_at(self, name: str, times: ArrayLike) -> Array:
         """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the

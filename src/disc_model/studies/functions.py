@@ -116,7 +116,7 @@ def critical_speed(  # noqa: PLR0913
     ----------
     case : the case; its own speed is not used
     bounds : rad/s, the lowest and the highest speed
-    horizon : s, or several, each with a critical speed of its own
+    horizon : s, or a list of several, each with a critical speed of its own, along a dimension `horizon` of the result
     step : rad/s, of the scan
     precision : rad/s, to which crossings are bisected; `step` must be a multiple; if left out, 0.1 or the next smaller
         part of `step`
@@ -129,11 +129,11 @@ def critical_speed(  # noqa: PLR0913
     Returns
     -------
     xarray.Dataset
-        `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings by horizon; outcomes and
-        first separations along the scan. Contact was lost at the critical speed, and kept at the next lower one
-        computed, which is lower by `precision`; where it was lost at the lowest speed already, `at_lower_bound` is
-        true. The attribute `options` states precision, scan and horizons, and `message` which horizons have no
-        critical speed, or one at the lower bound.
+        `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings, by horizon where a list is
+        given; outcomes and first separations along the scan. Contact was lost at the critical speed, and kept at the
+        next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
+        `at_lower_bound` is true. The attribute `options` states precision, scan and horizons, and `message` which
+        horizons have no critical speed, or one at the lower bound.
 
     Raises
     ------
@@ -144,8 +144,8 @@ def critical_speed(  # noqa: PLR0913
     --------
     >>> import disc_model as dm
     >>> speeds = dm.critical_speed(dm.Parameters(N=385, Omega=15), (15, 16), 100, step=0.5)
-    >>> speeds["critical_speed"].values
-    array([15.1])
+    >>> float(speeds["critical_speed"])
+    15.1
     """
     options: dict[str, Any] = {
         "horizons": np.atleast_1d(horizon).tolist(),
@@ -157,7 +157,10 @@ def critical_speed(  # noqa: PLR0913
         "tol": tol,
     }
     found = compute_quantity("critical_speed", case, options, progress=progress)
-    return _with_reason(_with_bound(found))
+    found = _with_reason(_with_bound(found))
+    if np.ndim(horizon) == 0:
+        return found.isel(horizon=0)
+    return found
 
 
 def _part_of(step: Any) -> float:
