@@ -16,9 +16,7 @@ def meeting_of(crossing: xr.Dataset) -> tuple[float, float]:
 
 
 def places_of(study: xr.Dataset) -> Array:
-    """Speeds and frequencies of all crossings, rad/s and Hz, shape (n, 2); none of a study without."""
-    if "crossing_Omega" not in study:
-        return np.empty((0, 2))
+    """Speeds and frequencies of all crossings, rad/s and Hz, shape (n, 2)."""
     return np.column_stack([study["crossing_Omega"], study["crossing_frequency"]])
 
 
