@@ -93,7 +93,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.fit,
         {"case": P, "vary": ["E"], "measured": {"frequency_0_0": (239.0, 1.0)}},
-        {"bounds": "None"},
+        {"bounds": "None", "progress": "True"},
     ),
     (
         dm.Measurement,

@@ -45,6 +45,12 @@ def checked_measurements(
     return measurements
 
 
+def check_progress(progress: object) -> None:
+    """Raise `ParameterError` unless it is said whether a bar is shown."""
+    told = isinstance(progress, bool)
+    raise_faults(violations((told, "progress", progress, "must be True or False")))
+
+
 def _vary_faults(p: Parameters, vary: object) -> list[str]:
     """Return faults of the names of varied parameters."""
     if isinstance(vary, str) or not isinstance(vary, Sequence) or not vary:

@@ -19,10 +19,9 @@ import pandas as pd
 
 from disc_model.arrays import Array
 from disc_model.disc.plausibility import trial_cases, warn_of_doubts
-from disc_model.display import progress_bar
-from disc_model.errors import raise_faults, violations
 from disc_model.fitting.arguments import (
     Interval,
+    check_progress,
     checked_measurements,
     doubt_far_measurements,
     limits_in_si,
@@ -97,8 +96,7 @@ def fit(
     >>> found
     Fit(E=1.52256e+11 ± 4.5e+08, nu=0.208709 ± 0.0056; ± one standard deviation; chi squared ...)
     """
-    told = isinstance(progress, bool)
-    raise_faults(violations((told, "progress", progress, "must be True or False")))
+    check_progress(progress)
     measurements = checked_measurements(case, vary, measured, bounds, confidence)
     limits = limits_in_si(vary, bounds or {})
     scales = {name: high - low for name, (low, high) in limits.items() if case.numbers[name] == 0}
@@ -110,8 +108,7 @@ def fit(
     search = Search(problem)
 
     # the start and the result are doubted, not what is tried on the way
-    with progress_bar("fit", None, progress) as bar, trial_cases():
-        problem.report_to(bar.advance)
+    with problem.counted(progress), trial_cases():
         computed = problem.first_predictions(begin)
         doubt_far_measurements(measurements, computed.tolist())
         outcome = _search(search, begin, limits, confidence)

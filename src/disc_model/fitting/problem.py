@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 
 import numpy as np
 
 from disc_model.arrays import Array
+from disc_model.display import progress_bar
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.fitting.block_cycle import Unpredicted, is_rigid
 from disc_model.fitting.measured import Measurement
@@ -55,9 +57,13 @@ class Problem:
             [scales.get(name, abs(value)) or 1.0 for name, value in zip(names, start, strict=True)]
         )
 
-    def report_to(self, tell: Callable[[], object] | None) -> None:
-        """Have a function called whenever predictions of some values were computed."""
-        self._tell = tell
+    @contextmanager
+    def counted(self, shown: bool) -> Iterator[None]:
+        """Count the values of which predictions are computed, and show how many there are."""
+        with progress_bar("fit", None, shown) as bar:
+            self._tell = bar.advance
+            yield
+        self._tell = None
 
     def predictions(self, values: Array) -> Array:
         """Return the predicted quantities, (m,).
@@ -187,7 +193,7 @@ class Problem:
         kept = [each for each in self.measurements if each.name not in names]
         scales = dict(zip(self.names, self.scale.tolist(), strict=True))
         others = Problem(self.case, self.names, kept, scales)
-        others.report_to(self._tell)
+        others._tell = self._tell
         return others
 
     def is_last(self, values: Array, i: int, bound: float, side: int) -> bool:
