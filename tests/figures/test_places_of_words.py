@@ -12,6 +12,7 @@ from matplotlib.transforms import Bbox
 
 from disc_model.figures.labels import break_labels
 from disc_model.figures.legends import LEAST_CURVE, printed_width
+from disc_model.figures.poincare import heading_of
 from disc_model.figures.sizes import COLUMN
 from tests.figures.described import bifurcation, curve, late_range
 
@@ -70,6 +71,14 @@ def test_each_line_of_a_title_is_broken_where_axes_are_narrow() -> None:
     assert " ".join(said.split()) == f"{first} {second}"
     [title] = [text for text in ax.get_children() if getattr(text, "get_text", str)() == said]
     assert title.get_window_extent().x1 <= figure.bbox.width
+
+
+def test_a_heading_says_once_that_separation_is_ignored() -> None:
+    """Figures said "Separation ignored, separation ignored"."""
+    fate = "separation ignored"
+    assert heading_of("Separation ignored, larger preload", fate).count("eparation") == 1
+    assert heading_of("Ω = 15 rad/s", "no separation") == "Ω = 15 rad/s, no separation"
+    assert heading_of("", fate) == fate
 
 
 def legend_of(ax: Axes) -> Legend:
