@@ -45,7 +45,7 @@ def status(dims: tuple[str, ...], words: Any) -> tuple[Any, ...]:
 # ---- Motions over one parameter
 
 
-def bifurcation(section: str = "stroboscopic") -> Figure:
+def bifurcation(section: str = "stroboscopic", width: str = "page") -> Figure:
     """Seven speeds: two settled, one not, one that slides, one without events, one failed."""
     speeds = np.array([8.0, 9.0, 10.0, 11.0, 12.0, 13.0])
     words = [
@@ -78,7 +78,7 @@ def bifurcation(section: str = "stroboscopic") -> Figure:
     }
     lyapunov = xr.Dataset(numbers, over(Omega=speeds), stated())
     phrase = {"x": "Omega", "paper_cases": {"F11": 10.0}, "overlays": {"lyapunov": "l"}}
-    return drawn("bifurcation", study, {"lyapunov": lyapunov}, **phrase)
+    return drawn("bifurcation", study, {"lyapunov": lyapunov}, width=width, **phrase)
 
 
 def branches(separations: tuple[int, int] = (0, 2)) -> Figure:
@@ -227,7 +227,7 @@ def campbell(**phrase: Any) -> Figure:
     return drawn("campbell", campbell_study(), **phrase)
 
 
-def late_range() -> Figure:
+def late_range(width: str = "page") -> Figure:
     """Two discs, two preloads and both contacts; motions that grow, failed and separated."""
     dims = ("Omega", "N", "contact", "disc")
     rng = np.random.default_rng(SEED)
@@ -245,7 +245,7 @@ def late_range() -> Figure:
     axes = over(Omega=[8.0, 11.0, 14.5, 17.0], N=[120.0, 310.0])
     axes |= {"contact": ["unilateral", "bilateral"], "disc": ["thin", "thick"]}
     study = xr.Dataset(data, axes, stated())
-    return drawn("late_range", study, by="disc", thickness=0.004)
+    return drawn("late_range", study, by="disc", thickness=0.004, width=width)
 
 
 def escape() -> Figure:

@@ -601,3 +601,22 @@ def test_the_figure_of_a_study_takes_halves() -> None:
 def test_the_figure_of_a_study_refuses_other_fractions() -> None:
     with refusal("multiples.0=2.3: must be a multiple of 0.5"):
         drawn("campbell", campbell_study(), multiples=[2.3])
+
+
+def test_no_multiples_may_be_asked_for_by_none() -> None:
+    """It was refused, though it means "not given" elsewhere."""
+    top, _ = dm.plot_campbell(campbell_study(), multiples=None)
+    usual, _ = dm.plot_campbell(campbell_study())
+    assert labels(top.figure) == labels(usual.figure)
+
+
+def test_a_legend_names_lines_only_where_they_are_shown() -> None:
+    """It named modes, and multiples of the stick-slip frequency, that lay above the panel."""
+    top, _ = dm.plot_campbell(campbell_study(), highest=50, multiples=[2])
+    said = labels(top.figure)
+    assert "mode of steady sliding" not in said
+    assert not [text for text in said if "multiple of" in text and "f_s" in text]
+    top, _ = dm.plot_campbell(campbell_study(), highest=150, multiples=[2])
+    said = labels(top.figure)
+    assert "mode of steady sliding" in said
+    assert [text for text in said if "multiple of" in text and "f_s" in text]

@@ -809,6 +809,15 @@ def test_a_sweep_that_separates_is_named_even_if_no_branch_does() -> None:
     assert "jump" in names
 
 
+def with_crossings(study: xr.Dataset, crossings: Sequence[xr.Dataset]) -> xr.Dataset:
+    """A study with a table of crossings."""
+    table = {}
+    for name in ("crossing_Omega", "crossing_frequency", "crossing_multiple"):
+        values = [float(crossing[name]) for crossing in crossings]
+        table[name] = ("crossing", np.array(values))
+    return study.assign(table)
+
+
 CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
 
 
@@ -827,7 +836,7 @@ def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], na
         rate = ("Omega", np.array(heights))
         study = xr.Dataset({"growth_rate": rate}, {"Omega": speeds})
         study["sliding_frequency"] = 10 * study["Omega"]
-        columns.append(campbell_diagram.column_of(without_crossings(study)))
+        columns.append(campbell_diagram.column_of(with_crossings(study, [])))
     figure = Figure(figsize=(7, 4))
     campbell_diagram._legend(figure, columns)
     shown = labels(figure)
@@ -878,15 +887,6 @@ def test_names_of_steps_stay_within_the_panel() -> None:
     pyplot.close("all")
 
 
-def without_crossings(study: xr.Dataset) -> xr.Dataset:
-    """A study with a stick-slip frequency that no mode meets."""
-    none = ("crossing", np.empty(0))
-    frequency = xr.zeros_like(study["Omega"])
-    return study.assign(
-        crossing_Omega=none, crossing_frequency=none, stick_slip_frequency=frequency
-    )
-
-
 def crossing_at(speed: float, frequency: float, multiple: float = 4.0) -> xr.Dataset:
     """A crossing of a mode with a multiple of the frequency of stick-slip."""
     return xr.Dataset(
@@ -910,7 +910,9 @@ def meetings(*found: Peak, speeds: Sequence[float] = EVEN_SPEEDS) -> Column:
         {"growth_rate": ("Omega", rates), "sliding_frequency": (("Omega", "mode"), modes)},
         {"Omega": [*speeds]},
     )
-    return Column(without_crossings(study), [*found])
+    study["stick_slip_frequency"] = ("Omega", np.full(5, 60.0))
+    crossings = [peak.crossing for peak in found if peak.crossing is not None]
+    return Column(with_crossings(study, crossings), [*found])
 
 
 def with_names(column: Column) -> Axes:

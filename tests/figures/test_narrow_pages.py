@@ -74,6 +74,19 @@ def test_a_label_of_an_axis_that_is_shorter_than_its_words_is_broken() -> None:
     pyplot.close(figure)
 
 
+@pytest.mark.parametrize("layout", [None, "constrained"])
+def test_labels_of_panels_beside_each_other_stay_off_these(layout: Any) -> None:
+    """In a grid without a layout those of the second column stood on the first."""
+    figure, axes = pyplot.subplots(2, 2, figsize=(COLUMN, 4.6), layout=layout)
+    for row in axes:
+        for ax, name in zip(row, ("growth_rate", "period"), strict=True):
+            dm.plot_sweep(growth([0.01, 0.0, -0.1, np.nan, 0.6, 0.1]), name, ax=ax)
+    figure.draw_without_rendering()
+    for left, right in axes:
+        assert right.yaxis.label.get_window_extent().x0 > left.bbox.x1
+    pyplot.close(figure)
+
+
 SPEEDS = [10.0, 12.0, 14.0, 16.0, 18.0, 20.0]
 STATUS = {"flag_values": np.arange(2, dtype=np.int8), "flag_meanings": "ok no_cycle"}
 

@@ -209,6 +209,6 @@ def test_cases_of_one_name_are_told_apart() -> None:
         DRAWN["run"](speed, ax=ax, labels=name)
     assert legend_texts(ax) == [
         f"A, {NAMES[0]}, case 1",
-        f"A, {NAMES[1]}",
+        f"A, {NAMES[1]}, case 2",
         f"A, {NAMES[0]}, case 3",
     ]

@@ -398,14 +398,15 @@ def test_ranges_of_several_branches_that_are_wide_together_are_logarithmic() -> 
 
 
 def test_branches_of_one_name_are_told_apart_by_numbers() -> None:
-    """Of three branches two had the same name, and the legend left one out."""
+    """Of three branches two had the same name, and the legend left one out; then two had numbers, and
+    which was the second was a guess."""
     ax = None
     for N, speed in ((350, 11.0), (385, 11.0), (350, 11.2)):
         branch = dm.continue_cycle(dm.Parameters(N=N, Omega=speed), "Omega", (10.9, 11.3))
         ax = branch.plot("period", ax=ax)
     assert ax is not None
     said = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert said[:3] == ["N = 350 N, branch 1", "N = 385 N", "N = 350 N, branch 3"]
+    assert said[:3] == ["N = 350 N, branch 1", "N = 385 N, branch 2", "N = 350 N, branch 3"]
 
 
 def test_a_branch_at_values_of_table_1_is_named_by_them() -> None:

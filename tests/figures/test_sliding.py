@@ -51,6 +51,14 @@ def test_modes_are_drawn_along_the_parameter(
     ]
 
 
+def test_rings_of_a_root_locus_are_explained(over_mu: xr.Dataset) -> None:
+    """Nothing said at which value a mode has its ring, whose colour is hidden."""
+    figure = render(kind_of("root_locus")(), {"study": xr.DataTree(over_mu)})
+    [legend] = figure.legends
+    said = [text.get_text() for text in legend.get_texts()]
+    assert said == [f"at {over_mu['value'].values[0]:g}, the first value"]
+
+
 def test_names_of_a_root_locus_cover_neither_marks_nor_each_other(over_mu: xr.Dataset) -> None:
     """Halos cut names, and the rims of 150 marks of a mode left nothing of their colours."""
     values = np.linspace(0, 0.4, 150)

@@ -30,6 +30,12 @@ def test_samples_without_a_value_along_the_axis_are_counted() -> None:
     assert shown(dm.plot_sweep(sizes, "size")).count(WORDS) == 1
 
 
+def test_the_title_does_not_say_it_again() -> None:
+    """It said "1 sample without c" above the same in other words."""
+    ax = dm.plot_sweep(dm.sweep(load_of, CASE, zip=TABLE), "size", x="c")
+    assert "without" not in ax.figure.get_suptitle()
+
+
 def test_lines_say_it_once() -> None:
     sizes = dm.sweep(load_of, CASE, zip=TABLE, N=[200.0, 385.0])
     ax = dm.plot_sweep(sizes, "size")

@@ -24,7 +24,8 @@ from disc_model.figures.drawing import (
 from disc_model.figures.edge_strip import draw_strip
 from disc_model.figures.kind_rows import SHAPES, looks_of_kinds, words_of_kinds
 from disc_model.figures.kinds.motions import Bifurcation
-from disc_model.figures.legends import legend_above
+from disc_model.figures.legends import LEAST_CURVE, legend_above
+from disc_model.figures.places import set_places
 from disc_model.figures.selection import failed
 from disc_model.figures.settled_motions import CALM, kinds_of
 from disc_model.figures.types import Array, Axes, Figure
@@ -62,17 +63,29 @@ def draw(plot: Bifurcation, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     letters(axes)
     for panel in axes:
         panel.margins(x=0.02)  # no dot is cut at the edge
-    places = {case: value * factor for case, value in plot.paper_cases.items()}
-    mark_cases(axes, places)
     kinds = [(at, {**look, "color": BLACK}) for at, look in looks_of_kinds(study, along)]
-    draw_strip(axes[0], STRIPS[0], [*kinds, _without_samples(study, along)])
+    covered = draw_strip(axes[0], STRIPS[0], [*kinds, _without_samples(study, along)])
     draw_strip(axes[1], STRIPS[1], _calm(study, along))
+    places = {case: value * factor for case, value in plot.paper_cases.items()}
+    mark_cases(axes, places, covered)
     legend_above(axes[1])
     title = f"on the grey strip: {words_of_kinds(study)}"
     legend = legend_above(axes[0], title=fill(title, round(width * CHARACTERS)))
     for line in legend.get_lines() if legend else ():
         line.set_markersize(mark(IN_LEGEND))
+    _keep_height(figure, axes[0], sum(heights) / heights[0])
     return figure
+
+
+def _keep_height(figure: Figure, samples: Axes, rows: float) -> None:
+    """Make a figure so high that legends above its panels leave that of the samples a height.
+
+    rows : heights of all panels over that of the samples
+    """
+    set_places(figure)
+    missing = LEAST_CURVE - samples.bbox.height / figure.dpi
+    if missing > 0:
+        figure.set_figheight(figure.get_figheight() + rows * missing)
 
 
 def _without_samples(study: xr.Dataset, along: Array) -> Row:

@@ -19,7 +19,7 @@ MOST_COLUMNS = 6
 
 
 def checked_study(
-    study: xr.Dataset, highest: float | str | None, multiples: Sequence[float]
+    study: xr.Dataset, highest: float | str | None, multiples: Sequence[float] | None
 ) -> tuple[xr.Dataset, float | None]:
     """The study along its speeds, and the highest frequency shown (Hz) if one is asked for, after all
     checks."""
@@ -58,6 +58,8 @@ def dims_of_columns(study: xr.Dataset) -> list[str]:
 
 def _are_multiples(multiples: Any) -> bool:
     """Whether these are multiples of one half from one half on, or none."""
+    if multiples is None:
+        return True
     if np.ndim(multiples) != 1:
         return False
     return all(is_number(each) and each > 0 and each % 0.5 == 0 for each in multiples)

@@ -15,7 +15,7 @@ from disc_model.figures.campbell_looks import (
     multiple_look,
     speed_look,
 )
-from disc_model.figures.campbell_multiples import entries_of_crossings
+from disc_model.figures.campbell_multiples import entries_of_crossings, shows_multiples
 from disc_model.figures.campbell_peaks import Column, Peak, followed_rates, growing_modes, unjoined
 from disc_model.figures.cut import entries_of_left_out, entry_of_cut, modes_cut
 from disc_model.figures.drawing import BLACK, open_line, open_ring, sample, wide
@@ -36,22 +36,32 @@ def entries_of(
     """Entries of a legend for the lines, marks and bands that are drawn, for what lies above the
     highest frequency shown (Hz), and for crossings of multiples that are asked for; short ones first,
     so that columns are as narrow as they can be."""
-    handles: list[Artist] = [
-        sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding")
-    ]
     studies = [column.study for column in columns]
-    if any(growing_modes(study).any() for study in studies):
-        handles.append(sample(label="growing mode", **growing_look()))
+    handles = _entries_of_modes(studies, highest)
     above = max(modes_cut(study, "sliding_frequency", highest) for study in studies)
     if above:
         handles.append(entry_of_cut(above, highest))
     handles += entries_of_left_out(studies)
     found = [peak for column in columns for peak in column.peaks]
-    handles += _entries_of_peaks(found, highest, bool(multiples))
+    of_slips = any(shows_multiples(study, multiples, highest) for study in studies)
+    handles += _entries_of_peaks(found, highest, of_slips)
     handles += entries_of_crossings(columns, multiples, highest)
     handles += _entries_of_rates(studies, found)
     handles.sort(key=_is_long)
     return handles + entries_of_counts(columns, multiples, highest)
+
+
+def _entries_of_modes(studies: Sequence[xr.Dataset], highest: float) -> list[Artist]:
+    """Entries of a legend for modes, and for those that grow, that have a frequency up to the highest
+    shown (Hz)."""
+    handles: list[Artist] = []
+    shown = [study["sliding_frequency"] <= highest for study in studies]
+    if any(each.any() for each in shown):
+        handles.append(sample(color=BLACK, linewidth=wide(0.9), label="mode of steady sliding"))
+    grows = [growing_modes(study) for study in studies]
+    if any((each & known).any() for each, known in zip(grows, shown, strict=True)):
+        handles.append(sample(label="growing mode", **growing_look()))
+    return handles
 
 
 def _is_long(handle: Artist) -> bool:

@@ -42,6 +42,14 @@ def draw_multiple(ax: Axes, study: xr.Dataset, multiple: float, zorder: float) -
     ax.plot(*pieces, zorder=zorder, **multiple_look())
 
 
+def shows_multiples(study: xr.Dataset, multiples: Sequence[float], highest: float) -> bool:
+    """Whether one of some multiples of the stick-slip frequency has a part up to the highest frequency
+    shown (Hz)."""
+    if not multiples:
+        return False
+    return bool((min(multiples) * followed_frequency(study) <= highest).any())
+
+
 def name_multiples(
     names: Names, column: Column, multiples: Sequence[float], highest: float
 ) -> None:

@@ -30,7 +30,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
-    multiples: Sequence[float] = (),
+    multiples: Sequence[float] | None = None,
     ax: Any = None,
     legend: Any = True,
     labels: Any = None,
@@ -39,7 +39,7 @@ def plot_campbell(
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""
     drawn, limit = checked_study(study, highest, multiples)
-    asked_for = tuple(multiples)
+    asked_for = () if multiples is None else tuple(multiples)
     by = next(iter(dims_of_columns(drawn)), None)
     parts = parts_shown(drawn, by)
     columns = [column_of(part.data.transpose("Omega", ...)) for part in parts]

@@ -14,15 +14,15 @@ from disc_model.figures.types import Array, Axes
 SHARE = 0.8  # of a strip, whose lower edge is the axis, at which no value may lie
 
 
-def draw_strip(ax: Axes, share: float, rows: Sequence[tuple[Array, dict[str, Any]]]) -> None:
+def draw_strip(ax: Axes, share: float, rows: Sequence[tuple[Array, dict[str, Any]]]) -> float:
     """Mark places on a strip below all values, in rows each as high as a share of a panel, from the lowest
-    on; nothing without a place.
+    on; nothing without a place. Returns the share of the panel that the strip covers.
 
     rows : places along the horizontal axis, and the look of their marks, with what a legend calls them
     """
     shown = [each for each in rows if each[0].size]
     if not shown:
-        return
+        return 0.0
     height = share * len(shown)
     _make_room(ax, height)
     edge: dict[str, Any] = {"transform": ax.transAxes, "color": STRIP, "linewidth": 0}
@@ -32,6 +32,7 @@ def draw_strip(ax: Axes, share: float, rows: Sequence[tuple[Array, dict[str, Any
         heights = np.full(places.size, (number + 0.5) * SHARE * share)
         whole: dict[str, Any] = {"color": GREY, "linestyle": "", "markersize": mark(4), **look}
         ax.plot(places, heights, transform=transform, **whole)
+    return SHARE * height
 
 
 def _make_room(ax: Axes, share: float) -> None:

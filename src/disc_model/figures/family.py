@@ -85,15 +85,17 @@ def name_in(labels: Any, word: str) -> tuple[str, Any]:
 
 def names_of(family: Sequence[Member], word: str) -> list[str]:
     """Names of members, each of which is what a word says: those that a reader gives, with what differs
-    between members of one name, or what differs between all, or numbers."""
-    names = []
-    for number, each in enumerate(family):
-        name = _given_name(each, family)
-        names.append(name or _what_differs(each, family) or f"{word} {number + 1}")
+    between members of one name, or what differs between all. Where two would have one name, or one has
+    none, all have numbers as well, but those that a reader alone has named."""
+    names = [_given_name(each, family) or _what_differs(each, family) for each in family]
+    if all(names) and len(set(names)) == len(names):
+        return names
+    given = [each.name for each in family]
     distinct = []
     for number, name in enumerate(names):
-        alike = names.count(name) > 1
-        distinct.append(f"{name}, {word} {number + 1}" if alike else name)
+        is_readers = given[number] == name and names.count(name) == 1
+        numbered = ", ".join(filter(None, (name, f"{word} {number + 1}")))
+        distinct.append(name if name and is_readers else numbered)
     return distinct
 
 

@@ -17,6 +17,7 @@ BEYOND = 1.15  # length of a label over that of its axis, at most,
 ROOM_BESIDE = 0.6  # or so many inches more beside panels that have none above or below,
 SHARE_BESIDE = 0.5  # or this share of the height of the page,
 SHARE_OF_ROW = 0.7  # and this share of that of a row, beside low panels
+OF_PITCH = 0.95  # and at most this share of the distance of panels above each other
 MOST_ABOVE = 2  # lines of words above a panel that are not left out after a colon
 WHOLE = re.compile(
     r"(?<=\()[^()]{1,12}(?=\))| = (-?[\d.]+ (?=\S{1,5}(,|$)))?|(?<!\S)-?[\d.]+ (?=\S{1,5}(,|$))"
@@ -117,7 +118,22 @@ def _room(figure: Figure, label: Breakable) -> float:
     end = page.bbox.x1
     if label.direction == "height":
         end = _lowest_above(page, box)
+        room = min(room, OF_PITCH * _pitch(label.ax))
     return min(room, 2 * min(middle, end - middle))
+
+
+def _pitch(ax: Axes) -> float:
+    """The distance in pixels from the middle of a panel to that of the next one above or below it, whose
+    label stands at the same place across; infinite without one."""
+    box = ax.get_window_extent()
+    apart = [math.inf]
+    for other in ax.figure.axes:
+        place = other.get_window_extent()
+        beside = place.x1 < box.x0 or place.x0 > box.x1
+        level = place.y1 > box.y0 and place.y0 < box.y1
+        if not beside and not level:
+            apart.append(0.5 * abs(place.y0 + place.y1 - box.y0 - box.y1))
+    return min(apart)
 
 
 def _lowest_above(page: Any, box: Any) -> float:
@@ -158,10 +174,25 @@ def titles_of(ax: Axes) -> list[Text]:
 
 
 def _break(label: Any, direction: str, room: float) -> None:
-    """Break a label into as few lines as fit a room in pixels, or as its longest word leaves."""
+    """Break a label into as few lines as fit a room in pixels, or as its longest word leaves; each line of
+    a title of several by itself."""
+    lines = label.get_text().split("\n")
+    if len(lines) == 1:
+        _break_line(label, direction, room)
+    elif direction == "width":
+        broken = []
+        for line in lines:
+            label.set_text(line)
+            _break_line(label, direction, room)
+            broken.append(label.get_text())
+        label.set_text("\n".join(broken))
+
+
+def _break_line(label: Any, direction: str, room: float) -> None:
+    """Break a label of one line."""
     text = WHOLE.sub(lambda found: found[0].replace(" ", HARD), label.get_text())
     length = getattr(label.get_window_extent(), direction)
-    if length <= room or "\n" in text:
+    if length <= room:
         return
     words = text.split(" ")
     longest_word = max(map(seen, words))

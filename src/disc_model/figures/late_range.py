@@ -18,6 +18,7 @@ from disc_model.figures.drawing import (
     SKY,
     halo,
     large,
+    leave_to_first,
     letters,
     mark,
     row_of_panels,
@@ -76,8 +77,7 @@ def draw(plot: LateRange, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         ax.set_ylabel("Slider, peak to peak (thicknesses)")
         if ax is not axes[0]:
             ax.sharey(axes[0])
-            ax.tick_params(labelleft=False)
-            ax.set_ylabel("")
+            leave_to_first([ax], axes[:1])
     for ax, name in zip(axes[len(names) :], moving, strict=True):
         chosen = {plot.by: name}
         _draw_panel(ax, study["surface_speed"].sel(chosen), outcomes.sel(chosen))

@@ -39,6 +39,9 @@ SMALLER = 0.8  # size of the text of a legend that finds too little room, over t
 STILL_SMALLER = 0.65  # where many entries would stand in one column,
 LEAST_TEXT = 6.0  # and its least size, points, unless the usual one is less
 IN_A_ROW = 3  # entries below a panel for which no text is made smaller
+PRINTED = (150, 300)
+"""Resolutions, dots per inch, in which figures are saved beside that in which they are shown."""
+ROUNDED = 0.1  # share by which a legend may be wider there
 LEAST_HEIGHT = 1.05  # inch, that a panel keeps above its legend if a smaller one leaves it so much
 LEAST_MAP = 1.6  # inch, height that a map keeps beside its legend
 LEAST_CURVE = 1.2  # inch, and height that curves keep
@@ -317,9 +320,25 @@ def _first_that_fits(places: Sequence[Place], columns: int) -> Place:
 def _width_in(place: Place, columns: int) -> float:
     """The width in pixels of a legend at a place, in so many columns."""
     trial = place.draw(ncols=columns)
-    width = float(trial.get_window_extent().width)
+    width = printed_width(trial, place.width)
     trial.remove()
     return width
+
+
+def printed_width(legend: Legend, width: float) -> float:
+    """The width in pixels of a legend, the greatest of those that it has in usual resolutions if one of
+    them may exceed a width: letters are rounded to pixels."""
+    own = float(legend.get_window_extent().width)
+    if not (1 - ROUNDED) * width < own <= width:
+        return own
+    page: Any = legend.get_figure(root=True)
+    shown = page.dpi
+    widths = [own]
+    for dpi in PRINTED:
+        page._set_dpi(dpi, forward=False)
+        widths.append(legend.get_window_extent().width * shown / dpi)
+    page._set_dpi(shown, forward=False)
+    return max(widths)
 
 
 def _first_low_enough(places: Sequence[Place], columns: int, height: float) -> Place:
@@ -443,7 +462,7 @@ def _widest_that_fits(draw: partial[Legend], most: int, width: float) -> Legend:
     *more, fewest = _columns_tried(draw, most)
     for count in more:
         legend = draw(ncols=count)
-        if legend.get_window_extent().width <= width:
+        if printed_width(legend, width) <= width:
             return legend
         legend.remove()
     legend = draw(ncols=fewest)

@@ -122,7 +122,7 @@ def plot_campbell(
     study: xr.Dataset,
     *,
     highest: float | str | None = None,
-    multiples: Sequence[float] = (),
+    multiples: Sequence[float] | None = None,
     ax: Axes | NDArray[Any] | None = None,
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,

@@ -18,7 +18,7 @@ MARGIN = 0.03  # inch, kept free along the edges of the page
 ROUNDS = 3  # numbers along an axis may change with its length
 LEAST_PANEL = 8.0  # mm, side of a panel beside a bar and a legend
 LEAST_STEP = 0.1  # pixel, less than which is rounding
-LEAST_SIDE = 0.9  # inch, of a panel, up to which gaps between panels are widened
+LEAST_SIDE = 0.6  # inch, of a panel, up to which gaps between panels are widened
 LEAST_BESIDE = 2.4  # inch of the width of a figure for each of several panels beside each other
 LEAST_SHARE = 0.1  # of their size, or of the page, that axes keep in any case
 

@@ -136,7 +136,7 @@ def draw_sections(
         ax.set_ylim((y.low, y.high))
         _draw_points(ax, x, y, found.masks)
     show_thickness(axes[1], case, "x")
-    axes[0].set_title(", ".join(filter(None, [heading, found.fate])), loc="right")
+    axes[0].set_title(heading_of(heading, found.fate), loc="right")
 
     handles: list[Artist] = []
     for stage, name in zip(STAGES, found.names, strict=True):
@@ -149,6 +149,13 @@ def draw_sections(
         name = f"hollow: up to {found.final_since:.0f} s"
         handles.append(axes[1].scatter([], [], label=name, **look))
     return handles
+
+
+def heading_of(heading: str, fate: str) -> str:
+    """A heading and what the motion does, once if the heading says so."""
+    if fate in heading.lower():
+        return heading
+    return ", ".join(filter(None, [heading, fate]))
 
 
 def _axis(

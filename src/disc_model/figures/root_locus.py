@@ -7,15 +7,28 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 
-from disc_model.figures.drawing import BLACK, GREY, halo, large, letters, mark, row_of_panels, wide
+from disc_model.figures.drawing import (
+    BLACK,
+    GREY,
+    halo,
+    large,
+    letters,
+    mark,
+    row_of_panels,
+    sample,
+    wide,
+)
 from disc_model.figures.kinds.motions import RootLocus
 from disc_model.figures.left_out import parts_shown, titles_of_panels
+from disc_model.figures.legends import figure_legend
 from disc_model.figures.names import Names, named_modes
 from disc_model.figures.selection import without_single
 from disc_model.figures.types import Axes, Figure
 from disc_model.figures.words import measured
 
 MOST_RIMS = 40  # marks of a mode up to which each has a rim; those of more would hide their colours
+RING: dict[str, Any] = {"marker": "o", "linestyle": "", "color": BLACK, "markerfacecolor": "white"}
+"""Look of marks where modes begin."""
 HEIGHTS = (0, 2, -2, 5, -5)  # points, of names above or below their rings, best first
 NAMES_APART = 0.01  # of the highest frequency, least distance of names
 CHARACTER = 0.0136  # of the extent of growth rates, width of a character of a name
@@ -30,8 +43,9 @@ def draw(plot: RootLocus, study: xr.Dataset, overlays: Mapping[str, xr.Dataset])
         points = _draw_panel(ax, without_single(part.data, "value", "mode"))
         ax.label_outer()
     letters(axes, titles_of_panels(parts, study, plot.by))
-    label = measured(parts[0].data["value"]).label
-    figure.colorbar(points, ax=axes, label=label, pad=0.01, aspect=30)
+    shown = measured(parts[0].data["value"])
+    figure.colorbar(points, ax=axes, label=shown.label, pad=0.01, aspect=30)
+    figure_legend(figure, [sample(label=f"at {shown.values[0]:g}, the first value", **RING)])
     return figure
 
 
@@ -60,7 +74,7 @@ def _draw_panel(ax: Axes, study: xr.Dataset) -> Any:
     first = study.isel(value=0)
     rates = first["mode_growth_rate"].values
     heights = first["frequency"].values
-    ax.plot(rates, heights, "o", color=BLACK, markersize=mark(4), markerfacecolor="white")
+    ax.plot(rates, heights, markersize=mark(4), **RING)
     _name_modes(ax, study)
     ax.axvline(0, color=BLACK, linewidth=wide(0.6))
     ax.margins(x=0.04)

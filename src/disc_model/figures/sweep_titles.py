@@ -1,12 +1,11 @@
 """What titles and legends say of the case of a sweep."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import xarray as xr
 
-from disc_model.display import counted
 from disc_model.figures.head_texts import what_case
 from disc_model.figures.sweep_choice import Drawn
 from disc_model.figures.sweep_dimensions import numbers_along
@@ -41,7 +40,7 @@ def said_of(study: xr.Dataset) -> dict[str, str]:
 
 def title_of(study: xr.Dataset, drawn: Drawn, selected: Mapping[str, str]) -> str:
     """What does not vary in a study, and of paired samples, what varies beside the column over which
-    they are drawn, and how many have no number there.
+    they are drawn.
 
     selected : words for what was selected of the study
     """
@@ -49,18 +48,14 @@ def title_of(study: xr.Dataset, drawn: Drawn, selected: Mapping[str, str]) -> st
     if drawn.sampled:
         said.append(_varies(numbers_along(study, str(drawn.second))))
     else:
-        said += _said_of_samples(study, drawn.across)
+        said.append(_said_of_samples(study, drawn.across))
     return ", ".join(filter(None, said))
 
 
-def _said_of_samples(study: xr.Dataset, column: str) -> Iterator[str]:
-    """Yield what varies with a column of paired samples, and how many have no number in it."""
+def _said_of_samples(study: xr.Dataset, column: str) -> str:
+    """What varies with a column of paired samples; "" if nothing does."""
     beside = [name for name in numbers_along(study, column) if name != column]
-    if beside:
-        yield f"{_varies(beside)} as well"
-    missing = int(study[column].isnull().sum())
-    if missing:
-        yield f"{counted(missing, 'sample')} without {symbol_of(column)}"
+    return f"{_varies(beside)} as well" if beside else ""
 
 
 def _varies(names: Sequence[str]) -> str:
