@@ -43,6 +43,7 @@ from disc_model.without_reader import end_without_reader, go_on_without_reader
 
 if TYPE_CHECKING:
     from disc_model.studies.grid import GridStudy
+    from disc_model.studies.plan import Plan
     from disc_model.studies.study import Study
 
 # ---- Options, one for each field of a model
@@ -634,22 +635,12 @@ def _show_plan(
     if chosen.specs:
         plans.append(plan.plan_of_cases(chosen.name, chosen.specs, results))
     factor = machine_factor()
-    works = [factor * sum(each.seconds) for each in plans]
-    batches = []
-    for each in plans:
-        batches.append(_batches_text(each.batches, each.computed))
-    columns: dict[str, Iterable[str]] = {
-        "study": [each.name for each in plans],
-        "quantity": [each.quantity for each in plans],
-        "points": [str(each.points) for each in plans],
-        "batches": batches,
-        "work": map(plan.duration_text, works),
-    }
-    table(f"plan of {chosen.name}", columns, overflow="fold")
+    _show_work(chosen.name, plans, factor)
     if len(grids) == 1:
         _show_options(grids[0])
     unfinished = {each.name for each in plans if each.seconds}
     _show_changes([grid for grid in grids if grid.name in unfinished], results)
+
     figures = chosen.entries(known)
     shown = {key: entry for key, entry in figures.items() if key[0] in (chosen.name, *requested)}
     fixed = fixed_costs(plans, shown, results, page=page)
@@ -660,6 +651,24 @@ def _show_plan(
             f"Estimated time: {text} on {cores} cores, to a factor of three, with the start of jobs and"
             " figures; kernels that are not compiled yet take 10 to 20 s each."
         )
+
+
+def _show_work(name: str, plans: Sequence[Plan], factor: float) -> None:
+    """Print what there is to compute for a study.
+
+    factor : how many times as long as for the measured costs this machine takes
+    """
+    from disc_model.studies.plan import duration_text
+
+    batches = [_batches_text(each.batches, each.computed) for each in plans]
+    columns: dict[str, Iterable[str]] = {
+        "study": [each.name for each in plans],
+        "quantity": [each.quantity for each in plans],
+        "points": [str(each.points) for each in plans],
+        "batches": batches,
+        "work": [duration_text(factor * sum(each.seconds)) for each in plans],
+    }
+    table(f"plan of {name}", columns, overflow="fold")
 
 
 def _show_changes(grids: Sequence[GridStudy], results: Path) -> None:

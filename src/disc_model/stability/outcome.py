@@ -288,9 +288,7 @@ class _OutcomeSearch:
 
         # the horizon: nothing was proven within it
         if result.time >= self.horizon:
-            departs = self.departed_from is not None or self.leaves_sliding
-            grows = departs or growing(result.changes)
-            result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
+            result.outcome = Outcome.GROWING if self._grows() else Outcome.UNDECIDED
             return Stage.HORIZON
 
         # a leg that does not come to its end
@@ -302,6 +300,16 @@ class _OutcomeSearch:
         if not leg.status.complete:
             result.failed = leg
             return Stage.FAILED
+        return self._examine(leg)
+
+    def _grows(self) -> bool:
+        """Whether the motion has departed from something unstable, or changes more and more."""
+        departs = self.departed_from is not None or self.leaves_sliding
+        return departs or growing(self.result.changes)
+
+    def _examine(self, leg: Result) -> Stage:
+        """Examine what the motion has come to at the end of a leg in contact."""
+        result = self.result
 
         # rest, or stable steady sliding
         examined = self.options.early or result.time >= self.horizon
