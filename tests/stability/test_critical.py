@@ -17,6 +17,7 @@ from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
 from tests.blocks import RIG
 from tests.refusals import refusal
+from tests.stability.test_sliding_motion import SQUEALS
 
 
 @pytest.mark.compiled
@@ -190,25 +191,7 @@ def test_sliding_of_a_block_is_stable_above_the_slope_of_friction() -> None:
 
 def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> None:
     """`critical` followed the cycle in silence, stable at all speeds, while sliding grew."""
-    case = Parameters(
-        N=5000,
-        Omega=60,
-        E=210e9,
-        rho=7850,
-        nu=0.3,
-        h=6e-3,
-        m=0.3,
-        k=5e5,
-        k_p=2e5,
-        c_p=20,
-        mu_s=0.45,
-        mu_k=0.35,
-        damping_ratio=5e-4,
-        normalization="orthonormal",
-        friction_offset="surface",
-        contact_arc=0.4,
-        n_diameters=6,
-    )
+    case = SQUEALS.replace(Omega=60)
 
     def rate(speed: float) -> float:
         return steady_sliding(case.replace(Omega=speed)).growth_rate
