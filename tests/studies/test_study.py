@@ -172,7 +172,8 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
     study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
     found = faults_of(study.grids, [tmp_path])
     for fault in (
-        "three: figures.f.overlays.curves='elsewhere': no such study (known: three)",
+        "three: figures.f.overlays.curves='elsewhere': no such study (known: three); "
+        "name the file of another study by the key studies: [elsewhere.yaml]",
         "overrides.six: no such study (known: three)",
     ):
         assert fault in found, found

@@ -159,7 +159,7 @@ def critical_speed(  # noqa: PLR0913
     found = compute_quantity("critical_speed", case, options, progress=progress)
     found = _with_reason(_with_bound(found))
     if np.ndim(horizon) == 0:
-        return found.isel(horizon=0)
+        return found.isel(horizon=0, drop=True)
     return found
 
 

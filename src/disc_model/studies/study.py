@@ -647,7 +647,9 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
     unknown = []
     for path, name in named.items():
         if name not in grids:
-            unknown.append(Fault.of(path, name, f"no such study{suggestion(name, known)}"))
+            told = suggestion(name, known)
+            key = f"; name the file of another study by the key studies: [{name}.yaml]"
+            unknown.append(Fault.of(path, name, f"no such study{told}{key}"))
     if unknown:
         return unknown
 
