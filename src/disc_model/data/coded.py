@@ -46,7 +46,7 @@ def words(data: Data) -> Data:
     ([[0], [0]], [['ok'], ['ok']])
     """
     kinds = (xr.DataArray, xr.Dataset, xr.DataTree)
-    rule = "must be a DataArray, Dataset or DataTree of xarray"
+    rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
     require((isinstance(data, kinds), "data", data, rule))
     if isinstance(data, xr.DataArray):
         return _words_of(data)
