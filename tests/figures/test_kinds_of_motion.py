@@ -138,3 +138,15 @@ def test_samples_of_later_sweeps_are_larger_and_lie_below(event: str) -> None:
     order = [each.get_zorder() for each in marks]
     assert sizes == sorted({*sizes})
     assert order == sorted({*order}, reverse=True)
+
+
+def test_samples_once_a_turn_of_later_sweeps_are_thin_and_lie_below() -> None:
+    """Bold triangles of a third sweep hid the dots of the first."""
+    ax = small_axes()
+    for case in ("one", "two", "three"):
+        dm.plot_sweep(study_of("stroboscopic"), "psi", ax=ax, labels={"case": case})
+    marks = [line for line in ax.lines if line.get_label() in ("one", "two", "three")]
+    order = [each.get_zorder() for each in marks]
+    assert len(order) == 3
+    assert order == sorted({*order}, reverse=True)
+    assert {each.get_markeredgewidth() < 1 for each in marks[1:]} == {True}

@@ -66,6 +66,7 @@ def _parts_of(
     dots: dict[str, Any] = {"color": look.colour, "marker": marker, "markersize": mark(size)}
     if marker != ".":
         dots |= {"markerfacecolor": "none", "markersize": mark(MARK)}
+        dots |= {"markeredgewidth": wide(EDGE), "zorder": ABOVE - LOWER * sweep}
     parts = []
     for phase, name in names_of_events(study).items():
         mask = (_phases_of(study, array) == phase) & shown
@@ -85,14 +86,13 @@ def _number_of_modes(array: xr.DataArray) -> str:
 def _look_at(phase: str, look: Look, marker: str, sweep: int) -> dict[str, Any]:
     """What tells samples in a phase from others of a sweep, whose colour they have: the marks of a bifurcation
     diagram, or beside other sweeps full marks of separations, as of the kind of motion that separates,
-    and open ones of releases. These are larger, and lie below those of sweeps before."""
+    and open ones of releases. They are larger than those of sweeps before, which lie above them."""
     if marker == ".":
         own = MARKS[phase]
         return {**own, "markersize": mark(own["markersize"])}
     size = min(MARK + LARGER * sweep, WIDEST)
-    below: dict[str, Any] = {"markersize": mark(size), "markeredgewidth": wide(EDGE)}
-    below["zorder"] = ABOVE - LOWER * sweep
-    return {**below, "markerfacecolor": look.colour} if phase == "separation" else below
+    larger: dict[str, Any] = {"markersize": mark(size)}
+    return {**larger, "markerfacecolor": look.colour} if phase == "separation" else larger
 
 
 def _phases_of(study: xr.Dataset, array: xr.DataArray) -> Words:
