@@ -173,7 +173,10 @@ def test_the_comparison_is_drawn_where_both_studies_have_points() -> None:
     figure = render(plot, {"study": xr.DataTree(plane), "sliding": xr.DataTree(sliding)})
     growing = float((sliding["largest_growth_rate"] > 0).mean())
     texts = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert figure.legends[0].get_title().get_text() == "Motions of 600 s. Steady sliding is"
+    assert (
+        figure.legends[0].get_title().get_text()
+        == "Motions of 600 s, in % of points. Steady sliding is"
+    )
     assert f"{AGREEMENTS['unstable_separates'].label}: {100 * growing:.0f}\u00a0%" in texts
 
 

@@ -1040,6 +1040,24 @@ def test_a_sweep_of_three_dimensions_is_to_be_narrowed_by_its_reader() -> None:
         dm.plot_sweep(study)
 
 
+def test_shares_by_energy_over_the_speed_say_what_to_select_first() -> None:
+    """The energy was called no axis at all, and the other refusal named a load that was none."""
+    study = swept(dm.basins).sel(N=385)
+    selection = r"study\.sel\(Omega=10\)"
+    with refusal(f"x='energy': is an axis of basin_fraction_by_energy: .*{selection}"):
+        dm.plot_sweep(study, x="energy")
+    with refusal(f"must vary along at most two: .*{selection}"):
+        dm.plot_sweep(study, "basin_fraction_by_energy")
+    ax = dm.plot_sweep(study.sel(Omega=10), x="energy")
+    assert ax.get_xlabel() == "Energy of the kick (J)"
+    pyplot.close("all")
+
+
+def test_both_further_axes_are_to_be_selected_for_shares_by_energy() -> None:
+    with refusal(r"as by study\.sel\(Omega=10, N=\d+\)"):
+        dm.plot_sweep(swept(dm.basins), x="energy")
+
+
 def test_many_paired_samples_are_joined_by_no_line() -> None:
     """They have no order; more than sixty of them were joined all the same."""
     places = np.random.default_rng(1).random((2, 100))

@@ -42,7 +42,7 @@ def draw_points(
     places = np.broadcast_to(along[:, None], array.shape)
     heights = array.values.astype(float)
 
-    parts = points_of(study, array, look, marker)
+    parts = points_of(study, array, look, marker, sweep or 0)
     shown = [part for part in parts if part.mask.any()] or parts[:1]
     drawn = []
     for part in shown:

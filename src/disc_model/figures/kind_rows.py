@@ -27,6 +27,8 @@ SHAPES = {
 """Marks of kinds of motion, from the row next to the panel on."""
 FILLED = ("separating", "irregular", "undecided")
 """Kinds whose marks are full, so that grey print tells the one that loses contact from those that keep it."""
+SAMPLES = "v<pdhX8"
+"""Marks of samples of sweeps beside others, which no kind has, nor any ring about samples in doubt."""
 PERIODIC = ("quiet", "other_cycle", "separating")
 WORDS = "kind of motion"
 FILLS = "kind of motion; a cycle fills an interval: its period is no multiple of a turn"

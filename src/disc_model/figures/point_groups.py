@@ -10,13 +10,17 @@ from disc_model.display import counted
 from disc_model.figures.bifurcation_samples import MARKS, UNDECIDED, rings_of
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.classes import NOT_CONVERGED
-from disc_model.figures.curve_looks import DOT, MARK
-from disc_model.figures.drawing import BLACK, mark
+from disc_model.figures.curve_looks import DOT, MARK, WIDEST
+from disc_model.figures.drawing import BLACK, mark, wide
 from disc_model.figures.sections import names_of_events
 from disc_model.figures.selection import not_converged
 from disc_model.figures.types import Mask, Words
 
 MANY = 300  # points, which are small marks
+ABOVE = 2.0  # drawing order of the first sweep, as matplotlib has it for all lines,
+LOWER = 0.01  # and by so much lower for each further one
+LARGER = 1.5  # points, by which samples at events are larger for each sweep above them
+EDGE = 0.6  # points, of their edges: wider ones leave no room inside open marks
 
 
 class Points(NamedTuple):
@@ -27,16 +31,21 @@ class Points(NamedTuple):
     look: dict[str, Any]
 
 
-def points_of(study: xr.Dataset, array: xr.DataArray, look: Look, marker: str) -> list[Points]:
+def points_of(
+    study: xr.Dataset, array: xr.DataArray, look: Look, marker: str, sweep: int = 0
+) -> list[Points]:
     """All points of a variable: those of each event, and then those of motions that had not settled, and of
-    averages that have not converged."""
+    averages that have not converged.
+
+    sweep : number of sweeps that were drawn there before
+    """
     known = np.isfinite(array.values.astype(float))
     doubtful = _not_settled(study, array)
     unsure = _not_converged(study, array)
     events = names_of_events(study)
     rings = rings_of(array.values.astype(float), doubtful & known, _phases_of(study, array), events)
     return [
-        *_parts_of(study, array, ~doubtful & ~unsure, look, marker),
+        *_parts_of(study, array, ~doubtful & ~unsure, look, marker, sweep),
         *(Points(name, mask, _ring_of(look, ring)) for name, mask, ring in rings),
         Points(NOT_CONVERGED.label, unsure & known, _ring_of(look, UNDECIDED)),
     ]
@@ -49,7 +58,7 @@ def _ring_of(look: Look, ring: dict[str, Any]) -> dict[str, Any]:
 
 
 def _parts_of(
-    study: xr.Dataset, array: xr.DataArray, shown: Mask, look: Look, marker: str
+    study: xr.Dataset, array: xr.DataArray, shown: Mask, look: Look, marker: str, sweep: int
 ) -> list[Points]:
     """The points that are shown of each event at which values were sampled, with its name and look; all
     of them together if they were not sampled at events."""
@@ -57,11 +66,12 @@ def _parts_of(
     dots: dict[str, Any] = {"color": look.colour, "marker": marker, "markersize": mark(size)}
     if marker != ".":
         dots |= {"markerfacecolor": "none", "markersize": mark(MARK)}
+        dots |= {"markeredgewidth": wide(EDGE), "zorder": ABOVE - LOWER * sweep}
     parts = []
     for phase, name in names_of_events(study).items():
         mask = (_phases_of(study, array) == phase) & shown
         if mask.any():
-            parts.append(Points(name, mask, {**dots, **_look_at(phase, look, marker)}))
+            parts.append(Points(name, mask, {**dots, **_look_at(phase, look, marker, sweep)}))
     return parts or [Points(_number_of_modes(array), shown, dots)]
 
 
@@ -73,13 +83,16 @@ def _number_of_modes(array: xr.DataArray) -> str:
     return counted(int(array.notnull().any(along).sum()), "mode")
 
 
-def _look_at(phase: str, look: Look, marker: str) -> dict[str, Any]:
+def _look_at(phase: str, look: Look, marker: str, sweep: int) -> dict[str, Any]:
     """What tells samples in a phase from others of a sweep, whose colour they have: the marks of a bifurcation
-    diagram, or beside other sweeps full marks of releases, and open ones of separations."""
+    diagram, or beside other sweeps full marks of separations, as of the kind of motion that separates,
+    and open ones of releases. They are larger than those of sweeps before, which lie above them."""
     if marker == ".":
         own = MARKS[phase]
         return {**own, "markersize": mark(own["markersize"])}
-    return {"markerfacecolor": look.colour} if phase == "stick" else {}
+    size = min(MARK + LARGER * sweep, WIDEST)
+    larger: dict[str, Any] = {"markersize": mark(size)}
+    return {**larger, "markerfacecolor": look.colour} if phase == "separation" else larger
 
 
 def _phases_of(study: xr.Dataset, array: xr.DataArray) -> Words:

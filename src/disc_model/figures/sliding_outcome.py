@@ -63,7 +63,7 @@ def draw(plot: SlidingOutcome, study: xr.Dataset, overlays: Mapping[str, xr.Data
         entries(np.concatenate(each, axis=None), looks),
         loc="outside lower center",
         columns=1,
-        title=f"Motions of {horizon:g} s. Steady sliding is",
+        title=f"Motions of {horizon:g} s, in % of points. Steady sliding is",
     )
     return figure
 

@@ -14,6 +14,7 @@ from disc_model.figures.sweep_dimensions import (
     dims_without_coordinates,
     drawn_dims,
     only_counts,
+    selection_for,
 )
 from disc_model.figures.sweep_options import function_of
 from disc_model.figures.sweep_study import (
@@ -265,14 +266,27 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     dims = [str(dim) for dim in study[variable].dims]
     numbers = [dim for dim in dims if dim in drawn_dims(study)]
     across = x or next((dim for dim in numbers if not only_counts(study, dim)), numbers[0])
-    many = "must vary along at most two: select values of the others, as by study.sel(N=300)"
-    require((len(dims) < 3, "study", ", ".join(dims), many))
+    if len(dims) > 2:
+        selection = selection_for(study, variable, x)
+        many = f"must vary along at most two: select values of the others, as by {selection}"
+        raise ParameterError(Fault.of(("study",), ", ".join(dims), many))
     known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
-    require((across in known, "x", across, rule_of_choice(across, known)))
+    require((across in known, "x", across, _rule_of_axis(study, across, known)))
     second = next((dim for dim in dims if dim != across), None)
     counted = second is not None and only_counts(study, second)
     drawn = Drawn(variable, across, second, mapped=False, counted=counted)
     return replace(drawn, mapped=not counted and _are_plane(study, drawn))
+
+
+def _rule_of_axis(study: xr.Dataset, x: str, known: Sequence[str]) -> str:
+    """The rule that a name breaks which is no dimension of what is drawn: it is one of the known ones, or one
+    of a variable of more dimensions than a picture has."""
+    for name in (*PREFERRED, *_choices(study)):
+        if name in study and x in study[name].dims and study[name].ndim > 2:
+            selection = selection_for(study, name, x)
+            first = f"select one value of each other axis first, as by {selection}"
+            return f"is an axis of {name}: {first}"
+    return rule_of_choice(x, known)
 
 
 def _are_plane(study: xr.Dataset, drawn: Drawn) -> bool:

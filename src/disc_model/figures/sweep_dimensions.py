@@ -59,3 +59,21 @@ def numbers_along(study: xr.Dataset, dim: str) -> list[str]:
     along = [str(name) for name, values in study.coords.items() if values.dims == (dim,)]
     numbers = [name for name in along if study[name].dtype.kind in "fi"]
     return [name for name in numbers if not _is_without_effect(study[name])]
+
+
+def selection_for(study: xr.Dataset, variable: str, x: str) -> str:
+    """How values of a variable along two dimensions are selected, one of which is `x` unless that is "", as
+    "study.sel(Omega=14)"."""
+    dims = [str(dim) for dim in study[variable].dims if dim != x]
+    numbers = [dim for dim in drawn_dims(study) if dim in dims]
+    further = numbers[: study[variable].ndim - 2]
+    if not further:
+        return f"study.isel({dims[0]}=0)"
+    values = [f"{dim}={_text_of(study[dim].values[0].item())}" for dim in further]
+    return f"study.sel({', '.join(values)})"
+
+
+def _text_of(value: float) -> str:
+    """A number in as few digits as it has."""
+    short = f"{value:g}"
+    return short if float(short) == value else repr(value)

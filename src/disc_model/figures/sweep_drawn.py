@@ -10,6 +10,7 @@ from disc_model.figures.curve_looks import MARKS
 from disc_model.figures.curve_points import draw_points
 from disc_model.figures.curve_samples import MOST_NAMED, draw_samples
 from disc_model.figures.family import LOOKS
+from disc_model.figures.kind_rows import SAMPLES, has_kinds
 from disc_model.figures.selection import parts_along, remaining
 from disc_model.figures.sweep_choice import Drawn
 from disc_model.figures.types import Axes
@@ -28,7 +29,7 @@ def draw_each(
     look = LOOKS[number % len(LOOKS)]
     mark = MARKS[number % len(MARKS)]
     if drawn.counted:
-        shape = mark if number else "."
+        shape = _shape_of_points(study, across, number)
         return draw_points(ax, study, drawn.variable, across, log, look, shape, number)
     if drawn.sampled and study.sizes[drawn.second] > MOST_NAMED:
         return draw_samples(ax, study, drawn.variable, across, log, look, mark)
@@ -38,6 +39,16 @@ def draw_each(
     marks = {} if _has_dashes(study, drawn) else _further_marks(study, drawn, taken)
     options |= {"sweep": number, "names_valueless": True}
     return draw_lines(ax, study, drawn.variable, across, log, marks, **options)
+
+
+def _shape_of_points(study: xr.Dataset, across: str, number: int) -> str:
+    """The mark of values that are only counted: dots of the first sweep, and of others a shape that the
+    kinds of motion above the panel do not have."""
+    if number == 0:
+        return "."
+    if has_kinds(study, across):
+        return SAMPLES[(number - 1) % len(SAMPLES)]
+    return MARKS[number % len(MARKS)]
 
 
 def _has_dashes(study: xr.Dataset, drawn: Drawn) -> bool:
