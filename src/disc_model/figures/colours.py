@@ -17,7 +17,7 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
-from matplotlib.ticker import Formatter
+from matplotlib.ticker import Formatter, LogLocator
 
 from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.drawing import parents_of_bar
@@ -33,6 +33,7 @@ GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates a
 COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 LINEAR_OF_MEDIAN = 0.2  # of the median rate, up to which it is nearly linear at most
+MOST_POWERS = 9  # of ten beside a bar of a logarithmic scale
 LEAST_POWERS = 3  # of ten, which alone let a logarithmic scale be read
 COLOURS = 256  # of a part of a map of colours
 NEAR_END = 0.06  # of a bar of growth rates, within which a number would meet that of its end
@@ -294,6 +295,9 @@ def draw_bar(figure: FigureBase, axes: Sequence[Axes], mesh: Any, scale: Scale, 
     elif isinstance(scale.norm, LogNorm) and within_a_decade(scale.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
         bar.ax.yaxis.set_major_formatter("{x:g}")
+    elif isinstance(scale.norm, LogNorm):
+        # else their count depends on the height, and may leave two of five
+        bar.locator = LogLocator(numticks=MOST_POWERS)
 
 
 def bars_of(ax: Axes) -> list[Axes]:
