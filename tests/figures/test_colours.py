@@ -19,6 +19,7 @@ from disc_model.figures.colours import (
 RATE = xr.DataArray(0.0, name="growth_rate")
 PERIOD = xr.DataArray(0.0, name="period")
 LOG = ColourWishes(log=True)
+RATES_SHOWN = [-0.3, -0.1, -0.03, -0.01, 0, 0.01, 0.03, 0.1, 0.3]
 
 
 @pytest.mark.parametrize(
@@ -75,10 +76,10 @@ def test_a_logarithmic_scale_of_positive_numbers_ends_at_them() -> None:
 @pytest.mark.parametrize(
     ("numbers", "ends", "linear", "places"),
     [
-        ([-20.0, 0.02, 3.0], (-20, 20), 0.02, [-10, -1, -0.1, 0, 0.1, 1, 10]),
-        ([0.0, 0.5, 30.0], (0, 30), 0.5, [0, 1, 10]),
-        ([-30.0, -0.5], (-30, -0.5), 0.5, [-10, -1]),
-        ([-1e-9, 5.0], (-5, 5), 5e-3, [-1, -0.1, -0.01, 0, 0.01, 0.1, 1]),
+        ([-20.0, 0.02, 3.0], (-20, 20), 0.02, [-20, -1, -0.1, 0, 0.1, 1, 20]),
+        ([0.0, 0.5, 30.0], (0, 30), 0.5, [0, 1, 10, 30]),
+        ([-30.0, -0.5], (-30, -0.5), 0.5, [-30, -10, -1, -0.5]),
+        ([-1e-9, 5.0], (-5, 5), 5e-3, [-5, -1, -0.1, -0.01, 0, 0.01, 0.1, 1, 5]),
         ([0.0, 0.0], (0, 1), 1.0, [0, 1]),
         ([-0.7, -0.5], (-0.7, -0.5), 0.5, [-0.7, -0.5]),
         ([0.0, 0.7, 0.5], (0, 0.7), 0.5, [0, 0.7]),
@@ -100,6 +101,23 @@ def test_a_logarithmic_scale_passes_through_zero(
 @pytest.mark.parametrize(("ends", "within"), [((2, 19), True), ((2, 20), False), ((2, 300), False)])
 def test_further_ticks_are_needed_within_a_decade(ends: tuple[float, float], within: bool) -> None:
     assert within_a_decade(LogNorm(*ends)) is within
+
+
+@pytest.mark.parametrize(
+    ("ends", "places"),
+    [
+        ((0.27, 10), [0.5, 1, 2, 5, 10]),
+        ((2, 90), [2, 5, 10, 20, 50]),
+        ((1, 10), [1, 2, 5, 10]),
+        ((2, 19), []),
+        ((1, 100), []),
+    ],
+)
+def test_few_powers_of_ten_have_steps_between_them(
+    ends: tuple[float, float], places: list[float]
+) -> None:
+    """Periods of 0.27 to 10 s had the numbers 1 and 10 alone."""
+    assert colours_of(np.array(ends), PERIOD, LOG).places == pytest.approx(places)
 
 
 DECAY = np.array([-1.13, -0.5, -0.29])
@@ -133,16 +151,16 @@ def test_growth_rates_fill_a_scale_that_is_not_around_zero(
 @pytest.mark.parametrize(
     ("rates", "places", "open_ends"),
     [
-        ([0.002, 0.2], [0, 0.01, 0.1, 0.3], (False, False)),
-        ([-0.002, -0.2], [-0.3, -0.1, -0.01, 0], (False, False)),
-        ([1e-12, -0.2], [-0.3, -0.1, -0.01, 0], (False, False)),
-        ([-0.2, 0.01], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (False, False)),
-        ([0.01, 0.02, 44.0], [0, 0.01, 0.1, 0.3], (False, True)),
-        ([-5.0, 0.01, 0.02], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (True, False)),
-        ([0.05, 0.05], [0, 0.01, 0.1, 0.3], (False, False)),
-        ([0.0, 0.0], [-0.3, -0.1, -0.01, 0, 0.01, 0.1, 0.3], (False, False)),
-        ([np.nan, -0.05], [-0.3, -0.1, -0.01, 0], (False, False)),
-        ([0.9, 1.0, 1.1], [0, 0.1, 1.1], (False, False)),
+        ([0.002, 0.2], [0, 0.01, 0.03, 0.1, 0.3], (False, False)),
+        ([-0.002, -0.2], [-0.3, -0.1, -0.03, -0.01, 0], (False, False)),
+        ([1e-12, -0.2], [-0.3, -0.1, -0.03, -0.01, 0], (False, False)),
+        ([-0.2, 0.01], RATES_SHOWN, (False, False)),
+        ([0.01, 0.02, 44.0], [0, 0.01, 0.03, 0.1, 0.3], (False, True)),
+        ([-5.0, 0.01, 0.02], RATES_SHOWN, (True, False)),
+        ([0.05, 0.05], [0, 0.01, 0.03, 0.1, 0.3], (False, False)),
+        ([0.0, 0.0], RATES_SHOWN, (False, False)),
+        ([np.nan, -0.05], [-0.3, -0.1, -0.03, -0.01, 0], (False, False)),
+        ([0.9, 1.0, 1.1], [0, 0.1, 0.3, 1.1], (False, False)),
     ],
 )
 def test_the_bar_of_growth_rates_has_the_signs_that_they_have(

@@ -1,16 +1,20 @@
 """Numbers along axes: fewer of them where they would meet."""
 
+from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import Formatter, MaxNLocator
+from matplotlib.ticker import FixedLocator, Formatter, MaxNLocator
 
 from disc_model.figures.types import Axes
 
 MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
 NUMBERS_APART = 4.0  # points, least gap between these
 HEIGHTS_APART = 1.5  # points, least gap between numbers on each other
+UNEVEN = ("asinh", "log", "symlog")  # scales on which equal steps have unequal lengths
+Number = tuple[float, Any]
+"""A number beside an axis, and the box that it takes."""
 
 
 def part_numbers(ax: Axes) -> None:
@@ -70,38 +74,79 @@ class Sparing(Formatter):
 
 
 def spare_numbers(bar: Axes) -> None:
-    """Hide numbers beside a bar of colours where they would meet: all but every second one from zero
-    or a power of ten on, or every third, and so on."""
+    """Hide numbers beside a bar of colours where they would meet.
+
+    On even steps these are all but every second one from zero or a power of ten on, or every third,
+    and so on. Where a scale is neither linear nor one of whole decades, the ends stay.
+    """
     axis: Any = bar.yaxis
     _show_all_numbers(axis)
     numbers = _numbers_beside(axis)
+    has_own_steps = isinstance(axis.get_major_locator(), FixedLocator)
+    if bar.get_yscale() in UNEVEN and has_own_steps:
+        hidden = _meeting(_ends_first(numbers), gap=0.0)
+    else:
+        hidden = _between_even_steps(axis, numbers)
+    if hidden:
+        _hide_numbers(axis, hidden)
+
+
+def _between_even_steps(axis: Any, numbers: Sequence[Number]) -> list[float]:
+    """Numbers to hide so that every second one from zero or a power of ten on is left, or every third,
+    and so on, until they do not meet."""
     values = [number for number, _ in numbers]
     whole = [place for place in (0.0, *_shown(axis, axis.get_majorticklocs())) if place in values]
     anchor = values.index(whole[0]) if whole else 0
 
     every = 1
-    kept = numbers
+    kept = list(numbers)
     while not all(after[1].y0 > before[1].y1 for before, after in pairwise(kept)):
         every += 1
         kept = [each for i, each in enumerate(numbers) if (i - anchor) % every == 0]
-    if every == 1:
-        return
     known = [number for number, _ in kept]
-    _hide_numbers(axis, [number for number in values if number not in known])
+    return [number for number in values if number not in known]
 
 
 def spare_heights(ax: Axes) -> None:
     """Hide numbers beside a scale of heights that is not linear where they would meet: those of minor
-    ticks first, and of equal ones those that are further from zero."""
+    ticks first, and of equal ones those that are further from zero; on a scale through zero the
+    outermost ones stay, without which it would seem linear."""
     axis: Any = ax.yaxis
     if ax.get_yscale() == "linear":
         return
     _show_all_numbers(axis)
-    whole = _shown(axis, axis.get_majorticklocs())
-    numbers = sorted(
-        _numbers_beside(axis), key=lambda each: (each[0] not in whole, abs(each[0]), each[0])
-    )
-    gap = HEIGHTS_APART * axis.get_figure(root=True).dpi / 72
+    numbers = _numbers_beside(axis)
+    if ax.get_yscale() == "symlog":
+        hidden = _meeting(_ends_first(numbers), gap=0.0)
+    else:
+        whole = _shown(axis, axis.get_majorticklocs())
+        numbers.sort(key=lambda each: (each[0] not in whole, abs(each[0]), each[0]))
+        hidden = _meeting(numbers, HEIGHTS_APART * axis.get_figure(root=True).dpi / 72)
+    if hidden:
+        _hide_numbers(axis, hidden)
+
+
+def _ends_first(numbers: Sequence[Number]) -> list[Number]:
+    """Numbers with their boxes, in the order in which they say most of an uneven scale: the ends, zero,
+    powers of ten from the smallest on, which ends its linear part, and others."""
+    values = [number for number, _ in numbers]
+    ends = (min(values, default=0.0), max(values, default=0.0))
+
+    def rank(each: Number) -> tuple[bool, bool, float]:
+        number = each[0]
+        return number not in (*ends, 0.0), not _is_power_of_ten(number), abs(number)
+
+    return sorted(numbers, key=rank)
+
+
+def _is_power_of_ten(number: float) -> bool:
+    """Whether a number, or its negative, is a power of ten."""
+    return f"{number:e}".lstrip("-").startswith("1.000000")
+
+
+def _meeting(numbers: Sequence[Number], gap: float) -> list[float]:
+    """Those of some numbers whose boxes would meet one of those before them, or come nearer to it than
+    a gap."""
     kept: list[Any] = []
     hidden = []
     for number, box in numbers:
@@ -109,8 +154,7 @@ def spare_heights(ax: Axes) -> None:
             hidden.append(number)
         else:
             kept.append(box.padded(0, gap))
-    if hidden:
-        _hide_numbers(axis, hidden)
+    return hidden
 
 
 def _show_all_numbers(axis: Any) -> None:
@@ -130,7 +174,7 @@ def _hide_numbers(axis: Any, hidden: list[float]) -> None:
         replace(sparing)
 
 
-def _numbers_beside(axis: Any) -> list[tuple[float, Any]]:
+def _numbers_beside(axis: Any) -> list[Number]:
     """The numbers beside a vertical axis from the lowest on, and the boxes that they take."""
     found = []
     for minor in (False, True):

@@ -17,7 +17,7 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
-from matplotlib.ticker import Formatter
+from matplotlib.ticker import Formatter, LogLocator
 
 from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.drawing import parents_of_bar
@@ -33,6 +33,8 @@ GREATEST = 0.3  # growth rate at which the colours end, 1/s, unless most rates a
 COMMON = 0.98  # share of rates within the scale then, since a few large ones would pale the others
 LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly linear
 LINEAR_OF_MEDIAN = 0.2  # of the median rate, up to which it is nearly linear at most
+MOST_POWERS = 9  # of ten beside a bar of a logarithmic scale
+LEAST_POWERS = 3  # of ten, which alone let a logarithmic scale be read
 COLOURS = 256  # of a part of a map of colours
 NEAR_END = 0.06  # of a bar of growth rates, within which a number would meet that of its end
 EXTENDS = {
@@ -118,7 +120,21 @@ def _positive(usual: Colormap, low: float, high: float, growth: bool) -> Scale:
     scale of their maps."""
     if growth:
         usual = ListedColormap(cm.vik(np.linspace(0.55, 1, 256)))
-    return Scale(usual, LogNorm(low, high if high > low else 10 * low))
+    norm = LogNorm(low, high if high > low else 10 * low)
+    return Scale(usual, norm, places=_steps_of_few_decades(norm))
+
+
+def _steps_of_few_decades(norm: LogNorm) -> list[float]:
+    """Ticks of a logarithmic scale with less than three powers of ten: one, two and five times these;
+    none of its own within a decade, or with more of them."""
+    low, high = float(norm.vmin or 1.0), float(norm.vmax or 1.0)
+    first, last = np.ceil(np.log10(low)), np.floor(np.log10(high))
+    if within_a_decade(norm) or last - first >= LEAST_POWERS - 1:
+        return []
+    powers = 10.0 ** np.arange(first - 1, last + 1)
+    steps = np.outer(powers, [1, 2, 5]).ravel()
+    rounding = 1 + ROUNDING
+    return [float(step) for step in steps if low / rounding <= step <= high * rounding]
 
 
 # ---- Growth rates
@@ -185,13 +201,19 @@ def _ends_of_bar(rates: Array, end: float, wishes: ColourWishes) -> tuple[float,
 
 
 def _places_of_rates(norm: AsinhNorm) -> list[float]:
-    """Ticks of the bar of growth rates: both ends, zero, and two powers of ten on each side that are
-    not near an end."""
+    """Ticks of the bar of growth rates: both ends, zero, and one and three times two powers of ten on
+    each side that are not near an end."""
     low, high = float(norm.vmin or 0.0), float(norm.vmax or 0.0)
     largest = float(10.0 ** np.floor(np.log10(max(-low, high))))
-    places = [-largest, -largest / 10, 0.0, largest / 10, largest]
-    inside = [place for place in places if NEAR_END < float(norm(place)) < 1 - NEAR_END]
-    return [low, *inside, high]
+    sizes = [largest / 10, 3 * largest / 10, largest, 3 * largest]
+    below = [-size for size in reversed(sizes)]
+    return _with_ends([*below, 0.0, *sizes], norm)
+
+
+def _with_ends(places: Sequence[float], norm: Normalize) -> list[float]:
+    """The ends of a scale, and those of some places between them that are not near one."""
+    inside = [float(place) for place in places if NEAR_END < float(norm(place)) < 1 - NEAR_END]
+    return [float(norm.vmin or 0.0), *inside, float(norm.vmax or 0.0)]
 
 
 def _has_scale_of_rates(rates: Array, wishes: ColourWishes) -> bool:
@@ -227,7 +249,7 @@ def _through_zero(cmap: Colormap, values: Array, low: float, high: float) -> Sca
     if low == high == 0:
         high = linear
     norm = AsinhNorm(linear_width=linear, vmin=low, vmax=high)
-    return Scale(cmap, norm, places=decades_through_zero(linear, low, high))
+    return Scale(cmap, norm, places=_with_ends(decades_through_zero(linear, low, high), norm))
 
 
 def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
@@ -273,6 +295,9 @@ def draw_bar(figure: FigureBase, axes: Sequence[Axes], mesh: Any, scale: Scale, 
     elif isinstance(scale.norm, LogNorm) and within_a_decade(scale.norm):
         bar.ax.yaxis.set_minor_formatter("{x:g}")
         bar.ax.yaxis.set_major_formatter("{x:g}")
+    elif isinstance(scale.norm, LogNorm):
+        # else their count depends on the height, and may leave two of five
+        bar.locator = LogLocator(numticks=MOST_POWERS)
 
 
 def bars_of(ax: Axes) -> list[Axes]:
