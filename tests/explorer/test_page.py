@@ -266,6 +266,8 @@ def test_a_separation_without_a_time_is_not_timed(before: str) -> None:
     assert gaps is not None
     labels = [gaps["looks"][code - 1]["label"] for code in numbers(gaps, "u1")]
     assert labels == 2 * expected
+    hatches = {look["hatch"] for look in gaps["looks"]}
+    assert len(hatches) == 3, "each has a pattern of its own"
 
 
 def test_a_motion_that_did_not_separate_is_called_as_in_figures() -> None:

@@ -46,9 +46,13 @@ def classes_without_time(
 
 
 def looks_without_time(study: xr.Dataset, name: str) -> Mapping[str, Look]:
-    """The looks of these classes."""
-    kept = missing_text(study, name).removesuffix(", or not timed")
+    """The looks of these classes, and of points whose outcome does not say why, which differ."""
+    if OUTCOMES.get(name, "") not in study:
+        return {}
+    unknown = missing_text(study, name)
+    kept = unknown.removesuffix(", or not timed")
     return {
         CONTACT_KEPT: NO_VALUE._replace(label=kept),
         NOT_TIMED: NO_VALUE._replace(label="not timed", hatch=3 * "|"),
+        WITHOUT_VALUE: NO_VALUE._replace(label=unknown, hatch=4 * "\\"),
     }
