@@ -63,13 +63,15 @@ def test_a_narrow_range_beyond_a_decade_has_twos_and_fives(opened: Open) -> None
 
 def test_bars_of_rates_have_three_numbers_beyond_their_linear_part(opened: Open) -> None:
     with opened(contents()) as shown:
-        for rates in ([0.001, 0.2], [-0.2, -0.01], [-0.2, 0.2]):
-            words = as_numbers(shown.ask("wordsOfBar", rates, SCALE))
+        cases = (([0.001, 0.1], 0.12), ([-0.1, -0.01], 0.12), ([-0.2, 0.2], 0.3))
+        for rates, end in cases:
+            scale = {**SCALE, "end": end}
+            words = as_numbers(shown.ask("wordsOfBar", rates, scale))
             assert words == sorted(words)
             for sign in {1 if rate > 0 else -1 for rate in rates}:
                 beyond = [number for number in words if sign * number >= SCALE["width"]]
                 assert len(beyond) >= 3, (rates, words)
-                assert max(beyond, key=abs) == sign * SCALE["end"], "the end"
+                assert max(beyond, key=abs) == sign * end, "the end"
 
 
 def test_lines_over_decades_have_numbers_at_both_ends(opened: Open) -> None:
