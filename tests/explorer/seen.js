@@ -92,6 +92,16 @@ const seen = {
     colourBar(ink, { left: 0, right: 300, top: 0, bottom: 10 }, coloursOfRates(rates, scale), []);
     return words.sort((a, b) => a[0] - b[0]).map(([, text]) => text);
   },
+  // The numbers that are written on the vertical axis of growth rates, from the largest to the least, and whether it is linear.
+  wordsOfRates(rates, scale, height) {
+    const words = [];
+    const ink = document.createElement("canvas").getContext("2d");
+    ink.fillText = (text, x, y) => words.push([y, text]);
+    const ys = scaleOfNumbers({ scale }, rates);
+    const position = linear(ys.borders[0], ys.borders.at(-1), height, 0);
+    yAxis(ink, { left: 50, top: 0 }, ys.ticks(), position, []);
+    return [words.sort((a, b) => a[0] - b[0]).map(([, text]) => text), ys.to === identity];
+  },
   sizesOfType: of => [...document.querySelectorAll(of)]
     .filter(x => x.innerText).map(x => parseFloat(getComputedStyle(x).fontSize)),
 };

@@ -330,3 +330,20 @@ def test_powers_of_ten_are_factors(opened: Open) -> None:
     with opened([contents_of("plane", plane())]) as shown:
         said = shown.page.run("return [withUnit('2.3', '10⁻⁵ N m s'), withUnit('2.3', 'N')]")
     assert said == ["2.3·10⁻⁵ N m s", "2.3 N"]
+
+
+def test_the_chosen_value_is_told_after_a_change_of_axes(opened: Open) -> None:
+    """The line below the map was blank until the next click, though the point was still marked."""
+    with opened([contents_of("plane", plane())]) as shown:
+        shown.page.run("choose({N: 2, Omega: 3, normalization: 0})")
+        for label, option in {"Up": "normalization", "Across": "N", "Variable": "outcome"}.items():
+            shown.choose(label, option)
+            said = shown.text("hovered")
+            assert "N = 385 N" in said or "Ω = 20 rad/s" in said, label
+            assert shown.page.run("return view.variable.label") in said
+        shown.point(0, 0)
+        pointed = shown.text("hovered")
+        shown.page.run("element('map').dispatchEvent(new Event('pointerleave'))")
+        left = shown.text("hovered")
+    assert "N = 100 N" in pointed
+    assert "N = 385 N" in left, "the chosen point again"

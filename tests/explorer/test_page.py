@@ -240,10 +240,34 @@ def test_a_sample_that_was_not_simulated_has_no_time_for_this_reason() -> None:
     study.attrs["options"] = '{"horizon": 500, "extrapolate": true}'
     variables = {one["name"]: one for one in contents_of("samples", study)["variables"]}
     gaps = variables["first_separation"]["gaps"]
-    assert [look["label"] for look in gaps["looks"]] == [
-        "none within 500 s, or not timed",
-        "not simulated",
-    ]
+    assert [look["label"] for look in gaps["looks"]] == ["none within 500 s", "not simulated"]
+
+
+@pytest.mark.parametrize("before", ["", "scan_"])
+def test_a_separation_without_a_time_is_not_timed(before: str) -> None:
+    """A point with the outcome "separation" was said to have "none within 1000 s, or not timed"."""
+    study = plane().isel(normalization=0, drop=True)
+    study = study.drop_vars("outcome")
+    words = ["quiet", "growing", "separation", "separating", "undecided", "irregular"]
+    expected = [*2 * ["none within 1000 s"], *2 * ["not timed"]]
+    expected += 2 * ["none within 1000 s, or not timed"]
+    outcomes = xr.DataArray(
+        np.arange(12, dtype=np.int8).reshape(3, 4) % 6,
+        dims=("N", "Omega"),
+        attrs=flagged(" ".join(words)),
+    )
+    study[f"{before}outcome"] = outcomes
+    study["status"] = outcomes.copy(data=np.zeros((3, 4), np.int8))
+    study["status"].attrs = flagged("ok failed")
+    study[f"{before}first_separation"] = outcomes.copy(data=np.full((3, 4), np.nan))
+    study[f"{before}first_separation"].attrs = {"units": "s"}
+    study.attrs["options"] = '{"horizon": 1000, "extrapolate": true}'
+    gaps = _gaps(study, study[f"{before}first_separation"])
+    assert gaps is not None
+    labels = [gaps["looks"][code - 1]["label"] for code in numbers(gaps, "u1")]
+    assert labels == 2 * expected
+    hatches = {look["hatch"] for look in gaps["looks"]}
+    assert len(hatches) == 3, "each has a pattern of its own"
 
 
 def test_a_motion_that_did_not_separate_is_called_as_in_figures() -> None:

@@ -16,6 +16,7 @@ from disc_model.explorer.packing import packed
 from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
 from disc_model.explorer.sampled import marks_of_samples, strip_of_kinds
+from disc_model.explorer.untimed import classes_without_time, looks_without_time
 from disc_model.figures.classes import AT_BOUND, LOOKS, Look, looks_of
 from disc_model.figures.colours import growth_norm, is_growth
 from disc_model.figures.curve_marks import reason_of_open_steps
@@ -449,6 +450,7 @@ def _gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
     codes = np.searchsorted(["", *classes], words)
     unvalued = LOOKS[NO_VALUE]._replace(label=missing_text(study, str(variable.name)))
     looks = {**looks_of(classes), NO_VALUE: unvalued}
+    looks |= looks_without_time(study, str(variable.name))
     return {
         "dims": list(variable.dims),
         "looks": [_look(looks[word]) for word in classes],
@@ -462,7 +464,7 @@ def _words_of_gaps(study: xr.Dataset, variable: xr.DataArray) -> np.ndarray:
         return np.where(np.isfinite(variable.values.astype(float)), "", NO_VALUE)
     if is_growth(variable.name):
         return classes_without_rate(study, str(variable.name))
-    return classes_of_gaps(study, variable)
+    return classes_without_time(study, variable, classes_of_gaps(study, variable))
 
 
 def _scale(variable: xr.DataArray) -> dict[str, float] | None:

@@ -88,8 +88,11 @@ function inkOn(colour) {
   return lightness < 0.5 ? "#ffffff" : "#000000";
 }
 
-/** Colours of numbers: `colour(x)`, `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers, and the words of its
- * ends `beyond` which numbers lie. */
+// shares of a bar that is not linear, those first that are written where there is no room for all
+const EIGHTHS = [0, 1, 0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875];
+
+/** Colours of numbers: `colour(x)`, `ticks(size)` of the bar, of a size in pixels, as shares of it and numbers, the more important
+ * ones first, and the words of its ends `beyond` which numbers lie. */
 function colouring(numbers, { scale, whole }) {
   const finite = numbers.filter(Number.isFinite).sort((a, b) => a - b);
   if (!finite.length) return null;
@@ -115,7 +118,7 @@ function colouring(numbers, { scale, whole }) {
     ticks: (pixels) => {
       if (size === 0) return [[0.5, least]]; // one number alone
       if (whole) return wholeTicks(least, greatest, pixels).map((count) => [place(count), count]);
-      const places = pixels < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1];
+      const places = stretched ? EIGHTHS : pixels < 360 ? [0, 0.5, 1] : [0, 0.25, 0.5, 0.75, 1];
       return places.map((at) => [at, found(at)]);
     },
   };
@@ -139,7 +142,9 @@ function coloursOfRates(rates, usual) {
   const map = all.slice(low === 0 ? all.length / 2 : 0, high === 0 ? all.length / 2 : all.length);
   const beyond = [rates[0] < -end ? `≤ ${number(-end, 3)}` : "", rates.at(-1) > end ? `≥ ${number(end, 3)}` : ""];
   const marked = ratesOnBar(low, high).filter((rate) => isAwayFromEnds(place(rate)));
-  const ticks = () => [low, ...marked, high].map((rate) => [place(rate), rate]);
+  const steps = stepsUpTo(end, width).flatMap((size) => [-size, size]);
+  const between = steps.filter((rate) => isAwayFromEnds(place(rate)));
+  const ticks = () => [...new Set([low, high, ...marked, ...between])].map((rate) => [place(rate), rate]);
   return { map, beyond, colour: (x) => colourAt(all, share(x)), ticks };
 }
 
@@ -150,6 +155,19 @@ function endsOfRates(rates, end) {
   if (least >= -rounding && greatest > rounding) return [0, end];
   if (greatest <= rounding && least < -rounding) return [-end, 0];
   return [-end, end];
+}
+
+/** The numbers 1, 2 and 5 times the powers of ten from a number on, up to another one. */
+const stepsUpTo = (greatest, least) => stepsBetween(least, greatest).filter((step) => step >= least && step <= greatest);
+
+const isPowerOfTen = (step) => Math.abs(log10(step) - Math.round(log10(step))) < 1e-9;
+
+/** The numbers 1, 2 and 5 times the powers of ten of some decades, in ascending order: those of two numbers, and one more. */
+function stepsBetween(least, greatest) {
+  const found = [];
+  for (let power = Math.floor(log10(least)); power <= Math.floor(log10(greatest)) + 1; power++)
+    for (const digit of [1, 2, 5]) found.push(Number(`${digit}e${power}`));
+  return found;
 }
 
 /** Zero and two powers of ten on each side of it, up to the larger end of a bar of growth rates. */
@@ -295,13 +313,16 @@ function xAxis(ink, box, ticks, position, title) {
   write(ink, title, middle, box.bottom + 26, "center", "top");
 }
 
-/** An axis on the left, its title in lines above it. */
+/** An axis on the left, its title in lines above it; a number that would meet one before it in the list is not written. */
 function yAxis(ink, box, ticks, position, title) {
   ink.strokeStyle = style("--line");
+  const written = [];
   for (const [at, text] of ticks) {
     const y = position(at);
     line(ink, box.left - 4, y, box.left, y);
+    if (written.some((other) => Math.abs(other - y) < LINE - 2)) continue;
     write(ink, text, box.left - 7, y, "right");
+    written.push(y);
   }
   writeLines(ink, title, box.left, box.top - 10);
 }

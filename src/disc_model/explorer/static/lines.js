@@ -26,13 +26,15 @@ function scaleBetween(numbers, { whole }) {
 
 /** The scale of the heights of lines: logarithmic where positive numbers are far apart. */
 function scaleOfHeights(variable, numbers) {
-  const positive = numbers.filter((one) => one > 0);
+  const positive = numbers.filter((one) => one > 0 && Number.isFinite(one));
   const [least, greatest] = [Math.min(...positive), Math.max(...positive)];
   if (numbers.some((one) => one <= 0) || !(greatest > LOGARITHMIC * least)) return scaleOfNumbers(variable, numbers);
-  const borders = [log10(least) - 0.1, log10(greatest) + 0.1];
-  const ticks = [];
-  for (let power = Math.ceil(borders[0]); power <= borders[1]; power++) ticks.push([power, number(10 ** power, 2)]);
-  return { borders, to: log10, ticks: () => ticks };
+  const steps = stepsBetween(least, greatest);
+  const [low, high] = [steps.findLast((step) => step <= least), steps.find((step) => step >= greatest)];
+  const inside = stepsUpTo(high, low);
+  const decades = inside.filter(isPowerOfTen);
+  const ticks = [...new Set([low, high, ...decades, ...inside])].map((step) => [log10(step), number(step, 2)]);
+  return { borders: [log10(low) - 0.05, log10(high) + 0.05], to: log10, ticks: () => ticks };
 }
 
 /** The looks of lines by what is known of their points: their stability, and whether contact is lost on the cycle. */

@@ -167,8 +167,10 @@ function markOfClass(ink, chosen, x, y, radius) {
   draw(ink, x, y, radius);
 }
 
+const APART = 6; // between texts below a bar, pixels
+
 /** The room that a text takes at an end of a bar, with a gap beside it. */
-const roomOf = (ink, text) => (text ? ink.measureText(text).width + 6 : 0);
+const roomOf = (ink, text) => (text ? ink.measureText(text).width + APART : 0);
 
 function colourBar(ink, box, colours, title) {
   const size = box.right - box.left;
@@ -183,11 +185,17 @@ function colourBar(ink, box, colours, title) {
   write(ink, below, box.left, box.bottom + 5, "left", "top");
   write(ink, above, box.right, box.bottom + 5, "right", "top");
   const [first, last] = [box.left + roomOf(ink, below), box.right - roomOf(ink, above)];
+  const written = [];
   for (const [share, found] of ticks) {
-    const align = share === 0 ? "left" : share === 1 ? "right" : "center";
-    const [text, x] = [number(found, digits), box.left + share * size];
-    const half = align === "center" ? ink.measureText(text).width / 2 : 0;
-    if (x - half >= first && x + half <= last) write(ink, text, x, box.bottom + 5, align, "top");
+    const text = number(found, digits);
+    const width = ink.measureText(text).width;
+    const at = box.left + share * size;
+    const left = Math.max(box.left, Math.min(at - width / 2, box.right - width));
+    const right = left + width;
+    const isFree = written.every((other) => right + APART <= other.left || left >= other.right + APART);
+    if (left < first || right > last || !isFree) continue;
+    write(ink, text, left, box.bottom + 5, "left", "top");
+    written.push({ left, right });
   }
   writeLines(ink, title, box.left, box.top - 4);
 }
@@ -245,7 +253,8 @@ function legendEntry([look, text]) {
 function scaleOfNumbers(variable, numbers) {
   const finite = numbers.filter(Number.isFinite);
   const [least, greatest] = finite.length ? [Math.min(...finite), Math.max(...finite)] : [0, 1];
-  if (variable.scale && Math.max(-least, greatest) > 2 * variable.scale.width) return scaleOfRates(variable.scale, least, greatest);
+  const isOfRates = variable.scale && finite.length > 0;
+  if (isOfRates && isOverDecades(variable.scale, least, greatest)) return scaleOfRates(variable.scale, least, greatest);
   const room = (greatest - least || Math.abs(greatest) || 1) / 20;
   if (!finite.length) return { borders: [least, greatest], to: identity, ticks: () => [] };
   const ticks = variable.flags
@@ -254,18 +263,40 @@ function scaleOfNumbers(variable, numbers) {
   return { borders: [least - room, greatest + room], to: identity, ticks: () => ticks };
 }
 
+/** Whether growth rates lie over more than a linear axis shows: some by more than a decade beyond the width around 0 in which
+ * colours are linear, and not all of one sign within a decade. */
+function isOverDecades({ width }, least, greatest) {
+  const [smaller, larger] = [Math.abs(least), Math.abs(greatest)].sort((a, b) => a - b);
+  return larger > 10 * width && !(least * greatest > 0 && larger <= 10 * smaller);
+}
+
 /** The scale of a curve of growth rates: nearly linear around 0 and nearly logarithmic beyond, as peaks of tens stand beside
- * hundredths; its width is that of the colours of maps. */
+ * hundredths; its width is that of the colours of maps. It has round numbers at both ends. */
 function scaleOfRates({ width }, least, greatest) {
   const to = (rate) => Math.asinh(rate / width);
-  const room = (to(greatest) - to(least) || 1) / 20;
-  const borders = [to(least) - room, to(greatest) + room];
-  const ticks = [0];
-  const first = Math.floor(log10(width));
-  for (let power = first; power <= Math.ceil(log10(Math.max(-least, greatest))); power++)
-    ticks.push(10 ** power, -(10 ** power));
-  const inside = ticks.map((rate) => [to(rate), number(rate, 2)]).filter(([at]) => at >= borders[0] && at <= borders[1]);
-  return { borders, to, ticks: () => inside };
+  const [low, high] = [-endBeyond(-least, width), endBeyond(greatest, width)];
+  const room = (to(high) - to(low)) / 50;
+  const borders = [to(low) - room, to(high) + room];
+  const sizes = stepsUpTo(Math.max(-low, high), 10 ** Math.floor(log10(width)));
+  const decades = sizes.filter(isPowerOfTen);
+  const signed = [...decades, ...sizes].flatMap((size) => [size, -size]);
+  const inside = signed.filter((rate) => rate > low && rate < high);
+  const ticks = [...new Set([low, high, ...(low <= 0 && high >= 0 ? [0] : []), ...inside])];
+  return { borders, to, ticks: () => ticks.map((rate) => [to(rate), number(rate, 2)]) };
+}
+
+const FEWEST = 3; // numbers on a part of an axis that is logarithmic
+
+/** The round number at an end of an axis of growth rates at or beyond a rate, counted outward from 0; where the rate lies beyond
+ * the width, it is one of at least three beyond it. Of a rate on the other side of 0, it is the one before that. */
+function endBeyond(rate, width) {
+  const { rounding } = contents.rates;
+  if (Math.abs(rate) <= rounding) return 0;
+  const steps = stepsBetween(Math.abs(rate), Math.abs(rate));
+  if (rate < 0) return -steps.findLast((step) => step <= -rate);
+  const end = steps.find((step) => step >= rate);
+  if (rate <= width) return end;
+  return Math.max(end, stepsBetween(width, width).filter((step) => step >= width)[FEWEST - 1]);
 }
 
 /** Whether a curve joins its points: those of one line, along which its number has values between them; counts have none. */

@@ -43,13 +43,11 @@ function where(place, dims = view.study.dims) {
   return dims.map(valueAlong).join(", ");
 }
 
-function hover(place) {
+/** The value at a place, below the map: that of the chosen point where the pointer is at none. */
+function hover(pointed) {
   const { study, variable, x } = view;
   const axes = [x, second()].filter((name) => name !== NONE).map((name) => study.dim[name]);
-  if (!place) {
-    element("hovered").textContent = "";
-    return;
-  }
+  const place = pointed ?? view.place;
   const found = shown(study, variable, place);
   const status = failed(study, place) ? shown(study, study.status, place) : found;
   const said = status === found ? found : `${found}; ${status}`;
