@@ -142,7 +142,7 @@ function coloursOfRates(rates, usual) {
   const map = all.slice(low === 0 ? all.length / 2 : 0, high === 0 ? all.length / 2 : all.length);
   const beyond = [rates[0] < -end ? `≤ ${number(-end, 3)}` : "", rates.at(-1) > end ? `≥ ${number(end, 3)}` : ""];
   const marked = ratesOnBar(low, high).filter((rate) => isAwayFromEnds(place(rate)));
-  const steps = stepsUpTo(end, width).flatMap((size) => [-size, size]);
+  const steps = stepsUpTo(end, width, STEPS_OF_BAR).flatMap((size) => [-size, size]);
   const between = steps.filter((rate) => isAwayFromEnds(place(rate)));
   const ticks = () => [...new Set([low, high, ...marked, ...between])].map((rate) => [place(rate), rate]);
   return { map, beyond, colour: (x) => colourAt(all, share(x)), ticks };
@@ -157,16 +157,21 @@ function endsOfRates(rates, end) {
   return [-end, end];
 }
 
-/** The numbers 1, 2 and 5 times the powers of ten from a number on, up to another one. */
-const stepsUpTo = (greatest, least) => stepsBetween(least, greatest).filter((step) => step >= least && step <= greatest);
+const STEPS = [1, 2, 5]; // times powers of ten, along an axis
+
+const STEPS_OF_BAR = [1, 3]; // those of figures
+
+/** The steps of the decades from a number on, up to another one. */
+const stepsUpTo = (greatest, least, digits = STEPS) =>
+  stepsBetween(least, greatest, digits).filter((step) => step >= least && step <= greatest);
 
 const isPowerOfTen = (step) => Math.abs(log10(step) - Math.round(log10(step))) < 1e-9;
 
-/** The numbers 1, 2 and 5 times the powers of ten of some decades, in ascending order: those of two numbers, and one more. */
-function stepsBetween(least, greatest) {
+/** The steps of some decades, in ascending order: those of two numbers, and one more. */
+function stepsBetween(least, greatest, digits = STEPS) {
   const found = [];
   for (let power = Math.floor(log10(least)); power <= Math.floor(log10(greatest)) + 1; power++)
-    for (const digit of [1, 2, 5]) found.push(Number(`${digit}e${power}`));
+    for (const digit of digits) found.push(Number(`${digit}e${power}`));
   return found;
 }
 
