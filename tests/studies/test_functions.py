@@ -250,7 +250,7 @@ def test_a_critical_speed_within_one_horizon_is_a_number(
     assert speeds["critical_speed"].dims == dims
     assert speeds["at_lower_bound"].dims == dims
     assert speeds["crossing"].dims == (*dims, "crossing_number")
-    assert speeds["horizon"].item() == 0.5
+    assert json.loads(speeds.attrs["options"])["horizons"] == [0.5]
 
 
 def test_a_critical_speed_that_is_nan_is_said_in_words() -> None:
