@@ -14,7 +14,7 @@ SPEED = "Omega"
 ONSETS = ("onset_speed", "onset")
 """Names of the value at which separation begins: of the speed, and of another number,"""
 ENDS = ("offset_speed", "offset")
-"""and of that at which it ends."""
+"""and of that at which it ends, in the same order."""
 
 
 class SweptSpeeds(NamedTuple):
@@ -42,10 +42,8 @@ def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
     apart = sweep["separation_rate"] > 0
     rising = apart.sel(direction="up", drop=True)
     falling = apart.sel(direction="down", drop=True)
-    onset, end = ONSETS[0], ENDS[0]
     name = number_swept(sweep)
-    if name != SPEED:
-        onset, end = ONSETS[1], ENDS[1]
+    onset, end = edges_along(name)
     speeds = sweep[f"sweep_{name}"]
     along = str(speeds.dims[-1])  # another one than the speed where sweeps have different speeds
     begins_at_bound = rising.isel({along: 0}, drop=True)
@@ -65,6 +63,12 @@ def swept_speeds(sweep: xr.Dataset) -> SweptSpeeds:
         onset_unsettled=doubtful_up.any(along),
         end_unsettled=doubtful_down.any(along),
     )
+
+
+def edges_along(name: str) -> tuple[str, str]:
+    """The names of the values at which separation begins and ends along sweeps of a number."""
+    place = 0 if name == SPEED else 1
+    return ONSETS[place], ENDS[place]
 
 
 def number_swept(study: xr.Dataset) -> str:

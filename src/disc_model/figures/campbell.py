@@ -7,7 +7,7 @@ import xarray as xr
 
 from disc_model.figures.campbell_legend import entries_of
 from disc_model.figures.campbell_names import name_peaks
-from disc_model.figures.campbell_panels import draw_panels
+from disc_model.figures.campbell_panels import HEIGHT, draw_panels
 from disc_model.figures.campbell_peaks import Column, peaks
 from disc_model.figures.drawing import PAGE, letters, panels
 from disc_model.figures.kinds.motions import Campbell
@@ -16,7 +16,6 @@ from disc_model.figures.legends import figure_legend
 from disc_model.figures.selection import NORM, normalizations
 from disc_model.figures.types import Axes, Figure
 
-HEIGHT = 5.4  # inch, of a figure whose pairs of panels stand beside each other
 STACKED = 3.2  # inch, of each of several pairs below each other
 LEGEND = 2.4  # inch, of the legend below these
 ROOM = 1.06  # highest frequency of the axis over that of the modes

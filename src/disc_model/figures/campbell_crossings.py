@@ -25,7 +25,11 @@ def multiple_text(crossing: xr.Dataset) -> str:
     return f"{float(crossing['crossing_multiple']):g} {symbol_of_line(crossing)}"
 
 
+def is_of_slips(crossing: xr.Dataset) -> bool:
+    """Whether a mode meets a multiple of the stick-slip frequency, and not of that of the drive."""
+    return bool(flag_names(crossing["crossing_line"]) == "stick_slip")
+
+
 def symbol_of_line(crossing: xr.Dataset) -> str:
     """The symbol of the frequency of which a mode meets a multiple."""
-    by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
-    return SYMBOLS[0 if by_slips else 1]
+    return SYMBOLS[0 if is_of_slips(crossing) else 1]

@@ -7,14 +7,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from disc_model.figures.campbell_panels import FREQUENCY, RATE
+from disc_model.figures.campbell_panels import FREQUENCY, HEIGHT, RATE
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, large
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
 from disc_model.figures.words import SPEED
 
-HEIGHT = 5.4  # inch, with its legend
 OF_SEVERAL = 4.4  # inch of each of several bands of panels
 MOST_ACROSS = 3  # panels beside each other in a new figure
 

@@ -2,8 +2,7 @@
 
 import xarray as xr
 
-from disc_model.data.variables import flag_names
-from disc_model.figures.campbell_crossings import meeting_of
+from disc_model.figures.campbell_crossings import is_of_slips, meeting_of
 from disc_model.figures.campbell_looks import beyond_look, dot_look, multiple_look, speed_look
 from disc_model.figures.campbell_multiples import draw_multiple
 from disc_model.figures.campbell_peaks import Peak
@@ -28,9 +27,8 @@ def draw_peak(top: Axes, bottom: Axes, study: xr.Dataset, peak: Peak, highest: f
         top.plot(place[0], EDGE, transform=edge, clip_on=False, **beyond_look())
         return
 
-    by_slips = flag_names(peak.crossing["crossing_line"]) == "stick_slip"
     multiple = float(peak.crossing["crossing_multiple"])
-    if by_slips:
+    if is_of_slips(peak.crossing):
         draw_multiple(top, study, multiple, zorder=0)
     else:
         turns = multiple * study["rotation_frequency"]

@@ -7,7 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import flag_names
-from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of, places_of
+from disc_model.figures.campbell_crossings import SYMBOLS, is_of_slips, meeting_of, places_of
 from disc_model.figures.campbell_looks import CROSSINGS, Crossing, crossing_look, multiple_look
 from disc_model.figures.campbell_peaks import Column, followed_frequency, jumps_of, marked_at_peaks
 from disc_model.figures.drawing import large, sample
@@ -77,8 +77,7 @@ def _multiples_at_peaks(column: Column, highest: float) -> list[float]:
     crossings = [peak.crossing for peak in column.peaks if peak.crossing is not None]
     found = []
     for crossing in crossings:
-        by_slips = flag_names(crossing["crossing_line"]) == "stick_slip"
-        if by_slips and meeting_of(crossing)[1] <= highest:
+        if is_of_slips(crossing) and meeting_of(crossing)[1] <= highest:
             found.append(float(crossing["crossing_multiple"]))
     return found
 

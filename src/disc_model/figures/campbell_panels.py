@@ -19,6 +19,7 @@ from disc_model.figures.words import SPEED
 
 FREQUENCY = "Frequency in the slider's frame (Hz)"
 RATE = "Largest growth rate\nof the cycle (1/s)"
+HEIGHT = 5.4  # inch, of a figure whose pairs of panels stand beside each other, with its legend
 ROOM = 3.0  # ends of the axis of growth rates over the largest ones, for names of peaks
 ROOM_LINEAR = 1.3  # and on a linear scale
 

@@ -1,5 +1,6 @@
 """Histories: variables against time, over stick and separation."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -125,7 +126,7 @@ def _stands_above(ax: Axes, other: Axes) -> bool:
     """Whether axes stand above others, whose numbers then are those of both."""
     place = ax.get_position(original=True)
     below = other.get_position(original=True)
-    return bool(np.isclose(place.x0, below.x0)) and place.y0 >= below.y1
+    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
 
 
 def _share_heights(grid: Any) -> None:

@@ -49,7 +49,7 @@ def plot_poincare(
     legend: Any = True,
     labels: Any = None,
     title: str | bool | None = None,
-) -> Any:
+) -> np.ndarray:
     """Draw the sections of a run in a window on two axes, which are returned."""
     called, labels = name_of_case(labels)
     wishes = Wishes(ax, legend, labels, title)

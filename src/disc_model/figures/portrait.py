@@ -1,7 +1,6 @@
 """Phase portraits: one variable over another, coloured by phase."""
 
-from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -61,39 +60,49 @@ def plot_phase_portrait(
 
 def _lines(case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> Lines:
     """How a portrait is drawn beside others: as a line in one look, whatever the phase."""
-    across, in_x, _ = sampled(x, samples)
-    up, in_y, _ = sampled(y, samples)
-    values = (samples[x].values * in_x, samples[y].values * in_y)
-    sizes = (size_of(x, case) * in_x, size_of(y, case) * in_y)
-    point = _point_of_rest(values, sizes)
+    across = _variable(case, samples, x)
+    up = _variable(case, samples, y)
+    point = _point_of_rest(across, up)
 
     def draw(ax: Axes, style: Style) -> Artist:
-        ax.plot(*values, rasterized=True, **style.layered(), **point)
-        ax.set_xlabel(across)
-        ax.set_ylabel(up)
+        ax.plot(across.values, up.values, rasterized=True, **style.layered(), **point)
+        ax.set_xlabel(across.label)
+        ax.set_ylabel(up.label)
         return sample(**style.layered(), **point)
 
-    across_limits, upward_limits = (
-        limits_of_motion(each, ROOM, size) for each, size in zip(values, sizes, strict=True)
-    )
-    return Lines(draw, (across_limits, upward_limits))
+    limits_across = limits_of_motion(across.values, ROOM, across.size)
+    limits_upward = limits_of_motion(up.values, ROOM, up.size)
+    return Lines(draw, (limits_across, limits_upward))
 
 
-def _point_of_rest(values: Sequence[Array], sizes: Sequence[float]) -> dict[str, Any]:
-    """Options of a line that is a point, as neither of its values moves in comparison with its size; none
-    of another line."""
-    if all(is_still(each, size) for each, size in zip(values, sizes, strict=True)):
+class Shown(NamedTuple):
+    """A variable along an axis of a portrait: its label, values, and its size, as `size_of` has it, all in the
+    unit that is shown."""
+
+    label: str
+    values: Array
+    size: float
+
+
+def _variable(case: xr.DataTree, samples: xr.Dataset, name: str) -> Shown:
+    """A variable of a portrait."""
+    label, factor, _ = sampled(name, samples)
+    return Shown(label, samples[name].values * factor, size_of(name, case) * factor)
+
+
+def _point_of_rest(across: Shown, up: Shown) -> dict[str, Any]:
+    """Options of a line that is a point, as neither of its variables moves in comparison with its size;
+    none of another line."""
+    if is_still(across.values, across.size) and is_still(up.values, up.size):
         return {"marker": "o", "markersize": mark(POINT)}
     return {}
 
 
 def draw_portrait(ax: Axes, case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> list[Artist]:
     """Draw one variable over another, coloured by phase; returns entries of a legend."""
-    across, in_x, _ = sampled(x, samples)
-    up, in_y, _ = sampled(y, samples)
-    values = (samples[x].values * in_x, samples[y].values * in_y)
-    sizes = (size_of(x, case) * in_x, size_of(y, case) * in_y)
-    point = _point_of_rest(values, sizes)
+    across = _variable(case, samples, x)
+    up = _variable(case, samples, y)
+    point = _point_of_rest(across, up)
     words = flag_names(samples["phase"])
     handles = []
     for name in PHASES:
@@ -101,17 +110,18 @@ def draw_portrait(ax: Axes, case: xr.DataTree, samples: xr.Dataset, x: str, y: s
         if not inside.any():
             continue
         # broken where the phase changes, so that no chord is drawn across others
-        height = np.where(inside, values[1], np.nan)
+        height = np.where(inside, up.values, np.nan)
         look: dict[str, Any] = {"color": PHASE_COLOURS[name], "label": name}
         look["linestyle"] = DASHES.get(name, "-")
         width = wide(LINES[name])
         if name == EDGED:
             look["path_effects"] = halo(width + 2 * wide(EDGE), BLACK)
-        ax.plot(values[0], height, linewidth=width, rasterized=True, **look, **point)
+        ax.plot(across.values, height, linewidth=width, rasterized=True, **look, **point)
         handles.append(sample(linewidth=width + 0.5, **look, **point))
     ax.margins(ROOM)
-    ends = [np.array(ends_shown(each, size)) for each, size in zip(values, sizes, strict=True)]
-    show_ends(ax, *ends)
-    ax.set_xlabel(across)
-    ax.set_ylabel(up)
+    ends_across = np.array(ends_shown(across.values, across.size))
+    ends_up = np.array(ends_shown(up.values, up.size))
+    show_ends(ax, ends_across, ends_up)
+    ax.set_xlabel(across.label)
+    ax.set_ylabel(up.label)
     return handles

@@ -139,7 +139,7 @@ def named(variable: xr.DataArray) -> Named:
     critical = parameter_within(variable, CRITICAL)
     if critical:
         shown = SHOWN[critical]
-        symbol = f"Critical {_within_words(shown.name)} {shown.symbol}".strip()
+        symbol = f"Critical {within_words(shown.name)} {shown.symbol}".strip()
         motion = _motion_within(variable, CRITICAL)
         if motion:
             symbol += f" for instability of {motion}"
@@ -189,7 +189,7 @@ def _parameter_of_meaning(meaning: str) -> str:
     return ""
 
 
-def _within_words(name: str) -> str:
+def within_words(name: str) -> str:
     """The name of a parameter behind other words: small, unless it is that of a person."""
     if name.startswith(PERSONS):
         return name

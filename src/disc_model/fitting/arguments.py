@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import compress
 from typing import Any
 
 from disc_model.data.variables import unit_of_parameter
@@ -16,8 +17,6 @@ from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import in_si, is_number, number
 
 Interval = tuple[float, float]
-Named = tuple[str, float, str]
-"""A measured value: its name, value and unit."""
 
 
 def checked_measurements(
@@ -131,20 +130,14 @@ def doubt_far_measurements(measurements: Sequence[Measurement], computed: Sequen
         If a time or length of a cycle is as far away. Its search would lead to cases in which no cycle is known, or
         each takes minutes.
     """
-    of_cycles: list[tuple[Named, float]] = []
-    others: list[tuple[Named, float]] = []
-    for each, given in zip(measurements, computed, strict=True):
-        chosen = of_cycles if is_of_steady_cycle(each.quantity) else others
-        chosen.append(((each.name, each.value, each.unit), given))
-    if text := doubt_of_measured(*_unzipped(of_cycles)):
+    named = [(each.name, each.value, each.unit) for each in measurements]
+    of_cycles = [is_of_steady_cycle(each.quantity) for each in measurements]
+    far = doubt_of_measured([*compress(named, of_cycles)], [*compress(computed, of_cycles)])
+    if far:
         remedy = "; if it is right, start from a case that gives a value nearer to it"
-        raise ParameterError(Fault(("measured",), "", text + remedy))
-    warn_of_measured(*_unzipped(others))
-
-
-def _unzipped(pairs: Sequence[tuple[Named, float]]) -> tuple[list[Named], list[float]]:
-    """Measured values, and beside them the computed ones, from pairs of both."""
-    return [named for named, _ in pairs], [given for _, given in pairs]
+        raise ParameterError(Fault(("measured",), "", far + remedy))
+    others = [not is_of_cycle for is_of_cycle in of_cycles]
+    warn_of_measured([*compress(named, others)], [*compress(computed, others)])
 
 
 def limits_in_si(vary: Sequence[str], bounds: Mapping[str, tuple[Any, Any]]) -> dict[str, Interval]:

@@ -22,7 +22,7 @@ from pydantic import (
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.display import html_table
-from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
+from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
@@ -448,10 +448,13 @@ class Prerun(Strict):
 def _without_keys_of_studies(kick: Any) -> Any:
     """Perturbations by name; raises `ParameterError` for what a study file has around them."""
     if isinstance(kick, Mapping):
-        rule = "is a key of study files. In functions it is "
-        written = {"perturbation": "start={'u': 1e-4}", "prerun": "initial_state(case, prerun=...)"}
-        known = [name for name in written if name in kick]
-        raise_faults([Fault((name,), "", rule + written[name]) for name in known])
+        rule = "is a key of study files."
+        forms = {
+            "perturbation": form_of("start"),
+            "prerun": " In functions it is initial_state(case, prerun=...)",
+        }
+        known = [name for name in forms if name in kick]
+        raise_faults([Fault((name,), "", rule + forms[name]) for name in known])
     return kick
 
 

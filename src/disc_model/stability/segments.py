@@ -145,20 +145,23 @@ class Shares(NamedTuple):
 def shares(result: Result) -> Shares:
     """Shares of a result's time."""
     statistics = result.statistics
-    stick = statistics["time_stick"]
-    slip = statistics["time_slip"]
-    separation = statistics["time_separation"]
-    total = stick + slip + separation
-    rate = statistics["n_separations"] / total
-    return Shares(stick / total, slip / total, separation / total, rate)
+    total = _duration_of(result)
+    stick = statistics["time_stick"] / total
+    slip = statistics["time_slip"] / total
+    separation = statistics["time_separation"] / total
+    return Shares(stick, slip, separation, statistics["n_separations"] / total)
+
+
+def _duration_of(result: Result) -> float:
+    """The whole time of a result, s."""
+    statistics = result.statistics
+    return statistics["time_stick"] + statistics["time_slip"] + statistics["time_separation"]
 
 
 def slips_on(leg: Result) -> bool:
     """Whether a leg has only slip in its later half. Slip between two sticks, where a motion is
     linear as well, is shorter than any leg."""
-    statistics = leg.statistics
-    duration = statistics["time_stick"] + statistics["time_slip"] + statistics["time_separation"]
-    later = leg.final_state.time - duration / 2
+    later = leg.final_state.time - _duration_of(leg) / 2
     return leg.final_state.phase == "slip" and not np.any(leg.event_rows[:, TIME] > later)
 
 

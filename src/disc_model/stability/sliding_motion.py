@@ -30,8 +30,10 @@ def approaches_sliding(p: Parameters, state: State) -> bool:
     predict."""
     if state.phase != "slip" or not _sliding(p).stable:
         return False
-    distances = (thresholds.ARRIVED, thresholds.NEAR)
-    return _follows_eigenvalues(p, state, thresholds.TEST_TIMES[-1], distances)
+    times = thresholds.TEST_TIMES[-1]
+    return _follows_eigenvalues(
+        p, state, times, arrived=thresholds.ARRIVED, farthest=thresholds.NEAR
+    )
 
 
 def departs_from_sliding(p: Parameters, state: State) -> bool:
@@ -42,17 +44,18 @@ def departs_from_sliding(p: Parameters, state: State) -> bool:
     time_of_growth = 1 / _sliding(p).growth_rate
     first, last = thresholds.TEST_TIMES[-1]
     shorter = min(1.0, time_of_growth / last)
-    return _follows_eigenvalues(p, state, (shorter * first, shorter * last), (0.0, math.inf))
+    times = (shorter * first, shorter * last)
+    return _follows_eigenvalues(p, state, times, arrived=0.0, farthest=math.inf)
 
 
 def _follows_eigenvalues(
-    p: Parameters, state: State, times: tuple[float, float], distances: tuple[float, float]
+    p: Parameters, state: State, times: tuple[float, float], *, arrived: float, farthest: float
 ) -> bool:
     """Whether a slipping motion follows the linear one about steady sliding at two times (s) from a
     state on.
 
-    The distances, over the static deflection, are the one within which a motion has arrived, and
-    the largest of the state.
+    arrived, farthest : distance within which a motion has arrived, and the largest of the state,
+        over the static deflection
 
     It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
     7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
@@ -65,8 +68,8 @@ def _follows_eigenvalues(
     static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
     if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
         static = p.mu_s * p.N / math.sqrt(p.k_p)
-    least = distances[0] * static
-    if not np.linalg.norm(expected) <= distances[1] * static:
+    least = arrived * static
+    if not np.linalg.norm(expected) <= farthest * static:
         return False
 
     # slow to import, and few motions come so near

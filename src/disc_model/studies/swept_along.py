@@ -8,15 +8,13 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.swept_speeds import ENDS, ONSETS
+from disc_model.data.swept_speeds import SPEED, edges_along
 from disc_model.data.variables import attributes_of_number, presentation_of, unit_of_parameter
 from disc_model.errors import Fault, raise_faults, require
+from disc_model.figures.words import within_words
 from disc_model.parameters import RATIOS, foreign_case
 from disc_model.simulation.states import mode_arrays
 from disc_model.stability.continuation.arguments import free_faults, values_in_si
-
-PERSONS = ("Young’s", "Young's", "Poisson’s", "Poisson's")
-"""Words that begin with a capital anywhere."""
 
 
 def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
@@ -42,9 +40,10 @@ def unit_along(name: str) -> str:
 
 def named_along(sweep: xr.Dataset, name: str) -> xr.Dataset:
     """A sweep along another number than the speed, with its values under the name of that number."""
-    onset, end = ONSETS[1], ENDS[1]
     along = f"sweep_{name}"
-    renamed = sweep.rename({"sweep_Omega": along, ONSETS[0]: onset, ENDS[0]: end})
+    onset, end = edges_along(name)
+    onset_speed, end_speed = edges_along(SPEED)
+    renamed = sweep.rename({f"sweep_{SPEED}": along, onset_speed: onset, end_speed: end})
     for variable in renamed.variables.values():
         variable.attrs["long_name"] = _of_values(variable.attrs["long_name"])
     units = attributes_of_number(name).get("units", "1")
@@ -67,8 +66,7 @@ def _noun(name: str) -> str:
     shown = presentation_of(name).name
     if not shown or name in RATIOS:
         return str(attributes_of_number(name)["long_name"])
-    first = shown.partition(" ")[0]
-    return shown[0].lower() + shown[1:] if first not in PERSONS else shown
+    return within_words(shown)
 
 
 def _condition(variable: xr.DataArray) -> str:

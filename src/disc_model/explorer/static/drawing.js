@@ -46,9 +46,7 @@ function ticksOf(dim, kind, at) {
     return ticksBetween(first, last, whole)
       .map((x) => [x, number(x, 4)]);
   if (kind === "log") {
-    const found = [];
-    for (let power = Math.floor(first); power <= Math.ceil(last); power++)
-      for (const digit of last - first > 2.5 ? [1] : [1, 2, 5]) found.push(digit * 10 ** power);
+    const found = stepsBetween(10 ** first, 10 ** last, last - first > 2.5 ? [1] : STEPS);
     const inside = found.filter((x) => log10(x) >= first && log10(x) <= last);
     return inside.map((x) => [log10(x), number(x, 4)]);
   }

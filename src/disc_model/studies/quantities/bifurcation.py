@@ -225,19 +225,21 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
     from disc_model.stability.segments import shares
 
     p = point.parameters
-    run, reached, transient, first, separations = before = _transient_of(point, options)
-    if not run.status.complete:
-        return _ended_early(run, first, separations)
+    before = _transient_of(point, options)
+    if not before.run.status.complete:
+        return _ended_early(before.run, before.first, before.separations)
     state = before.end
-    stick = shares(run).stick
+    reached = before.reached
+    stick = shares(before.run).stick
     if reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
     record = simulate(p, state.time + FIRST_LEG, tol=options.tol, initial_state=state)
     if reached.calm is not None:  # the run has its transient
         stick = shares(record).stick
+    first = before.first
     if np.isnan(first):
         first = record.first_separation
-    separations += int(record.statistics["n_separations"])
+    separations = before.separations + int(record.statistics["n_separations"])
     if not record.status.complete:
         return _ended_early(record, first, separations)
     events = record.events
@@ -247,7 +249,7 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         kind = "separation"
         phase = "separation"
     taken = events[events["kind"] == kind]
-    motion = _motion_reached(p, reached, run, options.tol)
+    motion = _motion_reached(p, reached, before.run, options.tol)
     shown = taken.iloc[-options.samples :]
     columns = {
         "psi": shown["psi"],
@@ -263,11 +265,11 @@ def _at_switches(point: Point, options: Bifurcation) -> tuple[dict[str, Any], st
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick,
-        "transient_time": transient,
+        "transient_time": before.length,
     }
     if reached.settled:
         return values, ""
-    message = f"not settled after {transient:g} s: {reached.settling}"
+    message = f"not settled after {before.length:g} s: {reached.settling}"
     if taken.empty:
         message = f"{message}; no event in the {FIRST_LEG:g} s sampled after that"
     return values, f"{message}; raise max_transient"
