@@ -508,28 +508,34 @@ def study(
     if dry_run and not unlock:
         page = EXPLORER in (target or [])
         _show_plan(chosen, grids, requested, directory / "results", cores=cores, page=page)
-    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
-    if not dry_run:
-        go_on_without_reader()  # jobs would stay, and the lock of the folder
-    options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
+    options = [*(target or []), f"-j{cores}", "--directory", str(directory)]
     if dry_run:
         options += DRY
+    else:
+        go_on_without_reader()  # jobs would stay, and the lock of the folder
     if unlock:
         options.append("--unlock")
-    options += ["--configfile", *(str(file.resolve()) for file in files)]
     os.environ[RUN_BY] = _command_of(files, directory)
-    import snakemake.cli  # type: ignore[import-untyped]
-
-    snakemake.cli.print = _print_without_profile
-    logging.getLogger("snakemake.logging").addFilter(_is_told)
     try:
-        snakemake.cli.main(options)  # ends with an exit code
+        _run_workflow(files, options)
     except SystemExit as ended:
         if not (ended.code or dry_run or unlock):
             _say_where(directory / "results" / chosen.name, target or [])
             if not target:
                 _say_of_older_page(chosen, grids, requested, directory / "results")
         raise
+
+
+def _run_workflow(files: Sequence[Path], options: Sequence[str]) -> NoReturn:
+    """Run the workflow of this package on study files by Snakemake, which ends with an exit code."""
+    import snakemake.cli  # type: ignore[import-untyped]
+
+    snakemake.cli.print = _print_without_profile
+    logging.getLogger("snakemake.logging").addFilter(_is_told)
+    snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
+    configured = ["--configfile", *(str(file.resolve()) for file in files)]
+    snakemake.cli.main(["-s", str(snakefile), *options, *configured])
+    raise SystemExit(0)
 
 
 def _say_where(folder: Path, targets: Sequence[str]) -> None:

@@ -72,23 +72,29 @@ def _explain(page: Page, family: Sequence[Member]) -> None:
     replaced = {str(handle.get_label()) for handle in alone}
     replaced |= {*names_of(family[:-1], NAME)}  # a further branch may differ in something else
 
-    handles: list[Any] = []
-    for each, text in zip(family, names_of(family, NAME), strict=True):
-        handles.append(sample(label=text, **each.line))
-    looks: dict[str, Any] = {}
-    marks: dict[str, Any] = {}
-    for each in family:
-        looks |= {str(handle.get_label()): handle for handle in each.looks}
+    names = names_of(family, NAME)
+    handles = [sample(label=text, **each.line) for each, text in zip(family, names, strict=True)]
+    looks = _looks_of(family)
+    stable_first = sorted(looks, key=lambda label: label != "stable")
+    handles += [*(looks[label] for label in stable_first), *_marks_of(family)]
+    page.replaced = replaced | {str(handle.get_label()) for handle in handles}
+    page.explain(handles)
+
+
+def _looks_of(family: Sequence[Member]) -> dict[str, Any]:
+    """Handles of the looks of stable and unstable parts, which branches share, by label; in grey, as black
+    would be that of a branch, but where a reader has wished a colour."""
+    looks = {str(handle.get_label()): handle for each in family for handle in each.looks}
     coloured = {label for each in family for label in each.coloured}
     for label in looks.keys() - coloured:
-        looks[label].set_color(GREY)  # black would be that of a branch
-    for each in family:
-        marks |= {str(handle.get_marker()): handle for handle in each.special}
+        looks[label].set_color(GREY)
+    return looks
+
+
+def _marks_of(family: Sequence[Member]) -> list[Any]:
+    """Handles of the special points of all branches, each kind of mark once and under its name."""
+    marks = {str(handle.get_marker()): handle for each in family for handle in each.special}
     for sign, _, name in SPECIAL_MARKS.values():
         if sign in marks:
             marks[sign].set_label(name)
-
-    stable_first = sorted(looks, key=lambda label: label != "stable")
-    handles += [*(looks[label] for label in stable_first), *marks.values()]
-    page.replaced = replaced | {str(handle.get_label()) for handle in handles}
-    page.explain(handles)
+    return [*marks.values()]

@@ -183,12 +183,9 @@ class Fit(Summarised, Drawn, EqualByValue):
     def _relied_on(self) -> tuple[str, ...]:
         """Names of the parameters whose intervals can be relied on: all of a consistent fit, and where others
         not being determined is the only doubt, those that are."""
-        doubt = self.doubt
-        if not doubt:
-            return tuple(self.parameters)
-        if self.indistinct and doubt == _undetermined(self.indistinct):
-            return tuple(name for name in self.parameters if name not in self.indistinct)
-        return ()
+        if self.gap or self._doubts_of_search() or self._doubts_of_intervals():
+            return ()
+        return tuple(name for name in self.parameters if name not in self.indistinct)
 
     def _value_text(self, name: str) -> str:
         """The value of a parameter, that of its bound if it lies there."""
@@ -216,6 +213,13 @@ class Fit(Summarised, Drawn, EqualByValue):
         """All reasons why values and intervals mean nothing; "" where the fit is consistent."""
         if self.gap:
             return "; ".join([_stopped(self.gap), *self._alike_at_gap()])
+        undetermined = [_undetermined(self.indistinct)] if self.indistinct else []
+        reasons = [*self._doubts_of_search(), *undetermined, *self._doubts_of_intervals()]
+        return "; ".join(reasons)
+
+    def _doubts_of_search(self) -> list[str]:
+        """Reasons why no value can be relied on: the search has not converged, a bound holds a parameter,
+        or chi squared is too large."""
         reasons = []
         if not self.converged:
             reasons.append(_unconverged(self.message))
@@ -224,13 +228,17 @@ class Fit(Summarised, Drawn, EqualByValue):
             reasons += self._limit_texts(name)
         if self.converged and self.misses:
             reasons.append(self._misfit)
-        if self.indistinct:
-            reasons.append(_undetermined(self.indistinct))
+        return reasons
+
+    def _doubts_of_intervals(self) -> list[str]:
+        """Reasons why no interval can be relied on: what was measured does not exist at its ends, or they
+        lie outside of the bounds."""
+        reasons = []
         for name, ends in self.unpredicted.items():
             reasons += [_ends_within(name, self._place_of(name, end)) for end in ends]
         for name, ends in self.outside.items():
             reasons += [_ends_outside(name, self._place_of(name, end)) for end in ends]
-        return "; ".join(reasons)
+        return reasons
 
     def _alike_at_gap(self) -> Iterator[str]:
         """Yield in words which parameters act alike where a search has stopped in front of a gap, as it may
