@@ -58,7 +58,7 @@ def test_kernels_just_compiled_from_the_cache_and_none(tmp_path: Path) -> None:
     for name, variables in ways.items():
         (tmp_path / name).mkdir()
         python(CASES, tmp_path / name, **variables)
-    assert any(cache_path.rglob("*.kernel"))
+    assert any(cache_path.rglob("*.nbc"))
     cold_path = tmp_path / "cold"
     for name in ("warm", "usual"):
         found = instruction_sets.differences(tmp_path / name, cold_path)
