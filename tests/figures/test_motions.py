@@ -24,6 +24,7 @@ from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell_peaks import Column, Peak, peaks, unjoined
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, OPEN_RING, OPEN_STEP, SEPARATED
+from disc_model.figures.kind_rows import SAMPLES, SHAPES
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
 from disc_model.figures.names import Names
@@ -612,6 +613,27 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
 def test_phases_have_marks_of_their_own() -> None:
     """In grey print, dots of slip and separation were alike."""
     assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
+
+
+def test_each_mark_of_a_bifurcation_diagram_has_one_meaning() -> None:
+    """Crosses were failed points, samples at release of stick, and motions not shown to repeat."""
+    for section in ("stroboscopic", "event"):
+        figure = bifurcation_of_motions(section)
+        crosses = [line for ax in figure.axes for line in ax.lines if line.get_marker() == "x"]
+        assert {line.get_label() for line in crosses} == {"failed"}
+    assert not {look["marker"] for look in MARKS.values()} & {*SHAPES.values(), *SAMPLES, "x"}
+    pyplot.close("all")
+
+
+def test_motions_that_are_not_shown_to_repeat_stand_on_the_strip_below_periods() -> None:
+    """A mark on the lowest row of a low panel was cut by its edge, and so was that of the highest period."""
+    ax = bifurcation_of_motions(width="column").axes[1]
+    [strip] = ax.patches
+    [line] = [line for line in ax.lines if line.get_label() == "not shown to repeat"]
+    assert line.get_xdata().tolist() == [10.0]
+    assert 0 < line.get_ydata()[0] < strip.get_height()
+    assert not [line for line in ax.lines if line.get_marker() != "None" and line.get_clip_on()]
+    pyplot.close("all")
 
 
 def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> None:
