@@ -109,14 +109,15 @@ def _between_even_steps(axis: Any, numbers: Sequence[Number]) -> list[float]:
 
 def spare_heights(ax: Axes) -> None:
     """Hide numbers beside a scale of heights that is not linear where they would meet: those of minor
-    ticks first, and of equal ones those that are further from zero; on a scale through zero the
-    outermost ones stay, without which it would seem linear."""
+    ticks first, and of equal ones those that are further from zero; on a scale through zero, and
+    on one that spans less than a factor of ten, the outermost ones stay, without which it would seem linear."""
     axis: Any = ax.yaxis
     if ax.get_yscale() == "linear":
         return
     _show_all_numbers(axis)
     numbers = _numbers_beside(axis)
-    if ax.get_yscale() == "symlog":
+    low, high = sorted(ax.get_ylim())
+    if ax.get_yscale() == "symlog" or high < 10 * low:
         hidden = _meeting(_ends_first(numbers), gap=0.0)
     else:
         whole = _shown(axis, axis.get_majorticklocs())
