@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import FixedLocator, Formatter, MaxNLocator
+from matplotlib.ticker import FixedLocator, Formatter, MaxNLocator, ScalarFormatter
 
 from disc_model.figures.types import Axes
 
@@ -51,6 +51,15 @@ def _shown(axis: Any, places: Any) -> Any:
     low, high = sorted(axis.get_view_interval())
     rounding = 1e-3 * (high - low)
     return places[(places >= low - rounding) & (places <= high + rounding)]
+
+
+def write_in_full(ax: Axes) -> None:
+    """Write numbers along axes in full, without a number beside the panel to which they are to be added: it is
+    overlooked."""
+    for axis in (ax.xaxis, ax.yaxis):
+        formatter = axis.get_major_formatter()
+        if isinstance(formatter, ScalarFormatter):
+            formatter.set_useOffset(False)
 
 
 class Sparing(Formatter):
