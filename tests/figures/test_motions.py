@@ -668,6 +668,32 @@ def test_intervals_of_shares_end_where_they_end_and_are_named() -> None:
     assert "95 % interval of the share" in labels(figure)
 
 
+def test_intervals_of_shares_stand_beside_each_other() -> None:
+    """In grey print nothing told where that of one share ended and that of another began."""
+    (ax,) = of_example("escape").axes
+    ax.figure.draw_without_rendering()
+    boxes = [line.get_window_extent() for line in ax.lines if line.get_alpha()]
+    assert len(boxes) == 2
+    assert not boxes[0].overlaps(boxes[1])
+    pyplot.close("all")
+
+
+def test_the_words_of_steady_sliding_stand_above_the_axis() -> None:
+    """In a column of a page their white outline cut the line of the axis."""
+    (ax,) = branches(width="column").axes
+    ax.figure.draw_without_rendering()
+    [said] = [text for text in ax.texts if "steady sliding" in text.get_text()]
+    assert said.get_window_extent().y0 > ax.bbox.y0 + 1
+    pyplot.close("all")
+
+
+def test_preloads_of_late_ranges_have_their_symbol() -> None:
+    """ "0.12 kN" stood for a line, and nothing said of what."""
+    said = labels(of_example("late_range"))
+    assert "N = 0.12 kN" in said
+    pyplot.close("all")
+
+
 def test_shares_of_starts_differ_in_grey_print() -> None:
     """Two full lines of orange and blue were of nearly one grey."""
     (ax,) = of_example("escape").axes
