@@ -81,7 +81,7 @@ def bifurcation(section: str = "stroboscopic", width: str = "page") -> Figure:
     return drawn("bifurcation", study, {"lyapunov": lyapunov}, width=width, **phrase)
 
 
-def branches(separations: tuple[int, int] = (0, 2)) -> Figure:
+def branches(separations: tuple[int, int] = (0, 2), width: str = "page") -> Figure:
     """A quiet branch with a fold at 13 rad/s, and one that separates above it."""
     dims = ("sweep_direction", "sweep_value")
     ranges = [[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2.5e-2, 3e-2]]
@@ -105,7 +105,7 @@ def branches(separations: tuple[int, int] = (0, 2)) -> Figure:
     }
     sweep = np.array([10.0, 11, 12, 13, 14])
     study = xr.Dataset(data, {"sweep_value": sweep}, stated(parameter="Omega"))
-    return drawn("branches", study, paper_cases={"F11": 12})
+    return drawn("branches", study, paper_cases={"F11": 12}, width=width)
 
 
 def basins(width: str = "page") -> Figure:

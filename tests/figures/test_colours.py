@@ -99,24 +99,25 @@ def test_a_logarithmic_scale_passes_through_zero(
 
 
 @pytest.mark.parametrize(("ends", "within"), [((2, 19), True), ((2, 20), False), ((2, 300), False)])
-def test_further_ticks_are_needed_within_a_decade(ends: tuple[float, float], within: bool) -> None:
+def test_steps_within_a_decade_are_even(ends: tuple[float, float], within: bool) -> None:
     assert within_a_decade(LogNorm(*ends)) is within
 
 
 @pytest.mark.parametrize(
     ("ends", "places"),
     [
-        ((0.27, 10), [0.5, 1, 2, 5, 10]),
-        ((2, 90), [2, 5, 10, 20, 50]),
+        ((0.27, 10), [0.27, 0.5, 1, 2, 5, 10]),
+        ((2, 90), [2, 5, 10, 20, 50, 90]),
         ((1, 10), [1, 2, 5, 10]),
-        ((2, 19), []),
+        ((2, 19), [2, 5, 10, 15, 19]),
+        ((385, 402), [385, 390, 395, 400, 402]),
         ((1, 100), []),
     ],
 )
-def test_few_powers_of_ten_have_steps_between_them(
+def test_few_powers_of_ten_have_the_ends_and_steps_between_them(
     ends: tuple[float, float], places: list[float]
 ) -> None:
-    """Periods of 0.27 to 10 s had the numbers 1 and 10 alone."""
+    """Periods of 0.27 to 10 s had the numbers 1 and 10 alone, and those of 0.27 to 2 s none at their ends."""
     assert colours_of(np.array(ends), PERIOD, LOG).places == pytest.approx(places)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
@@ -19,7 +20,8 @@ from disc_model.figures.legends import LEAST_MAP
 from disc_model.figures.outside_limits import NOTE, note_outside, remove_note
 from disc_model.figures.style import save
 from disc_model.studies.study import load_study
-from tests.figures.reading import draw, labels, lines
+from tests.figures.described import curve
+from tests.figures.reading import assert_fit_for_print, draw, labels, lines
 from tests.refusals import refusal
 
 
@@ -263,6 +265,17 @@ def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, 
 def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
     along = xr.DataArray(values, name=name)
     assert cells.scale_along(along) == kind
+
+
+def test_numbers_of_rates_do_not_meet_in_a_column() -> None:
+    """Rows above the panel leave it so little height that 0.5 and 0.6 lay on each other."""
+    figure = curve("growth_rate", width="column")
+    assert_fit_for_print(figure)
+    figure.draw_without_rendering()
+    ax = figure.axes[0]
+    said = [text.get_text() for text in (*ax.get_yticklabels(), *ax.get_yticklabels(minor=True))]
+    assert "0.6" in said
+    pyplot.close("all")
 
 
 def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:

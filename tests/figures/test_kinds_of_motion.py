@@ -85,7 +85,7 @@ def test_releases_are_told_from_losses_of_contact_among_many_points() -> None:
     marks = {line.get_label(): line for line in ax.lines}
     releases = marks["at release of stick"]
     losses = marks["at loss of contact"]
-    assert (releases.get_marker(), losses.get_marker()) == ("x", "^")
+    assert (releases.get_marker(), losses.get_marker()) == ("4", "^")
     assert releases.get_markersize() > losses.get_markersize() + 1
 
 
@@ -132,7 +132,7 @@ def test_samples_have_no_mark_of_a_kind_of_motion_nor_of_a_ring() -> None:
 
 @pytest.mark.parametrize("event", ["at loss of contact", "at release of stick"])
 def test_samples_of_later_sweeps_are_larger_and_lie_below(event: str) -> None:
-    """Squares of a second sweep hid the crosses of the first."""
+    """Squares of a second sweep hid the forks of the first."""
     marks = marks_at(three_sweeps_at_events(), event)
     sizes = [each.get_markersize() for each in marks]
     order = [each.get_zorder() for each in marks]

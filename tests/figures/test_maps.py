@@ -243,7 +243,7 @@ def test_contact_is_lost_at_the_range_of_the_mode_that_friction_feeds() -> None:
     words = [text.get_text() for text in figure.axes[0].texts]
     factor = f"{2 / expected:.2g}"
     assert words == [
-        "contact lost, 8 kN",
+        "contact lost, N = 8 kN",
         f"with separation: {factor} times\nthe range at which\ncontact is lost",
     ]
     (reversal,) = [line for line in figure.axes[1].lines if line.get_linestyle() == ":"]
@@ -270,7 +270,7 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     assert [line.get_ydata()[0] for line in lines] == pytest.approx([2.0, 10.0])
     column = draw("late_range", study, by="disc", thickness=0.01, width="column")
     assert [bool(ax.get_xlabel()) for ax in column.axes] == [False, True]
-    named = {"8 kN", "with separation", "separates", "beyond linear plate theory"}
+    named = {"N = 8 kN", "with separation", "separates", "beyond linear plate theory"}
     assert named <= set(labels(figure))
     assert not [ax for ax in figure.axes if ax.texts], "lines would lie on it"
 

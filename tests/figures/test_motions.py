@@ -24,6 +24,7 @@ from disc_model.figures.branches import _draw_sweep as draw_sweep
 from disc_model.figures.campbell_peaks import Column, Peak, peaks, unjoined
 from disc_model.figures.classes import LOOKS, lightness
 from disc_model.figures.drawing import BLACK, GREY, OPEN_RING, OPEN_STEP, SEPARATED
+from disc_model.figures.kind_rows import SAMPLES, SHAPES
 from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
 from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
 from disc_model.figures.names import Names
@@ -614,6 +615,27 @@ def test_phases_have_marks_of_their_own() -> None:
     assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
 
 
+def test_each_mark_of_a_bifurcation_diagram_has_one_meaning() -> None:
+    """Crosses were failed points, samples at release of stick, and motions not shown to repeat."""
+    for section in ("stroboscopic", "event"):
+        figure = bifurcation_of_motions(section)
+        crosses = [line for ax in figure.axes for line in ax.lines if line.get_marker() == "x"]
+        assert {line.get_label() for line in crosses} == {"failed"}
+    assert not {look["marker"] for look in MARKS.values()} & {*SHAPES.values(), *SAMPLES, "x"}
+    pyplot.close("all")
+
+
+def test_motions_that_are_not_shown_to_repeat_stand_on_the_strip_below_periods() -> None:
+    """A mark on the lowest row of a low panel was cut by its edge, and so was that of the highest period."""
+    ax = bifurcation_of_motions(width="column").axes[1]
+    [strip] = ax.patches
+    [line] = [line for line in ax.lines if line.get_label() == "not shown to repeat"]
+    assert line.get_xdata().tolist() == [10.0]
+    assert 0 < line.get_ydata()[0] < strip.get_height()
+    assert not [line for line in ax.lines if line.get_marker() != "None" and line.get_clip_on()]
+    pyplot.close("all")
+
+
 def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> None:
     """Of four starts that were computed two separate, and one more has failed."""
     dims = ("N", "perturbation_u")
@@ -644,6 +666,32 @@ def test_intervals_of_shares_end_where_they_end_and_are_named() -> None:
     intervals = [line for line in figure.axes[0].lines if line.get_alpha()]
     assert {line.get_solid_capstyle() for line in intervals} == {"butt"}
     assert "95 % interval of the share" in labels(figure)
+
+
+def test_intervals_of_shares_stand_beside_each_other() -> None:
+    """In grey print nothing told where that of one share ended and that of another began."""
+    (ax,) = of_example("escape").axes
+    ax.figure.draw_without_rendering()
+    boxes = [line.get_window_extent() for line in ax.lines if line.get_alpha()]
+    assert len(boxes) == 2
+    assert not boxes[0].overlaps(boxes[1])
+    pyplot.close("all")
+
+
+def test_the_words_of_steady_sliding_stand_above_the_axis() -> None:
+    """In a column of a page their white outline cut the line of the axis."""
+    (ax,) = branches(width="column").axes
+    ax.figure.draw_without_rendering()
+    [said] = [text for text in ax.texts if "steady sliding" in text.get_text()]
+    assert said.get_window_extent().y0 > ax.bbox.y0 + 1
+    pyplot.close("all")
+
+
+def test_preloads_of_late_ranges_have_their_symbol() -> None:
+    """ "0.12 kN" stood for a line, and nothing said of what."""
+    said = labels(of_example("late_range"))
+    assert "N = 0.12 kN" in said
+    pyplot.close("all")
 
 
 def test_shares_of_starts_differ_in_grey_print() -> None:

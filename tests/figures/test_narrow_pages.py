@@ -18,6 +18,7 @@ from disc_model.figures.legends import finds_room_inside
 from disc_model.figures.names import Names
 from disc_model.figures.rate_scale import OPEN
 from disc_model.figures.sizes import COLUMN, INCH, PAGE
+from disc_model.figures.symbols import broken
 from tests.figures.reading import assert_numbers_are_apart
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -393,6 +394,18 @@ def test_errors_of_exponents_are_in_the_legend() -> None:
     dm.lyapunov_exponents(CASE, 0.5, count=2).plot(ax=ax)
     assert all("± standard error" in each for each in named(ax))
     pyplot.close("all")
+
+
+def test_a_legend_keeps_values_with_their_symbols_and_units() -> None:
+    """Lines ended after "Preload N = 300" and after "μ_s =" in narrow panels."""
+    name = "Preload N = 300 N, $\\mu_s$ = 0.4, not settled"
+    assert broken(name, 12).splitlines() == [
+        "Preload",
+        "N = 300 N,",
+        "$\\mu_s$ = 0.4,",
+        "not settled",
+    ]
+    assert broken("In-plane spring", 12).splitlines() == ["In-plane", "spring"]
 
 
 def test_a_name_of_a_curve_is_nearer_to_it_than_to_others() -> None:

@@ -844,3 +844,22 @@ def test_exponents_that_have_not_converged_are_told_from_others() -> None:
         "filled: not converged, ± standard error": [2],
     }
     assert ax.get_title(loc="left") == "over 20 s, 1 separation"
+
+
+@pytest.mark.parametrize("picture", ["branch", "sweep", "map"])
+def test_numbers_along_axes_and_bars_are_written_in_full(picture: str) -> None:
+    """Growth rates of -0.10549 were -86 beside a panel, with a sum and a factor above it."""
+    _, ax = pyplot.subplots()
+    if picture == "branch":
+        shown = branch().plot("growth_rate", ax=ax).yaxis
+    else:
+        rates = -0.1054 - 1e-6 * np.arange(4.0).reshape(2, 2)
+        axes = {"Omega": [10.0, 11.0], "N": [300.0, 400.0]}
+        study = xr.Dataset({"share": (("Omega", "N"), rates)}, axes)
+        dm.plot_sweep(study.isel(N=0) if picture == "sweep" else study, "share", ax=ax)
+        shown = ax.figure.axes[-1].yaxis
+    ax.figure.draw_without_rendering()
+    assert not shown.get_offset_text().get_text()
+    numbers = [float(text.get_text().replace("−", "-")) for text in shown.get_ticklabels()]
+    assert numbers == pytest.approx([-0.1054] * len(numbers), abs=2e-4)
+    pyplot.close("all")

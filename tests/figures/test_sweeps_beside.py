@@ -222,6 +222,16 @@ def test_rings_of_two_diagrams_are_told_apart() -> None:
     assert len({*drawn}) == 2
 
 
+def test_rings_of_two_diagrams_are_told_apart_in_grey_print() -> None:
+    """Only their colours differed."""
+    ax = plot_sweep(sections(SOFT, "changing"))
+    plot_sweep(sections(STIFF, "changing"), ax=ax)
+    first, second = (line.get_markersize() for line in ax.lines)
+    assert second > 1.4 * first
+    [legend] = ax.figure.legends
+    assert [line.get_markersize() for line in legend.get_lines()] == [first, second]
+
+
 def test_dots_and_rings_of_one_diagram_have_entries_of_their_own() -> None:
     ax = plot_sweep(sections(SOFT, "settled"))
     plot_sweep(sections(STIFF, "changing"), ax=ax)

@@ -77,6 +77,42 @@ def test_a_logarithmic_bar_has_three_numbers(height: float, ends: tuple[float, f
     assert len(numbers_beside(bar_of(study, "period", height, log=True))) >= 3
 
 
+WITHIN = [(0.58, 4.1), (1.35, 9.1), (2.3, 7.8), (14.8, 20.1), (385.0, 402.0), (1.0, 1.0004)]
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("ends", WITHIN)
+def test_the_ends_of_a_logarithmic_bar_within_a_decade_are_said(
+    height: float, ends: tuple[float, float]
+) -> None:
+    """A bar from 0.58 to 4.1 ended at 0.6 and 3, and one from 1.35 to 9.1 began at 2."""
+    study = study_of("wear", *ends, unit="")
+    numbers = [float(text) for text in numbers_beside(bar_of(study, "wear", height, log=True))]
+    plane = study["wear"].values
+    assert numbers[0] == pytest.approx(plane.min(), rel=5e-3)
+    assert numbers[-1] == pytest.approx(plane.max(), rel=5e-3)
+    assert len(numbers) >= 4
+    assert len({*numbers}) == len(numbers)
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("ends", WITHIN)
+def test_a_logarithmic_axis_within_a_decade_has_numbers_near_its_ends(
+    height: float, ends: tuple[float, float]
+) -> None:
+    """Of an axis from 0.58 to 4.1, the lowest third had none."""
+    study = study_of("wear", *ends, unit="").isel(N=2)
+    size = (COLUMN, (height + AROUND) / INCH)
+    figure, ax = pyplot.subplots(figsize=size, layout="constrained")
+    dm.plot_sweep(study, "wear", ax=ax, log=True)
+    figure.draw_without_rendering()
+    numbers = np.array([float(text) for text in numbers_beside(ax)])
+    low, high = np.log(ax.get_ylim())
+    places = (np.log(numbers) - low) / (high - low)
+    assert places[0] < 0.2
+    assert places[-1] > 0.8
+
+
 @pytest.mark.parametrize("height", HEIGHTS)
 @pytest.mark.parametrize("greatest", [0.6, 3.0, 30.0])
 def test_a_logarithmic_part_of_an_axis_has_two_numbers(height: float, greatest: float) -> None:
@@ -93,3 +129,26 @@ def test_a_logarithmic_part_of_an_axis_has_two_numbers(height: float, greatest: 
     low, high = ax.get_ylim()
     assert numbers[-1] > high / 10
     assert numbers[0] < low / 10
+
+
+@pytest.mark.parametrize("height", HEIGHTS)
+@pytest.mark.parametrize("ends", [(0.15, 0.32), (0.12, 0.45), (-0.25, 0.25), (2.0, 5.0)])
+def test_an_axis_of_rates_has_three_numbers_of_which_one_is_near_its_end(
+    height: float, ends: tuple[float, float]
+) -> None:
+    """Rates up to 0.45 had numbers up to 0.2, and those up to 5 up to 1."""
+    study = study_of("growth_rate", *ends, unit="1/s").isel(N=2)
+    size = (COLUMN, (height + AROUND) / INCH)
+    figure, ax = pyplot.subplots(figsize=size, layout="constrained")
+    dm.plot_sweep(study, "growth_rate", ax=ax)
+    figure.draw_without_rendering()
+    numbers = [float(text.replace(MINUS, "-")) for text in numbers_beside(ax)]
+    assert len(numbers) >= 3
+    assert numbers[-1] > 0.75 * ax.get_ylim()[1]
+
+
+def test_rates_of_a_few_tenths_have_a_linear_axis() -> None:
+    """Between 0.1 and 0.25 on a logarithmic part, a low panel had -0.2, 0 and 0.2, as a linear axis has."""
+    study = study_of("growth_rate", -0.25, 0.25, unit="1/s").isel(N=2)
+    ax = dm.plot_sweep(study, "growth_rate")
+    assert ax.get_yscale() == "linear"

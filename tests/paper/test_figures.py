@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Window, simulate
 from disc_model.data.variables import flag_names
+from disc_model.figures.drawing import SEPARATED
 from disc_model.figures.kinds import CasePlot
 from disc_model.figures.render import render
 from disc_model.figures.sizes import COLUMN, PAGE
@@ -65,6 +66,17 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
         else:
             known = {*lacks}
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
+
+
+def test_the_first_separation_is_seen_on_ranges_in_grey_print() -> None:
+    """Line and words were of nearly the grey of the ranges below them."""
+    case = simulated(True)
+    growth = drawn("composite", case).axes[1]
+    [words] = [text for text in growth.texts if "is lost" in text.get_text()]
+    [line] = [line for line in growth.lines if line.get_color() == SEPARATED]
+    force = drawn("fig02", case).axes[0]
+    [first] = [line for line in force.lines if line.get_color() == SEPARATED]
+    assert all(each.get_path_effects() for each in (words, line, first))
 
 
 def test_the_composite_has_phases_from_events() -> None:

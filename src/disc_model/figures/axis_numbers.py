@@ -5,7 +5,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from matplotlib.ticker import FixedLocator, Formatter, MaxNLocator
+from matplotlib.ticker import FixedLocator, Formatter, MaxNLocator, ScalarFormatter
 
 from disc_model.figures.types import Axes
 
@@ -51,6 +51,15 @@ def _shown(axis: Any, places: Any) -> Any:
     low, high = sorted(axis.get_view_interval())
     rounding = 1e-3 * (high - low)
     return places[(places >= low - rounding) & (places <= high + rounding)]
+
+
+def write_in_full(ax: Axes) -> None:
+    """Write numbers along axes in full, without a number beside the panel to which they are to be added: it is
+    overlooked."""
+    for axis in (ax.xaxis, ax.yaxis):
+        formatter = axis.get_major_formatter()
+        if isinstance(formatter, ScalarFormatter):
+            formatter.set_useOffset(False)
 
 
 class Sparing(Formatter):
@@ -109,14 +118,15 @@ def _between_even_steps(axis: Any, numbers: Sequence[Number]) -> list[float]:
 
 def spare_heights(ax: Axes) -> None:
     """Hide numbers beside a scale of heights that is not linear where they would meet: those of minor
-    ticks first, and of equal ones those that are further from zero; on a scale through zero the
-    outermost ones stay, without which it would seem linear."""
+    ticks first, and of equal ones those that are further from zero; on a scale through zero, and
+    on one that spans less than a factor of ten, the outermost ones stay, without which it would seem linear."""
     axis: Any = ax.yaxis
     if ax.get_yscale() == "linear":
         return
     _show_all_numbers(axis)
     numbers = _numbers_beside(axis)
-    if ax.get_yscale() == "symlog":
+    low, high = sorted(ax.get_ylim())
+    if ax.get_yscale() == "symlog" or high < 10 * low:
         hidden = _meeting(_ends_first(numbers), gap=0.0)
     else:
         whole = _shown(axis, axis.get_majorticklocs())

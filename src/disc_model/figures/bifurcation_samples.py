@@ -15,12 +15,12 @@ from disc_model.figures.selection import failed
 from disc_model.figures.types import Array, Axes, Mask, Words
 
 MARKS: dict[str, dict[str, Any]] = {
-    "stick": {"marker": "x", "markersize": 3.5, "mew": 0.5},
+    "stick": {"marker": "4", "markersize": 4.0, "mew": 0.6},
     "slip": {"marker": ".", "markersize": 1.5},
     "separation": {"marker": "^", "markersize": 2.2, "mew": 0},
 }
-"""Marks of phases, whose colours are alike in grey print; crosses are larger than triangles, or small ones of both
-would pass for dots."""
+"""Marks of phases, whose colours are alike in grey print, and crosses are those of failed points; forks are larger
+than triangles, or small ones of both would pass for dots."""
 UNDECIDED: dict[str, Any] = {
     "color": GREY,
     "marker": "o",

@@ -17,7 +17,7 @@ from matplotlib.colors import (
     Normalize,
     from_levels_and_colors,
 )
-from matplotlib.ticker import Formatter, LogLocator
+from matplotlib.ticker import Formatter, LogLocator, MaxNLocator
 
 from disc_model.figures.colour_wishes import USUAL, ColourWishes
 from disc_model.figures.drawing import parents_of_bar
@@ -35,6 +35,8 @@ LINEAR_SHARE = 1 / 30  # of the greatest rate, up to which the scale is nearly l
 LINEAR_OF_MEDIAN = 0.2  # of the median rate, up to which it is nearly linear at most
 MOST_POWERS = 9  # of ten beside a bar of a logarithmic scale
 LEAST_POWERS = 3  # of ten, which alone let a logarithmic scale be read
+STEPS_WITHIN = 5  # between numbers beside a bar that spans less than a factor of ten
+DIGITS = range(3, 10)  # of numbers beside a bar
 COLOURS = 256  # of a part of a map of colours
 NEAR_END = 0.06  # of a bar of growth rates, within which a number would meet that of its end
 EXTENDS = {
@@ -121,20 +123,28 @@ def _positive(usual: Colormap, low: float, high: float, growth: bool) -> Scale:
     if growth:
         usual = ListedColormap(cm.vik(np.linspace(0.55, 1, 256)))
     norm = LogNorm(low, high if high > low else 10 * low)
-    return Scale(usual, norm, places=_steps_of_few_decades(norm))
+    return Scale(usual, norm, places=_places_of_few_decades(norm))
 
 
-def _steps_of_few_decades(norm: LogNorm) -> list[float]:
-    """Ticks of a logarithmic scale with less than three powers of ten: one, two and five times these;
-    none of its own within a decade, or with more of them."""
+def _places_of_few_decades(norm: LogNorm) -> list[float]:
+    """Ticks of a logarithmic scale with less than three powers of ten: both ends, and steps that are not near
+    one; none of its own with more of them, which say the ends well enough."""
     low, high = float(norm.vmin or 1.0), float(norm.vmax or 1.0)
     first, last = np.ceil(np.log10(low)), np.floor(np.log10(high))
-    if within_a_decade(norm) or last - first >= LEAST_POWERS - 1:
+    if last - first >= LEAST_POWERS - 1:
         return []
+    if within_a_decade(norm):
+        even = MaxNLocator(STEPS_WITHIN, steps=[1, 2, 5, 10])
+        return _with_ends([step for step in even.tick_values(low, high) if step > 0], norm)
+    return _with_ends(_steps_of_decades(low, high), norm)
+
+
+def _steps_of_decades(low: float, high: float) -> list[float]:
+    """One, two and five times powers of ten between two numbers."""
+    first, last = np.ceil(np.log10(low)), np.floor(np.log10(high))
     powers = 10.0 ** np.arange(first - 1, last + 1)
     steps = np.outer(powers, [1, 2, 5]).ravel()
-    rounding = 1 + ROUNDING
-    return [float(step) for step in steps if low / rounding <= step <= high * rounding]
+    return [float(step) for step in steps if low <= step <= high]
 
 
 # ---- Growth rates
@@ -268,13 +278,18 @@ def decades_through_zero(linear: float, low: float, high: float) -> list[float]:
 
 
 def texts_of(places: Sequence[float]) -> list[str]:
-    """The texts of ticks, with the sign that other axes have below zero."""
-    rounded = [float(f"{place:.3g}") for place in places]
-    return [Formatter.fix_minus(f"{place:g}") for place in rounded]
+    """The texts of ticks, with the sign that other axes have below zero, and as many digits as tell them
+    apart."""
+    rounded: list[float] = []
+    for digits in DIGITS:
+        rounded = [float(f"{place:.{digits}g}") for place in places]
+        if len({*rounded}) == len(places):
+            break
+    return [Formatter.fix_minus(f"{place:.{DIGITS[-1]}g}") for place in rounded]
 
 
 def within_a_decade(norm: Normalize) -> bool:
-    """Whether a logarithmic scale has no two powers of ten, and needs further ticks."""
+    """Whether a logarithmic scale spans less than a factor of ten, and has even steps."""
     return norm.vmin is not None and norm.vmax is not None and norm.vmax < 10 * norm.vmin
 
 
@@ -292,9 +307,6 @@ def draw_bar(figure: FigureBase, axes: Sequence[Axes], mesh: Any, scale: Scale, 
     elif scale.ticks:
         bar.set_ticks(range(len(scale.ticks)), labels=list(scale.ticks))
         bar.minorticks_off()
-    elif isinstance(scale.norm, LogNorm) and within_a_decade(scale.norm):
-        bar.ax.yaxis.set_minor_formatter("{x:g}")
-        bar.ax.yaxis.set_major_formatter("{x:g}")
     elif isinstance(scale.norm, LogNorm):
         # else their count depends on the height, and may leave two of five
         bar.locator = LogLocator(numticks=MOST_POWERS)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from matplotlib.ticker import AutoLocator, NullLocator, ScalarFormatter
+from matplotlib.ticker import AutoLocator, NullLocator
 
 from disc_model.figures.cells import scale_along
 from disc_model.figures.class_axis import name_classes, words_along
@@ -119,8 +119,6 @@ def _set_ticks(ax: Axes, names: Sequence[str], shows: bool, whole: bool) -> None
         axis.set_minor_locator(NullLocator())
     elif whole:
         number_whole(axis)
-    if isinstance(axis.get_major_formatter(), ScalarFormatter):
-        axis.get_major_formatter().set_useOffset(False)  # a sum beside the panel is overlooked
 
 
 def number_whole(axis: Any) -> None:

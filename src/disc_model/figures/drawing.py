@@ -150,6 +150,8 @@ def leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
 FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too
 FEW_TICKS = 3  # numbers that an axis has at least, if not more even steps than
 STEPS = (5, 8)  # would be needed
+FAR = 0.2  # of a vertical axis, the longest part at its end without a number,
+AT_END = 0.08  # and the part in which one is then
 ROUNDING = 1e-9  # relative, of limits that are edges of cells
 
 
@@ -169,7 +171,9 @@ class PlainDecades(Locator):
         ticks = ticks[ticks >= self.least]
         if axis.axis_name == "x":
             inside = (ticks >= low * (1 - ROUNDING)) & (ticks <= high * (1 + ROUNDING))
-            ticks = _fewer(ticks[inside], axis.get_tick_space())
+            return _fewer(ticks[inside], axis.get_tick_space())
+        if self.least < 1 and high < 10 * low:
+            return _with_ends(ticks, low, high)
         return ticks
 
     def tick_values(self, vmin: float, vmax: float) -> Any:
@@ -190,6 +194,31 @@ class PlainDecades(Locator):
 def _between(ticks: Array, low: float, high: float) -> Array:
     """The ticks from one value to another."""
     return ticks[(ticks >= low) & (ticks <= high)]
+
+
+def _with_ends(ticks: Array, low: float, high: float) -> Array:
+    """Ticks of a logarithmic axis that spans less than a factor of ten, and a round number at each end from
+    which they are far."""
+    far = (high / low) ** FAR
+    near = (high / low) ** AT_END
+    shown = _between(ticks, low, high)
+    ends = []
+    if not (shown < low * far).any():
+        ends.append(_roundest(low, low * near))
+    if not (shown > high / far).any():
+        ends.append(_roundest(high / near, high))
+    return np.sort([*ticks, *ends])
+
+
+def _roundest(low: float, high: float) -> float:
+    """The number between two positive ones that has the fewest digits."""
+    power = 10.0 ** math.floor(math.log10(high))
+    while True:
+        for step in (power, power / 2, power / 5):
+            number = step * math.ceil(low / step)
+            if number <= high:
+                return number
+        power /= 10
 
 
 def _fewer(ticks: Array, room: int) -> Array:

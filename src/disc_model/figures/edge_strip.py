@@ -31,7 +31,7 @@ def draw_strip(ax: Axes, share: float, rows: Sequence[tuple[Array, dict[str, Any
     for number, (places, look) in enumerate(shown):
         heights = np.full(places.size, (number + 0.5) * SHARE * share)
         whole: dict[str, Any] = {"color": GREY, "linestyle": "", "markersize": mark(4), **look}
-        ax.plot(places, heights, transform=transform, **whole)
+        ax.plot(places, heights, transform=transform, clip_on=False, **whole)
     return SHARE * height
 
 

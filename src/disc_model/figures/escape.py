@@ -6,6 +6,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.lines import Line2D
+from matplotlib.transforms import ScaledTranslation
 
 from disc_model.analysis.classify import share
 from disc_model.data.variables import stated_in
@@ -17,6 +18,7 @@ from disc_model.figures.drawing import (
     PURPLE,
     VERMILION,
     large,
+    mark,
     panels,
     sample,
     say_beside,
@@ -28,6 +30,7 @@ from disc_model.figures.selection import failed
 from disc_model.figures.types import Array, Artist, Axes, Figure
 from disc_model.figures.value_texts import named_value
 
+APART = 4.0  # points, distance of the middles of intervals
 COLOURS = (VERMILION, BLUE, BLACK, GREEN, PURPLE)
 STYLES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (6, 1, 1, 1, 1, 1)))
 """Of lines in their order, as some of their colours are alike in grey print."""
@@ -42,7 +45,7 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     for place, value in enumerate(study[plot.by].values):
         row = study.sel({plot.by: value})
         times = row["first_separation"].values[~failed(row).values]
-        line = _draw_share(ax, times, horizon, COLOURS[place % len(COLOURS)])
+        line = _draw_share(ax, times, horizon, COLOURS[place % len(COLOURS)], place)
         line.set_linestyle(STYLES[place % len(STYLES)])
         line.set_label(named_value(row, plot.by))
         handles.append(line)
@@ -55,7 +58,7 @@ def draw(plot: EscapeShares, study: xr.Dataset, overlays: Mapping[str, xr.Datase
     return figure
 
 
-def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
+def _draw_share(ax: Axes, times: Array, horizon: float, colour: str, place: int) -> Line2D:
     """Draw how the share of starts that have separated grows, and their number and its confidence
     at the horizon.
 
@@ -65,13 +68,17 @@ def _draw_share(ax: Axes, times: Array, horizon: float, colour: str) -> Line2D:
     times : of first separations, s; nan where a start has none
     horizon : s
     colour : of the line
+    place : of the line among all, from 0 on: intervals stand beside each other
     """
     separated = np.sort(times[np.isfinite(times)])
     shares = np.arange(separated.size + 1) / times.size
     steps = [0.0, *separated, horizon]
     (line,) = ax.step(steps, [*shares, shares[-1]], where="post", color=colour, linewidth=wide(1.2))
     _, low, high = share(separated.size, times.size)
-    ax.plot([horizon, horizon], [low, high], clip_on=False, **_interval_look(colour))
+    figure: Any = ax.get_figure(root=True)
+    aside = ScaledTranslation(-place * mark(APART) / 72, 0, figure.dpi_scale_trans)
+    look = _interval_look(colour)
+    ax.plot([horizon] * 2, [low, high], clip_on=False, transform=ax.transData + aside, **look)
     counted = f"{separated.size} of {times.size}"
     say_beside(ax, float(shares[-1]), counted, 4, color=colour, fontsize=large(7))
     return line

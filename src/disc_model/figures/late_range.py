@@ -113,7 +113,7 @@ def _draw_lost_contact(ax: Axes, study: xr.Dataset, plot: LateRange, name: str) 
     for limit, colour, line in zip(limits, LOAD_COLOURS, LOST, strict=False):
         lost = float(limit) / plot.thickness
         ax.axhline(lost, color=colour, linestyle=line, linewidth=wide(1.0))
-        _note(ax, lost, f"contact lost, {1e-3 * float(limit['N']):g} kN", place, color=colour)
+        _note(ax, lost, f"contact lost, N = {1e-3 * float(limit['N']):g} kN", place, color=colour)
         place = FURTHER_NAMES
     _say_how_far_beyond(ax, study.sel({plot.by: name}), limits)
 
@@ -195,10 +195,10 @@ def _draw_panel(ax: Axes, ranges: xr.DataArray, outcomes: xr.DataArray) -> None:
 
 def _legend(figure: Figure, study: xr.Dataset, has_drive: bool) -> None:
     """Name preloads, contacts, marks, the grey band and the speed of the drive below the panels."""
-    handles = [
-        sample(color=colour, linewidth=wide(width), label=f"{1e-3 * load:g} kN")
-        for load, colour, width in zip(study["N"].values, LOAD_COLOURS, LOAD_WIDTHS, strict=False)
-    ]
+    handles = []
+    for load, colour, width in zip(study["N"].values, LOAD_COLOURS, LOAD_WIDTHS, strict=False):
+        said = f"N = {1e-3 * load:g} kN"
+        handles.append(sample(color=colour, linewidth=wide(width), label=said))
     for contact, line in _lines_of(study["contact"].values).items():
         handles.append(sample(color=GREY, linestyle=line, label=CONTACTS[contact]))
     for name, look in _marks().items():

@@ -15,6 +15,7 @@ from disc_model.figures.covered import covers, other_legends, twins_of
 from disc_model.figures.head_texts import CHARACTER
 from disc_model.figures.legend_samples import draw_legend
 from disc_model.figures.places import has_settled, set_places
+from disc_model.figures.symbols import broken
 from disc_model.figures.types import Artist, Axes, FigureBase, Legend
 
 PAGE_SHARE = 0.98  # of the width of a figure that its legend may have
@@ -471,5 +472,5 @@ def _widest_that_fits(draw: partial[Legend], most: int, width: float) -> Legend:
     while legend.get_window_extent().width > width and longest > NARROWEST:
         longest = max(NARROWEST, round(0.9 * longest))
         for text in (*legend.get_texts(), legend.get_title()):
-            text.set_text(fill(text.get_text(), longest))
+            text.set_text(broken(text.get_text(), longest))
     return legend

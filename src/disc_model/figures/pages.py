@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.legend import Legend
 
 from disc_model.errors import require, suggestion
+from disc_model.figures.axis_numbers import write_in_full
 from disc_model.figures.case_titles import write_case
 from disc_model.figures.drawing import large
 from disc_model.figures.least_span import keep_least_span
@@ -190,6 +191,8 @@ def restate(page: Page, wishes: Wishes) -> None:
             page.ax.set_title(str(wishes.title), loc="left", fontsize=large(8))
     _relabel(page, wishes.labels or {})
     keep_least_span(page.axes)
+    for ax in (*page.axes, *page.bars):
+        write_in_full(ax)
 
 
 def _relabel(page: Page, labels: Mapping[str, str]) -> None:

@@ -46,14 +46,16 @@ def points_of(
     rings = rings_of(array.values.astype(float), doubtful & known, _phases_of(study, array), events)
     return [
         *_parts_of(study, array, ~doubtful & ~unsure, look, marker, sweep),
-        *(Points(name, mask, _ring_of(look, ring)) for name, mask, ring in rings),
-        Points(NOT_CONVERGED.label, unsure & known, _ring_of(look, UNDECIDED)),
+        *(Points(name, mask, _ring_of(look, ring, sweep)) for name, mask, ring in rings),
+        Points(NOT_CONVERGED.label, unsure & known, _ring_of(look, UNDECIDED, sweep)),
     ]
 
 
-def _ring_of(look: Look, ring: dict[str, Any]) -> dict[str, Any]:
-    """The look of rings about values in doubt: grey, or beside black dots the colour of their sweep."""
-    ring = {**ring, "markersize": mark(ring["markersize"])}
+def _ring_of(look: Look, ring: dict[str, Any], sweep: int) -> dict[str, Any]:
+    """The look of rings about values in doubt: grey, or beside black dots the colour of their sweep. They are
+    larger than those of sweeps before, so that grey print tells them apart."""
+    size = min(ring["markersize"] + LARGER * sweep, WIDEST)
+    ring = {**ring, "markersize": mark(size)}
     return ring if look.colour == BLACK else {**ring, "color": look.colour}
 
 

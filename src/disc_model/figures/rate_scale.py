@@ -19,6 +19,8 @@ from disc_model.figures.types import Array, Axes, Mask
 
 LINEAR = 0.1
 """Growth rate up to which its scale is linear, 1/s; a greater step from there finds another cycle."""
+SMALL = 3 * LINEAR
+"""Greatest rate of a panel whose scale is linear, 1/s: beyond the linear part, too little is left for numbers."""
 STEP = np.arcsinh(1.0)
 """Step on such a scale, asinh(rate / LINEAR), beyond which the line is broken: a factor of 2.4 between
 large rates."""
@@ -142,7 +144,7 @@ def set_limits(ax: Axes, limits: tuple[float, float]) -> None:
     require((ax.get_yscale() != "log" or limits[0] > 0, "limits", limits, above))
     low, high = sorted(map(abs, limits))
     within = limits[0] * limits[1] > 0 and high < 10 * low
-    if ax.get_yscale() == "symlog" and (within or high <= 2 * LINEAR):
+    if ax.get_yscale() == "symlog" and (within or high <= SMALL):
         ax.set_yscale("linear")
     ax.set_ylim(limits)
 
@@ -153,11 +155,12 @@ def scale_rates(ax: Axes) -> None:
     of `ALIKE`, and zero is not drawn."""
 
     def between(rate: float, _: float) -> str:
-        """Within about a decade, labels of some ticks between its ends, so that nobody reads the
-        scale as linear."""
+        """The outermost ticks, and within about a decade labels of some between them, so that nobody reads
+        the scale as linear."""
         leading = f"{rate:e}".lstrip("-")[0]
         near = max(map(abs, ax.get_ylim())) < 20 * LINEAR
-        return f"{rate:g}".replace("-", "−") if leading in "25" and near else ""
+        is_said = (leading in "25" and near) or _is_outermost(rate, ax.get_ylim())
+        return f"{rate:g}".replace("-", "−") if is_said else ""
 
     if not np.isfinite(ax.dataLim.intervaly).all():  # no rate drawn is finite
         ax.update_datalim([(0, -LINEAR), (0, LINEAR)], updatex=False)
@@ -165,8 +168,16 @@ def scale_rates(ax: Axes) -> None:
     least, greatest = sorted((abs(low), abs(high)))
     if low * high > 0 and least < greatest < ALIKE * least:
         return
-    if max(map(abs, ax.dataLim.intervaly)) > 2 * LINEAR:
+    if greatest > SMALL:
         ax.set_yscale("symlog", linthresh=LINEAR, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
         ax.yaxis.set_minor_formatter(between)
     ax.axhline(0, color=GREY, linewidth=wide(0.6), zorder=0)
+
+
+def _is_outermost(rate: float, limits: tuple[float, float]) -> bool:
+    """Whether no tick of the sign of a rate, which is a tick, lies between it and the limits of its scale."""
+    end = max(limits) if rate > 0 else -min(limits)
+    size = abs(rate)
+    step = 10.0 ** np.floor(np.log10(size * (1 + ROUNDING)))
+    return size <= end < size + step * (1 - ROUNDING)

@@ -4,12 +4,14 @@ from collections.abc import Mapping
 
 import xarray as xr
 
+from disc_model.figures.axis_numbers import UNEVEN, spare_heights, spare_numbers
 from disc_model.figures.drawn_inputs import drawn_of_cases, drawn_of_grid
 from disc_model.figures.head_texts import head_text
 from disc_model.figures.kinds import CasePlot, General, Kind
 from disc_model.figures.labels import COLOUR_BAR, break_labels
 from disc_model.figures.least_span import keep_least_span
 from disc_model.figures.legends import LEAST_CURVE, LEAST_MAP, keep_height
+from disc_model.figures.places import set_places
 from disc_model.figures.restated_axes import restate_axes
 from disc_model.figures.style import styled
 from disc_model.figures.types import Figure
@@ -43,9 +45,23 @@ def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
             if plot.is_map or isinstance(plot, General):
                 shown = [ax for ax in drawn.figure.axes if ax.get_label() != COLOUR_BAR]
                 keep_height(drawn.figure, shown, least)
+            _spare_numbers(drawn.figure)
             return drawn.figure
     finally:
         UNITS.reset(token)
+
+
+def _spare_numbers(figure: Figure) -> None:
+    """Hide numbers beside uneven scales where they would meet."""
+    uneven = [ax for ax in figure.axes if ax.get_yscale() in UNEVEN]
+    if not uneven:
+        return
+    set_places(figure)
+    for ax in uneven:
+        if ax.get_label() == COLOUR_BAR:
+            spare_numbers(ax)
+        else:
+            spare_heights(ax)
 
 
 def _write_title(plot: Kind, figure: Figure, text: str) -> None:

@@ -13,7 +13,7 @@ from disc_model.data import dataset
 from disc_model.data.variables import PHASES, axis_of, flag_names, ranged_variable
 from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.figures import selection
-from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, large, say, wide
+from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, halo, large, say, wide
 from disc_model.figures.stated_case import size_of
 from disc_model.figures.still_motions import ends_shown, show_ends
 from disc_model.figures.types import Array, Axes
@@ -209,6 +209,7 @@ def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **
     if not low <= time <= high:
         return
     usual: dict[str, Any] = {"color": SEPARATED, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}
+    usual["path_effects"] = halo(wide(2.0))  # on ranges of nearly its grey
     usual.update(look)
     ax.axvline(time, **usual)
     if named:

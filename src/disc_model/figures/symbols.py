@@ -2,8 +2,12 @@
 
 import re
 from collections.abc import Iterable
+from textwrap import fill
 from typing import Any
 
+VALUE = re.compile(r"\S+ = [^,:]+")
+"""The symbol of a quantity, its value and its unit."""
+UNBROKEN = "\u00a0"  # a blank at which no line ends
 MARKUP = re.compile(r"\\\w+|[${}_^]")  # of mathematical text; a symbol for a command
 
 
@@ -24,6 +28,13 @@ def set_upright(texts: Iterable[Any]) -> None:
 def without_font(text: str) -> str:
     """A text with symbols in the letters that matplotlib's setting gives them."""
     return re.sub(r"\$\\mathrm\{([^$]+)\}\$", r"$\1$", text)
+
+
+def broken(text: str, length: int) -> str:
+    """A text in lines of a number of characters, or longer ones where a value has to stay with its name and
+    its unit."""
+    kept = VALUE.sub(lambda found: found[0].replace(" ", UNBROKEN), text.replace("\n", " "))
+    return fill(kept, length, break_long_words=False).replace(UNBROKEN, " ")
 
 
 def in_a_row(text: str) -> str:

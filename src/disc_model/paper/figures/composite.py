@@ -16,6 +16,7 @@ from disc_model.figures.drawing import (
     PHASE_COLOURS,
     SEPARATED,
     SLIDER,
+    halo,
     large,
     letters,
     panels,
@@ -68,9 +69,10 @@ def _draw_growth(ax: Axes, plot: Composite, case: xr.DataTree, bilateral: xr.Dat
     ax.set_ylim(-1.25 * top, 1.25 * top)
     lost = float(case["first_separation"])
     if lost <= ax.get_xlim()[1]:
-        ax.axvline(lost, ymax=0.88, color=SEPARATED, linewidth=wide(0.9), linestyle=(0, (4, 2)))
+        look: dict[str, Any] = {"color": SEPARATED, "path_effects": halo(2.5)}
+        ax.axvline(lost, ymax=0.88, linewidth=wide(0.9), linestyle=(0, (4, 2)), **look)
         place = (lost, -1.2 * top)
-        say(ax, "contact\nis lost", place, (-3, 1), fontsize=large(7), color=SEPARATED)
+        say(ax, "contact\nis lost", place, (-3, 1), fontsize=large(7), **look)
     show_thickness(ax, case, "y")
 
 
