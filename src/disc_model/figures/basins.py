@@ -120,7 +120,7 @@ def _draw_over_energies(plot: BasinShares, study: xr.Dataset) -> Figure:
         ax.remove()
     axes = axes[: len(parts)]
     classes = outcomes_in(shares_of(study, OF_ENERGY))
-    places = np.arange(study.sizes[ENERGY])  # one of the energies may be 0
+    places = np.arange(study.sizes[ENERGY], dtype=float)  # one of the energies may be 0
     for ax, part in zip(axes, parts, strict=True):
         point = without_single(part.data, ENERGY, "start")
         draw_shares(ax, shares_of(point, OF_ENERGY), classes, places)
