@@ -28,6 +28,8 @@ SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on th
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 # parameters of the plate, which have no meaning for a disc that is given by its modes
 PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
+PLATE_NAME = "plate"
+"""What a disc is called that is given by its sizes and material, beside discs given by their modes."""
 RATIOS = {  # of two parameters, which may stand for the first one
     "mu_k_over_mu_s": ("mu_k", "mu_s"),
     "k_p_over_k": ("k_p", "k"),

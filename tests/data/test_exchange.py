@@ -105,6 +105,31 @@ def test_a_sweep_over_discs_comes_back_as_it_was(suffix: str, tmp_path: Path) ->
 
 
 @SUFFIXES
+def test_a_sweep_over_the_plate_and_a_disc_comes_back_as_it_was(
+    suffix: str, tmp_path: Path
+) -> None:
+    """It could not be saved."""
+    disc = dm.Disc(diameters=[2], omega=[900.0], amplitude=[1.0])
+    path = tmp_path / f"sweep.{suffix}"
+    for discs in ([None, disc], [None]):
+        swept = dm.sweep(dm.steady_sliding, dm.Parameters(N=100, Omega=20), disc=discs)
+        dm.save(swept, path)
+        found = dm.load(path)
+        assert found["disc"].values.tolist() == discs
+        xr.testing.assert_identical(found, swept)
+
+
+def test_a_table_names_the_plate_beside_a_disc(tmp_path: Path) -> None:
+    disc = dm.Disc(diameters=[2], omega=[900.0], amplitude=[1.0])
+    swept = dm.sweep(dm.steady_sliding, dm.Parameters(N=100, Omega=20), disc=[None, disc])
+    path = tmp_path / "sweep.csv"
+    dm.save(swept, path)
+    plate, other = pd.read_csv(path)["disc"]
+    assert plate == "plate"
+    assert dm.Disc.model_validate_json(other) == disc
+
+
+@SUFFIXES
 def test_groups_come_back_as_a_tree(suffix: str, tmp_path: Path) -> None:
     scalars = RUN.to_tree().to_dataset()
     tree = xr.DataTree.from_dict({"/": scalars, "grid": every_kind(), "grid/all": RUN["all"]})

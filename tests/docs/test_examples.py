@@ -108,6 +108,17 @@ def test_study_files_on_pages_are_right(text: str, tmp_path: Path) -> None:
     assert load_study(path).name in text
 
 
+def test_studies_of_a_page_that_show_each_other_fit(tmp_path: Path) -> None:
+    """There was no example of an overlay."""
+    page = next(page for page in PAGES if page.name == "sliding.md")
+    texts = re.findall(r"^```yaml\n(study: (\w+)\n.*?)^```$", page.read_text(), re.M | re.S)
+    for text, name in texts:
+        (tmp_path / f"{name}.yaml").write_text(text, encoding="utf-8")
+    grids, requested = load_study(tmp_path / "my_outcome.yaml").grids([tmp_path])
+    assert requested == ("my_outcome",)
+    assert set(grids) == {"my_outcome", "my_sliding"}
+
+
 # ---- Docstrings
 
 

@@ -108,8 +108,9 @@ def branches(separations: tuple[int, int] = (0, 2), width: str = "page") -> Figu
     return drawn("branches", study, paper_cases={"F11": 12}, width=width)
 
 
-def basins(width: str = "page") -> Figure:
-    """Four speeds, one failed, and two energies of three starts each."""
+def basins(width: str = "page", **axes: str) -> Figure:
+    """Four speeds, one failed, and two energies of three starts each; over the speed, unless other axes are
+    given."""
     speeds = np.array([8.0, 11.0, 14.5, 16.0])
     classes = [str(word) for word in LONG_TERM_OUTCOMES]
     rng = np.random.default_rng(SEED)
@@ -137,7 +138,7 @@ def basins(width: str = "page") -> Figure:
     }
     coords = over(Omega=speeds) | {"attractor_class": classes, "energy": [0.02, 0.5]}
     study = xr.Dataset(data, coords, stated(horizon=60)).assign_coords(start=range(3))
-    return drawn("basins", study, x="Omega", width=width)
+    return drawn("basins", study, **(axes or {"x": "Omega"}), width=width)
 
 
 def ramps() -> Figure:
@@ -517,6 +518,7 @@ def of_example(kind: str) -> Figure:
 DESCRIBED: dict[str, Callable[[], Figure]] = {
     "basins": basins,
     "basins in a column": lambda: basins("column"),
+    "basins over the energy": lambda: basins(x="energy", by="Omega"),
     "bifurcation": bifurcation,
     "bifurcation at events": lambda: bifurcation("event"),
     "branches": branches,

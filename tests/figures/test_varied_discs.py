@@ -51,6 +51,16 @@ def test_a_title_states_the_only_disc_of_an_axis() -> None:
     pyplot.close("all")
 
 
+def test_a_line_of_the_plate_beside_one_of_a_disc_is_named() -> None:
+    """The picture ended with a TypeError."""
+    swept = dm.sweep(dm.steady_sliding, CASE, disc=[None, DISC], Omega=[10.0, 20.0])
+    [legend] = dm.plot_sweep(swept, "growth_rate", lines="disc").figure.legends
+    plate, disc = (text.get_text() for text in legend.get_texts())
+    assert plate == "plate"
+    assert disc.startswith("disc 2: 3 modes")
+    pyplot.close("all")
+
+
 def test_a_study_states_the_only_disc_of_an_axis(tmp_path: Path) -> None:
     """Its figures and a picture of the dataset left it out."""
     table = Path("config/discs/brake_3_modes.csv").resolve()

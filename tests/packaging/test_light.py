@@ -94,6 +94,8 @@ def test_there_is_one_version() -> None:
     assert cited[1] == disc_model.__version__
     citing = (ROOT / "docs" / "citing.md").read_text(encoding="utf-8")
     assert f"version = {{{disc_model.__version__}}}," in citing
+    assert "git rev-parse HEAD" in citing
+    assert "Address of the repository" not in citing  # which stood there for its reader to replace
     recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
     assert f'{{% set version = "{disc_model.__version__}" %}}' in recipe
     needs = {re.split(r"[<>=]", text)[0].lower() for text in PROJECT["project"]["dependencies"]}

@@ -4,8 +4,10 @@ from typing import Any
 
 import pytest
 
+import disc_model as dm
 from disc_model.studies.given_units import given_units
 from disc_model.studies.study import parse_study
+from tests.figures.reading import draw
 
 RANGE = {"start": "100 rpm", "stop": "160 rpm", "count": 3}
 CURVE = {"kind": "curve", "variable": "growth_rate", "x": "Omega", "by": "N"}
@@ -28,6 +30,18 @@ def test_figures_have_the_units_of_the_axes_unless_they_say_others() -> None:
     assert shown["own"] == {"Omega": "rad/s", "N": "kN"}
 
 
+def test_titles_and_captions_have_the_units_of_the_base() -> None:
+    """The speed of a study was titled in rad/s, though it was given in rpm."""
+    content = {"base": {"Omega": "140 rpm"}, "axes": {"N": [300.0, 400.0]}}
+    figures = {"plain": CURVE | {"x": "N", "by": None}}
+    study = parse_study({"study": "mine", "quantity": "floquet", **content, "figures": figures})
+    [entry] = study.entries(study.grids()[0]).values()
+    assert "Ω = 140 rpm" in entry.caption
+    computed = dm.run_study({"study": "mine", "quantity": "floquet", **content})
+    figure = draw("curve", computed, variable="growth_rate", x="N", units=entry.plot.units)
+    assert "140 rpm" in figure.get_suptitle()
+
+
 @pytest.mark.parametrize(
     ("content", "expected"),
     [
@@ -40,6 +54,9 @@ def test_figures_have_the_units_of_the_axes_unless_they_say_others() -> None:
         ({"options": {"scan": {"start": "1 kN"}, "parameter": "N"}}, {"N": "kN"}),
         ({"options": {"low": "100 rpm"}}, {"Omega": "rpm"}),
         ({"options": {"x_range": ["1 kN", "2 kN"], "x": "N"}}, {"N": "kN"}),
+        ({"base": {"Omega": "140 rpm", "N": 300, "disc": "a.csv"}}, {"Omega": "rpm"}),
+        ({"base": {"Omega": "14 rad/s", "N": "0.3 kN"}, "axes": {"k": [1]}}, {"N": "kN"}),
+        ({"base": {"N": "0.3 kN"}, "options": {"scan": RANGE}}, {"N": "kN", "Omega": "rpm"}),
         ({"axes": {"Omega": [12, "100 rpm"]}}, {}),
         ({"axes": {"Omega": ["12 rad/s"], "N": ["300 N"], "h": ["2 mm"]}}, {}),
         ({"axes": {"Omega": ["3 kN"], "contact": ["unilateral"], "mu_k": [0.2]}}, {}),

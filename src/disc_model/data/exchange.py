@@ -10,6 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.data.complex_parts import joined, with_parts
@@ -18,10 +19,10 @@ from disc_model.data.matlab import load_mat, save_mat
 from disc_model.data.tables import check_suffix
 from disc_model.data.text_tables import names_folder, save_all_tables, save_table
 from disc_model.errors import Fault, ParameterError, raise_faults, require
-from disc_model.parameters import Disc
+from disc_model.parameters import PLATE_NAME, Disc
 
 DISCS = "json_of_disc"
-"""Attribute of a variable of texts, each of which is a disc in JSON: yes."""
+"""Attribute of a variable of texts, each of which is a disc in JSON, or the word for a plate: yes."""
 TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
 """Suffixes of files that are certainly no datasets."""
 TABLE = ".csv"
@@ -51,7 +52,8 @@ def save(
 
     Parameters
     ----------
-    data : of numbers and words; discs along a dimension are written as text, in JSON. A `Fit`, a `Branch` and
+    data : of numbers and words; discs along a dimension are written as text, in JSON, and None beside them, the
+        plate, as "plate". A `Fit`, a `Branch` and
         what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
         has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc or .mat,
         and read by its method `load`
@@ -216,11 +218,28 @@ def _with_texts(group: xr.Dataset) -> xr.Dataset:
     texts = {}
     for key, variable in group.variables.items():
         values = variable.values
-        if values.size and all(isinstance(value, Disc) for value in values.flat):
-            written = [value.model_dump_json() for value in values.flat]
+        if _are_discs(str(key), values):
+            written = [_text_of(value) for value in values.flat]
             attrs = {**variable.attrs, DISCS: "yes"}
             texts[key] = xr.Variable(variable.dims, np.reshape(written, values.shape), attrs)
     return _replaced(group, texts)
+
+
+def _are_discs(name: str, values: NDArray[Any]) -> bool:
+    """Whether values are discs, or None for a plate beside them or along the axis `disc`."""
+    known = [value for value in values.flat if value is not None]
+    are_known = bool(known) or (name == "disc" and values.size > 0)
+    return are_known and all(isinstance(value, Disc) for value in known)
+
+
+def _text_of(disc: Disc | None) -> str:
+    """A disc as JSON; the word for a plate, which is given by its sizes and material."""
+    return PLATE_NAME if disc is None else disc.model_dump_json()
+
+
+def _disc_of(text: str) -> Disc | None:
+    """The disc of a text, None for a plate."""
+    return None if text == PLATE_NAME else Disc.model_validate_json(text)
 
 
 def _with_discs(group: xr.Dataset) -> xr.Dataset:
@@ -231,7 +250,7 @@ def _with_discs(group: xr.Dataset) -> xr.Dataset:
             continue
         values = np.empty(variable.shape, object)
         for place, text in np.ndenumerate(variable.values):
-            values[place] = Disc.model_validate_json(str(text))
+            values[place] = _disc_of(str(text))
         attrs = {name: value for name, value in variable.attrs.items() if name != DISCS}
         discs[key] = xr.Variable(variable.dims, values, attrs)
     return _replaced(group, discs)

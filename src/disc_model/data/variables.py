@@ -69,6 +69,18 @@ class CycleStatus(StatusBase):
     NON_FINITE = "non_finite", "The motion overflowed: check the parameters' magnitudes."
 
 
+GIVE_A_GUESS = "give the last state of a longer simulation as guess"
+"""How a message on a search without a cycle may end."""
+
+
+def with_advice(found: str, status: StatusBase) -> str:
+    """What was found, and then the advice of its status, which says in full what a message may end with."""
+    found = found.removesuffix(f": {GIVE_A_GUESS}")
+    if found in ("", status.advice):
+        return status.advice
+    return f"{found}. {status.advice}"
+
+
 # Flags of the outcomes of motions that are followed until they settle, and of those that are
 # followed to a horizon, or until they separate; `failed`: not computed.
 LONG_TERM_OUTCOMES = (

@@ -1,5 +1,6 @@
 """Outcomes of many starts: their shares, the attractors, and the critical energy of separation."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -19,12 +20,14 @@ from disc_model.figures.drawing import (
     mark,
     mark_failed,
     new_figure,
+    panels,
     plain_decades,
     wide,
 )
-from disc_model.figures.kinds.motions import BasinShares
+from disc_model.figures.kinds.motions import ENERGY, BasinShares
+from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.legends import figure_legend, legend_above
-from disc_model.figures.selection import failed
+from disc_model.figures.selection import failed, without_single
 from disc_model.figures.separating_share import (
     draw_interval,
     entries_of_interval,
@@ -51,6 +54,11 @@ LOST = "undecided_lost"
 """Class of undecided starts that have lost contact."""
 BARS = {**LOOKS, LOST: LOOKS["undecided"]._replace(hatch=3 * "-")}
 """Looks of the classes that are stacked."""
+OF_ENERGY = "basin_fraction_by_energy"
+"""Shares of the starts of each energy."""
+IN_A_ROW = 4  # panels over the energy on a page
+OF_ROW = 1.7  # height of a row of them, inch,
+OF_LEGEND = 0.7  # and of what is below them
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
 """Shares of starts that the legend shows."""
@@ -63,7 +71,9 @@ BAR = 0.9  # width of a bar over the least distance of two
 
 def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw the fractions for each energy; below, attractors by range, as large as their
-    fractions, and energies."""
+    fractions, and energies. Over the energy, draw the fractions alone, for each value of a parameter."""
+    if plot.x == ENERGY:
+        return _draw_over_energies(plot, study)
     study = study.transpose(plot.x, ...)
     across = measured(study[plot.x])
     energies = study["energy"].values
@@ -71,11 +81,11 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     *shares, attractors, kicks = axes
 
     classes = outcomes_in(shares_of(study, "basin_fraction"))
-    by_energy = shares_of(study, "basin_fraction_by_energy")
+    by_energy = shares_of(study, OF_ENERGY)
     for ax, energy in zip(shares, energies, strict=True):
         of_energy = by_energy.sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
-        of_separating = interval_of(study.sel(energy=energy), "basin_fraction_by_energy")
+        of_separating = interval_of(study.sel(energy=energy), OF_ENERGY)
         draw_interval(ax, of_separating, classes, across.values)
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
@@ -92,11 +102,49 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     ends = np.transpose([ax.get_xlim() for ax in axes])
     for ax in axes:
         ax.set_xlim(ends[0].min(), ends[1].max())
+    _explain(figure, study, classes)
+    return figure
+
+
+def _draw_over_energies(plot: BasinShares, study: xr.Dataset) -> Figure:
+    """Draw the fractions against the energy, with a panel for each value of a parameter."""
+    parts = parts_shown(study, plot.by, plot.names)
+    columns = 1
+    width = plot.inches_of(len(parts))
+    if width == PAGE:
+        columns = math.ceil(len(parts) / math.ceil(len(parts) / IN_A_ROW))
+    rows = math.ceil(len(parts) / columns)
+    height = OF_LEGEND + OF_ROW * rows
+    figure, axes = panels(width, height, rows, columns, sharex=True, sharey=True)
+    for ax in axes[len(parts) :]:
+        ax.remove()
+    axes = axes[: len(parts)]
+    classes = outcomes_in(shares_of(study, OF_ENERGY))
+    places = np.arange(study.sizes[ENERGY], dtype=float)  # one of the energies may be 0
+    for ax, part in zip(axes, parts, strict=True):
+        point = without_single(part.data, ENERGY, "start")
+        draw_shares(ax, shares_of(point, OF_ENERGY), classes, places)
+        draw_interval(ax, interval_of(point, OF_ENERGY), classes, places)
+        ax.set_xticks(places, [f"{energy:g}" for energy in study[ENERGY].values])
+        ax.set_xlabel(measured(study[ENERGY]).label)
+        ax.set_ylabel(share_text(study.sizes["start"]))
+        ax.margins(x=0.04)
+        mark_failed(ax, places[np.broadcast_to(failed(point).values, places.shape)])
+        ax.label_outer()
+    for ax in axes[-columns:]:  # below some of them there is none
+        ax.set_xlabel(measured(study[ENERGY]).label)
+        ax.tick_params(labelbottom=True)
+    letters(axes, titles_of_panels(parts, study, plot.by))
+    _explain(figure, study, classes)
+    return figure
+
+
+def _explain(figure: Figure, study: xr.Dataset, classes: Sequence[str]) -> None:
+    """Write the legend of the outcomes of starts below a figure."""
     horizon = stated_in(study, "options")["horizon"]
     handles = entries_of(classes, f"undecided after {horizon:g} s")
-    handles += entries_of_interval(study, "basin_fraction_by_energy", classes)
+    handles += entries_of_interval(study, OF_ENERGY, classes)
     figure_legend(figure, handles, loc="outside lower center")
-    return figure
 
 
 def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:

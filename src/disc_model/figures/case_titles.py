@@ -1,5 +1,6 @@
 """The values of a case above a reader's axes."""
 
+import re
 from textwrap import fill
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -18,6 +19,9 @@ FEW_LINES = 2  # above a reader's axes, more than which are in smaller letters
 SMALLER = 0.75  # of the usual size,
 LEAST_SIZE = 6.0  # and their least size, points
 
+DISC_WITH_RANGE = re.compile(r"a disc given by (?P<modes>\d+ modes?) of [^,]+")
+"""What titles say of a disc that is given by its modes, with the range of their frequencies."""
+
 _WRITTEN: WeakKeyDictionary[Axes, str] = WeakKeyDictionary()
 """What was written above axes, in one line."""
 
@@ -25,7 +29,16 @@ _WRITTEN: WeakKeyDictionary[Axes, str] = WeakKeyDictionary()
 def title_text(width: float, said: str, asked: str | bool | None = None) -> str:
     """The values of a case, or else a title that a reader asks for, in lines that fit a width in inches."""
     title = asked if isinstance(asked, str) else ""
-    return head_text(width, title, said, MOST_LINES)
+    return head_text(width, title, _with_short_disc(said, width), MOST_LINES)
+
+
+def _with_short_disc(said: str, width: float) -> str:
+    """The values of a case, in which a disc given by its modes is called as in legends if all that is said of
+    it is longer than a line of a width in inches."""
+    disc = DISC_WITH_RANGE.search(said)
+    if disc is None or len(disc[0]) <= width / CHARACTER:
+        return said
+    return said.replace(disc[0], f"disc of {disc['modes']}")
 
 
 def write_case(ax: Axes, said: str, note: str = "") -> None:

@@ -5,10 +5,7 @@ from typing import Any
 
 from disc_model.display import counted, frequencies_text
 from disc_model.modal_disc import Disc
-from disc_model.parameters import DEFAULTS, PLATE
-
-PLATE_NAME = "plate"
-"""What a disc is called that is given by its sizes and material, beside discs given by their modes."""
+from disc_model.parameters import DEFAULTS, PLATE, PLATE_NAME
 
 
 def disc_name(disc: object, others: Sequence[object]) -> str:

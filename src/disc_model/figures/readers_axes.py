@@ -11,8 +11,9 @@ from disc_model.figures.legends import LEAST_CURVE, keep_height
 from disc_model.figures.own_symbols import set_symbols
 from disc_model.figures.page_legends import write_legend
 from disc_model.figures.pages import OWN, Page, Wishes, given_axes, restate
-from disc_model.figures.places import ticks_once
+from disc_model.figures.places import set_places, ticks_once
 from disc_model.figures.placing import check_room, stack_narrow
+from disc_model.figures.repeated_bars import leave_label_to_last
 from disc_model.figures.room import make_room
 from disc_model.figures.shared_labels import clear_repeated
 from disc_model.figures.small_panels import remember_sides, warn_of_small_panels
@@ -56,8 +57,10 @@ def page_on_axes(wishes: Wishes, count: int, case: str, stacked: float) -> Itera
 def _finish(page: Page, wishes: Wishes) -> None:
     """Write labels, title and legend on a reader's axes."""
     figure: Any = page.ax.get_figure(root=True)
+    if page.bars and wishes.title is True:
+        set_places(figure)  # a title fits the panel beside its bar
     restate(page, wishes)
-    shown = [*page.axes, *page.bars]
+    shown = [*page.axes, *page.bars, *leave_label_to_last(page)]
     break_labels(figure, shown)  # long ones would leave the legend no room
     former = _legends_in_layout(figure)
     with ticks_once(figure):

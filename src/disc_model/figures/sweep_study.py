@@ -12,7 +12,7 @@ from disc_model.figures.selection import without_single
 from disc_model.figures.sweep_dimensions import drawn_dims
 from disc_model.figures.sweep_options import function_of
 from disc_model.figures.words import IN_THOUSANDTH, MISSING, named
-from disc_model.parameters import Disc
+from disc_model.parameters import PLATE_NAME, Disc
 
 OF_FUNCTIONS = {
     "bifurcation": "psi",
@@ -146,15 +146,27 @@ def with_words(study: xr.Dataset) -> xr.Dataset:
         if values.dtype.kind == "b" and values.ndim == 1:
             answers = np.where(values, "yes", "no")
             named[name] = (values.dims, answers, {**values.attrs, **TRUTH})
-        discs = [value for value in values.values.flat if isinstance(value, Disc)]
-        if len(discs) > 1 and values.ndim == 1:
-            shown = [str(disc).removeprefix("Disc(").removesuffix(")") for disc in discs]
-            words = [f"disc {i}: {text}" for i, text in enumerate(shown, start=1)]
-            named[name] = (values.dims, words, values.attrs)
+        if values.ndim == 1 and _are_discs(values):
+            named[name] = (values.dims, _names_of_discs(values), values.attrs)
         elif values.ndim == 1 and _lacks_words(values):
             known = np.where(flag_names(values) == "", MISSING, flag_names(values))
             named[name] = (values.dims, known, values.attrs)
     return study.assign_coords(named)
+
+
+def _are_discs(values: xr.DataArray) -> bool:
+    """Whether these are several discs, one of which may be the plate, for which None stands."""
+    given = [value for value in values.values.flat if value is not None]
+    return values.size > 1 and bool(given) and all(isinstance(value, Disc) for value in given)
+
+
+def _names_of_discs(values: xr.DataArray) -> list[str]:
+    """Names of discs by their order and frequencies, and the word for the plate among them."""
+    names = []
+    for number, disc in enumerate(values.values, start=1):
+        shown = str(disc).removeprefix("Disc(").removesuffix(")")
+        names.append(PLATE_NAME if disc is None else f"disc {number}: {shown}")
+    return names
 
 
 def _lacks_words(values: xr.DataArray) -> bool:

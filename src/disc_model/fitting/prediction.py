@@ -13,12 +13,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from disc_model.data.variables import GIVE_A_GUESS
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
 from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid
 from disc_model.parameters import Parameters
-from disc_model.stability.cycle import GIVE_A_GUESS, FloquetResult, find_cycle
+from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.floquet import beside_motion
 from disc_model.stability.sliding import steady_sliding
 

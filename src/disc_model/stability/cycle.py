@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue
-from disc_model.data.variables import CycleStatus, values_text
+from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
 from disc_model.display import Drawn, Summarised, counted, number_text
 from disc_model.errors import DiscModelError, violations
 from disc_model.parameters import Parameters
@@ -26,8 +26,6 @@ STICK_SLIP = "stick_slip"
 SLIPPING = "slipping"
 KINDS = (STICK_SLIP, SLIPPING)
 """Kinds of cycles, by whether they stick."""
-GIVE_A_GUESS = "give the last state of a longer simulation as guess"
-"""Advice on a motion whose cycle is not found near the static start."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
 MOST_RELEASES = (
     60  # after which it is looked whether a motion repeats: paper's cases have periods of up to 45
@@ -166,7 +164,7 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     def raise_for_status(self) -> "FloquetResult":
         """Return self if a cycle was found; otherwise raise `CycleError`."""
         if self.status is not CycleStatus.OK:
-            raise CycleError(f"{self.message}. {self.status.advice}")
+            raise CycleError(with_advice(self.message, self.status))
         return self
 
 

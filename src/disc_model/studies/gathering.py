@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.swept_branches import variables_of_branch
-from disc_model.data.variables import CycleStatus
+from disc_model.data.variables import CycleStatus, with_advice
 from disc_model.errors import StatusBase
 from disc_model.simulation.result import Result
 from disc_model.stability.critical_values import Critical
@@ -63,12 +63,16 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
 
 
 def message_of(result: Any) -> str:
-    """The message of a result, "" without one. One of this package whose own status is "ok" only says its
-    numbers again: that is "" too, as in studies."""
+    """The message of a result, "" without one, with the advice of its status where it is not complete. One of
+    this package whose own status is "ok" only says its numbers again: that is ""."""
     status = getattr(result, "status", None)
-    if isinstance(status, StatusBase) and status == "ok":
+    message = getattr(result, "message", "")
+    if not isinstance(status, StatusBase):
+        return message
+    if status == "ok":
         return ""
-    return getattr(result, "message", "")
+    is_complete = getattr(status, "complete", False)
+    return message if is_complete else with_advice(message, status)
 
 
 def _is_whole_dataset(result: Any) -> bool:

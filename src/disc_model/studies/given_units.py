@@ -1,4 +1,4 @@
-"""The units in which a study file gives what varies, and in which its figures show it."""
+"""The units in which a study file gives its values, and in which its figures show them."""
 
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -19,10 +19,10 @@ OF_OPTIONS = {
 
 
 def given_units(content: Mapping[str, Any]) -> dict[str, str]:
-    """Units of the parameters along the axes of a study file, zips and ranges of its options included:
-    those in which all values of an axis are given, where figures have another one by themselves."""
+    """Units of the parameters of a study file, along its axes, zips and ranges of its options, and of those of
+    its base: those in which all values of an axis are given, where figures have another one by themselves."""
     units = {}
-    for name, values in _axes(content):
+    for name, values in _given(content):
         found = {unit_of_text(text) for text in _texts(values)}
         unit = found.pop() if len(found) == 1 else ""
         if unit and _is_another(name, unit):
@@ -30,8 +30,12 @@ def given_units(content: Mapping[str, Any]) -> dict[str, str]:
     return units
 
 
-def _axes(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
-    """Yield the parameters that a file varies, with their values as they are given."""
+def _given(content: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the parameters of the base of a file, and then those that it varies, with their values as they are
+    given."""
+    base = content.get("base")
+    if isinstance(base, Mapping):
+        yield from base.items()
     options = content.get("options")
     for key, (naming, usual) in OF_OPTIONS.items():
         if isinstance(options, Mapping) and key in options:

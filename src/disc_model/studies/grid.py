@@ -19,6 +19,7 @@ from disc_model.data.variables import PERTURBATIONS, START, attributes, values_t
 from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
+from disc_model.figures.words import factors_of
 from disc_model.parameters import (
     AUTO,
     CHOOSING,
@@ -717,18 +718,18 @@ class GridStudy:
                     yield Fault.of((axis,), name, rule)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of the grid, in the units in which its file gives what varies unless the figure has
+        """A figure of the grid, in the units in which its file gives its values unless the figure has
         its own, whose caption states the values that differ from Table 1 and do not vary."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
         stated = {name: value for name, value in self.base.items() if value or name not in REQUIRED}
-        values = values_text(stated)
+        shown = plot.model_copy(update={"units": {**self.file.axis_units, **plot.units}})
+        values = values_text(stated, factors_of(shown.units))
         source = f"the grid study {self.name}"
         if values:
             source += f", with {values}"
         caption = f"{plot.caption} From {source}.".strip()
-        shown = plot.model_copy(update={"units": {**self.file.axis_units, **plot.units}})
         return FigureEntry(shown, inputs, category, plot.section, title, caption)
 
 

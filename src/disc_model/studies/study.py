@@ -389,7 +389,7 @@ class Study(Strict):
 
     @property
     def axis_units(self) -> Mapping[str, str]:
-        """The units in which the file gives what varies, by parameter."""
+        """The units in which the file gives its base and what varies, by parameter."""
         return self._axis_units
 
     @property

@@ -6,6 +6,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.data.variables import CycleStatus
 from disc_model.figures.classes import FILLED_MARK, NOT_NEAR
 from tests.figures.reading import draw, labels
 from tests.studies.conftest import computed
@@ -44,8 +45,22 @@ def test_a_study_and_a_sweep_say_nothing_of_points_that_are_good(study: xr.Datas
     assert set(sliding["message"].values.flat) == {""}
     runs = dm.sweep(dm.simulate, dm.Parameters(N=375, Omega=7.35), t_end=1.0, N=[1.0])
     assert set(runs["message"].values.flat) == {""}
-    at_rest = dm.sweep(dm.floquet, dm.Parameters(N=375, Omega=7.35), Omega=[0.0])
-    assert at_rest["message"].values[0].startswith("at_rest: ")
+
+
+@pytest.mark.compiled
+def test_a_study_and_a_sweep_say_what_was_found_and_then_what_to_do() -> None:
+    """A sweep gave no advice, and a study nothing but advice."""
+    swept = dm.sweep(dm.floquet, dm.Parameters(N=375, Omega=7.35), Omega=[0.0, 7.3], N=[385, 2e4])
+    grid = {"study": "mine", "quantity": "floquet", "axes": {"Omega": [0.0, 7.3], "N": [385, 2e4]}}
+    study = dm.run_study(grid)
+    said = study["message"].transpose("Omega", "N")
+    assert said.values.tolist() == swept["message"].values.tolist()
+    found = "at_rest: the slider stays where it is on the disc"
+    assert swept["message"].values[0, 0] == f"{found}. {CycleStatus.AT_REST.advice}"
+    without = str(swept["message"].sel(Omega=7.3, N=2e4).item())
+    assert without.startswith("no_cycle: no cycle of up to 3 releases was found")
+    assert without.endswith(CycleStatus.NO_CYCLE.advice)
+    assert without.count("state of a") == 1
 
 
 @pytest.mark.compiled

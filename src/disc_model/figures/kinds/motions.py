@@ -11,6 +11,8 @@ from disc_model.errors import Fault, suggestion
 from disc_model.figures.kinds.base import NORM, Compared, Names, Plot, Role, Roles, Values, unknown
 from disc_model.units import Finite, Positive, Real, Unit
 
+ENERGY = "energy"  # of kicks, along which basins are drawn for each value of a parameter
+MOST_PANELS = 6  # of these values
 MOST_POINTS = 4  # greatest number of points that a figure of sensitivity shows
 
 
@@ -83,10 +85,39 @@ class EscapeShares(Plot):
 
 class BasinShares(Plot):
     """Outcomes of many starts, the attractors, and the critical energy of separation, against a
-    parameter."""
+    parameter; or outcomes against the energy alone, with a panel for each value of the parameter.
+
+    x : the parameter, or energy
+    by : the parameter with a panel for each value, over the energy
+    names : words for values of `by`
+    """
 
     kind: Literal["basins"] = "basins"
     x: str
+    by: str | None = None
+    names: Names = Field({})
+
+    @property
+    def axes(self) -> dict[str, str]:
+        """The parameter that the study varies, by the key that names it."""
+        if self.x != ENERGY:
+            return {"x": self.x}
+        return {} if self.by is None else {"by": self.by}
+
+    def wrong_axes(self, values: Values, shown: str) -> Iterator[Fault]:
+        varied = [name for name in values if len(values[name]) > 1]
+        if self.x == ENERGY and self.by is None and varied:
+            yield Fault(("by",), "", f"is required over the energy, such as {varied[0]}")
+            return
+        if self.x != ENERGY and self.by is not None:
+            yield Fault.of(("by",), self.by, f"must be left out, unless x is {ENERGY}")
+            return
+        yield from super().wrong_axes(values, shown)
+        along = values.get(self.by or "", ())
+        if len(along) > MOST_PANELS:
+            rule = f"has {len(along)} values, and there is room for {MOST_PANELS}"
+            yield Fault.of(("by",), self.by, rule)
+        yield from unknown("names", self.names, self.by or "by", along)
 
 
 class Staircase(Plot):

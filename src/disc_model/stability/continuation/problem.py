@@ -13,12 +13,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from disc_model.data.variables import unit_of_parameter
+from disc_model.data.variables import GIVE_A_GUESS, unit_of_parameter
 from disc_model.errors import Fault, ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
 from disc_model.stability.continuation.curve import CurvePoint, Evaluation, Rejected, curve_point
-from disc_model.stability.cycle import GIVE_A_GUESS, FloquetResult
+from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.return_map import (
     ENDS,
     PARAMETERS,

@@ -4,7 +4,7 @@ simulation."""
 import math
 from typing import Any, ClassVar
 
-from disc_model.data.variables import CycleStatus, Variable
+from disc_model.data.variables import CycleStatus, Variable, with_advice
 from disc_model.studies.quantity import (
     BESIDE_MOTION,
     CYCLE_STATUSES,
@@ -57,7 +57,8 @@ class Floquet(Quantity):
             "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,
             "sliding_growth_rate": cycle.sliding.growth_rate, **beside_motion_columns(cycle),
         }  # fmt: skip
-        return values, "" if cycle.status is CycleStatus.OK else cycle.status.advice
+        found = cycle.status is CycleStatus.OK
+        return values, "" if found else with_advice(cycle.message, cycle.status)
 
     def state_at(self, point: Point) -> State:
         from disc_model.stability.cycle import find_cycle

@@ -21,6 +21,7 @@ from disc_model.data.variables import (
     STABLE_CYCLES,
     Variable,
     flag_names,
+    with_advice,
 )
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
@@ -256,7 +257,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
     row.update(beside_motion_columns(cycle))
     if cycle.motion in SAMPLE_CYCLES:
         return row, ""
-    return {**row, "cycle": FAILED}, cycle.message
+    return {**row, "cycle": FAILED}, with_advice(cycle.message, cycle.status)
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
