@@ -308,9 +308,12 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
     another kind is a fault at its `path`, and so is a number without a unit beside others."""
     if not unit or type(value) is float:
         return value
-    if isinstance(unit, str):
-        faults += mixed_units(_numbers_of_one_unit(value), unit, path)
-    return _all_in_si(value, unit, faults, path)
+    wrong: list[Fault] = []
+    found = _all_in_si(value, unit, wrong, path)
+    if isinstance(unit, str) and not wrong:
+        wrong += mixed_units(_numbers_of_one_unit(value), unit, path)
+    faults += wrong
+    return found
 
 
 def _all_in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:

@@ -23,12 +23,13 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     """
     several = _are_several(values)
     raw = as_list(values)
+    mixed = mixed_units(raw, _unit_of(name), (*within, name))
+    known = len(faults)
     if not raw:
         faults.append(Fault.of((*within, name), values, "must have one value or more"))
     if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
         faults.append(Fault.of((*within, name), values, "must be values in one dimension"))
         return raw
-    faults += mixed_units(raw, _unit_of(name), (*within, name))
     model = _model_of(name)
     checked: list[Any] = []
     impossible: list[list[Fault]] = []
@@ -50,6 +51,8 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
                 impossible.append(told)
     if impossible and len(impossible) == len(raw):
         faults += [fault for told in impossible for fault in told]
+    if len(faults) == known:
+        faults += mixed
     return checked
 
 
