@@ -199,7 +199,8 @@ def _unknown_name(path: tuple[str, ...], value: Any, model: type[BaseModel]) -> 
     """The fault of a name that a model does not know."""
     word = getattr(model, "_word", "")
     rule = getattr(model, "_unknown", "")
-    more = suggestion(path[-1], [*model.model_fields], all_of_them=not (word or rule))
+    known = [name for name, field in model.model_fields.items() if field.repr]
+    more = suggestion(path[-1], known, all_of_them=not (word or rule))
     if rule:
         return Fault(path, "", rule + more)
     if value is None and path[-1][:1].isdigit():  # the rest of a number that YAML ends at its comma

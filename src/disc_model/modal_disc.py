@@ -15,8 +15,17 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from disc_model.attachable import DiscFiles
 from disc_model.display import counted, html_table
 from disc_model.errors import Fault, raise_faults
-from disc_model.mode_units import UNCERTAIN, mode_number, mode_numbers
-from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
+from disc_model.mode_units import OF_COLUMNS, UNCERTAIN, mode_number, mode_numbers
+from disc_model.units import (
+    Count,
+    Finite,
+    Positive,
+    Strict,
+    Unit,
+    limits_faults,
+    mixed_units,
+    within,
+)
 
 if TYPE_CHECKING:
     from disc_model.disc.given import DiscReport
@@ -109,6 +118,16 @@ class Disc(DiscFiles, Strict):
             circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
             radii: Column = ..., shapes: Iterable[Column] = ...,
         ) -> None: ...  # fmt: skip
+
+    @model_validator(mode="before")
+    @classmethod
+    def _of_one_unit(cls, data: Any) -> Any:
+        """Refuse columns of which some numbers have a unit and others none."""
+        for name in UNCERTAIN:
+            column: Any = data.get(name) if isinstance(data, dict) else None
+            if isinstance(column, list | tuple) or hasattr(column, "dtype"):
+                raise_faults(mixed_units(column, OF_COLUMNS.get(name, "1"), (name,)))
+        return data
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

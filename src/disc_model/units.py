@@ -9,7 +9,7 @@ import math
 import numbers
 import re
 import types
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import (
     TYPE_CHECKING,
@@ -75,6 +75,7 @@ UNITS: dict[str, str] = {}  # units of parameters by their names, filled by `dis
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?+"
 """A number in a text; its exponent is not taken for a unit."""
+_PLAIN_NUMBER = re.compile(rf"\s*{NUMBER}\s*")
 _WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*((?:1/)?[A-Za-zµΩ°%].*)")
 _POWER = r"[A-Za-zµΩ°%]+(?:\*\*-?\d)?"
 _UNIT = re.compile(rf"(?:1/)?{_POWER}(?:(?:\s*[*/]\s*|\s+){_POWER}){{0,5}}\s*")
@@ -101,6 +102,10 @@ _USUAL: tuple[str, ...] = (
 """Units whose small and capital letters are often confused."""
 ENDS = ("start", "stop", "step")
 """Keys of a range whose numbers have one unit."""
+PARTS_OF_AXES = (*ENDS, "extra", "blocks")
+"""Keys of an axis under which it has values."""
+GIVEN_IN = "given_in"
+"""Key of a range for the unit in which it is given, and for that of SI, in which its ends are."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -119,7 +124,8 @@ def _plain_unit(text: str) -> str:
     return text.replace("^", "**")
 
 
-def _converted(magnitude: float, text: str, unit: str) -> float:
+@functools.lru_cache(maxsize=1024)
+def converted(magnitude: float, text: str, unit: str) -> float:
     """A number with a unit, as the number in another unit; raises ValueError, or an error of pint
     or of Python's tokenizer, which have no common base."""
     if text.strip() == unit:  # needs no parser, whose import takes a second
@@ -203,22 +209,22 @@ def is_quantity(value: object) -> bool:
 
 
 def _quantity_in_si(value: Any, unit: str) -> Any:
-    """A quantity of pint, or an array of them as a list, in SI; raises as `_converted`."""
+    """A quantity of pint, or an array of them as a list, in SI; raises as `converted`."""
     if getattr(value.magnitude, "ndim", 0):
         return [_quantity_in_si(part, unit) for part in value]
     text = format(value.units, "C")
     if unit.startswith("rad") and not _has_angle(text):
-        return _converted(float(value.magnitude), text, unit)
+        return converted(float(value.magnitude), text, unit)
     return _in_unit(value, unit)
 
 
 def _data_in_si(value: Any, text: str, unit: str) -> Any:
-    """Numbers of xarray with the text of their unit, in SI; raises as `_converted`."""
+    """Numbers of xarray with the text of their unit, in SI; raises as `converted`."""
     if text == unit == "1":
         return value
     if value.ndim == 0:
-        return _converted(number(value), text, unit)
-    factor = _converted(1.0, text, unit)
+        return converted(number(value), text, unit)
+    factor = converted(1.0, text, unit)
     return value if factor == 1.0 else factor * value.values
 
 
@@ -246,40 +252,79 @@ def _other_letters(text: str, unit: str) -> list[str]:
     usual = {word.lower(): word for word in _USUAL}
     meant = re.sub(r"[A-Za-z]+", lambda word: usual.get(word[0].lower(), word[0]), text)
     try:
-        _converted(1.0, meant, unit)
+        converted(1.0, meant, unit)
     except Exception:  # of pint and of Python's tokenizer, which have no common base
         return []
     return [meant]
 
 
-def _mixed_units(values: list[Any], unit: str, path: tuple[str, ...]) -> list[Fault]:
+def mixed_units(values: Iterable[Any], unit: str, path: tuple[str, ...]) -> list[Fault]:
     """The fault of a number without a unit beside such as have another one than that of SI, of which it
     may have either; zero is zero in any."""
-    with_unit = [x for x in values if isinstance(x, str) and _in_another_unit(x, unit)]
-    without = [x for x in values if is_number(x) and x != 0]
+    listed = list(values)
+    with_unit = [x for x in listed if _has_another_unit(x, unit)]
+    without = [x for x in listed if _has_no_unit(x)]
     if not (with_unit and without):
         return []
-    rule = f"has no unit beside {with_unit[0]!r}: give it one; decimals have a point in place of a comma"
+    beside = str(with_unit[0])
+    rule = f"has no unit beside {beside!r}: give it one; decimals have a point in place of a comma"
     return [Fault.of(path, without[0], rule)]
 
 
-def _in_another_unit(text: str, unit: str) -> bool:
-    """Whether a text is a number in another unit than a given one."""
-    match = _WITH_UNIT.fullmatch(text)
+def _has_another_unit(value: Any, unit: str) -> bool:
+    """Whether a text or a quantity of pint is a number in another unit than a given one."""
+    if is_quantity(value):
+        return format(value.units, "~C") != unit
+    if not isinstance(value, str):
+        return False
+    match = _WITH_UNIT.fullmatch(value)
     return match is not None and match[2].strip() != unit
+
+
+def _has_no_unit(value: Any) -> bool:
+    """Whether a value is a number other than zero without a unit, or the text of one."""
+    if isinstance(value, str):
+        return _PLAIN_NUMBER.fullmatch(value) is not None and float(value) != 0
+    return is_number(value) and value != 0
+
+
+def _numbers_of_one_unit(value: Any) -> Iterator[Any]:
+    """Yield the numbers within a list or a range, which have one unit."""
+    parts: Iterable[Any] = ()
+    if isinstance(value, dict):
+        parts = [value[key] for key in PARTS_OF_AXES if key in value]
+    elif type(value) in (list, tuple):
+        parts = value
+    for part in parts:
+        if isinstance(part, dict | list | tuple):
+            yield from _numbers_of_one_unit(part)
+        else:
+            yield part
 
 
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
     """A value with all texts within it that have a unit, such as ``"150 GPa"``, and all quantities
     of pint and single numbers of xarray with a unit, as numbers in the given unit. A unit of
-    another kind is a fault at its `path`."""
+    another kind is a fault at its `path`, and so is a number without a unit beside others."""
+    if not unit or type(value) is float:
+        return value
+    wrong: list[Fault] = []
+    found = _all_in_si(value, unit, wrong, path)
+    if isinstance(unit, str) and not wrong:
+        wrong += mixed_units(_numbers_of_one_unit(value), unit, path)
+    faults += wrong
+    return found
+
+
+def _all_in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
+    """A value with all numbers within it in SI units, which may be mixed with numbers without any."""
     if not unit or type(value) is float:
         return value
     if isinstance(value, dict):
         return _parts_in_si(value, unit, faults, path)
     if type(value) in (list, tuple):
         return type(value)(
-            in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
+            _all_in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
         )
     if not isinstance(unit, str):
         return value
@@ -289,11 +334,34 @@ def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -
 def _parts_in_si(
     value: dict[Any, Any], unit: Units, faults: list[Fault], path: tuple[str, ...]
 ) -> Any:
-    """The values of a dict in SI units, all in one unit or each in its own."""
-    units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
-    if isinstance(unit, str):
-        faults += _mixed_units([value[key] for key in ENDS if key in value], unit, path)
-    return {x: in_si(part, units.get(x, ""), faults, (*path, str(x))) for x, part in value.items()}
+    """The values of a dict in SI units, all in one unit or each in its own; those of a range with the
+    unit in which it is given."""
+    if not isinstance(unit, str):
+        return {x: in_si(value[x], unit.get(x, ""), faults, (*path, str(x))) for x in value}
+    found = {}
+    for name, part in value.items():
+        convert = _all_in_si if name in PARTS_OF_AXES else in_si
+        found[name] = convert(part, unit, faults, (*path, str(name)))
+    given = _unit_of_range(value)
+    if given not in ("", unit):
+        found[GIVEN_IN] = (given, unit)
+    return found
+
+
+def _unit_of_range(value: Mapping[Any, Any]) -> str:
+    """The one unit in which a range is given; "" without one, or if this is no range."""
+    is_range = "start" in value and "stop" in value and ("count" in value or "step" in value)
+    if not is_range:
+        return ""
+    found = {unit_of_text(value[key]) for key in ENDS if isinstance(value.get(key), str)}
+    return found.pop() if len(found) == 1 else ""
+
+
+def listed_in_si(values: Any, unit: str, name: str) -> Any:
+    """The values of an argument in a unit; raises `ParameterError` where some have one and others none.
+    What is no number with a unit of its kind stays as it is."""
+    raise_faults(mixed_units(_numbers_of_one_unit(values), unit, (name,)))
+    return _all_in_si(values, unit, [], (name,))
 
 
 def _single_in_si(value: Any, unit: str, faults: list[Fault], path: tuple[str, ...]) -> Any:
@@ -303,7 +371,7 @@ def _single_in_si(value: Any, unit: str, faults: list[Fault], path: tuple[str, .
         if isinstance(value, str):
             if match := _WITH_UNIT.fullmatch(value.translate(_SPELLINGS)):
                 text = match[2]
-                return _converted(float(match[1]), text, unit)
+                return converted(float(match[1]), text, unit)
         elif is_quantity(value):
             text = str(value.units)
             return _quantity_in_si(value, unit)

@@ -414,7 +414,7 @@ def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
 @pytest.mark.compiled
 def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
-    found = critical.critical(p, "Omega", ("142.5 rpm", 15), points=3)
+    found = critical.critical(p, "Omega", ("142.5 rpm", "15 rad/s"), points=3)
     first = 142.5 * math.tau / 60
     last = 15
     ends = found.values[[0, -1]]
@@ -422,7 +422,7 @@ def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
     branch = continue_cycle(p, "Omega", ("142.5 rpm", "15 rad/s"))
     assert "the bound Omega = 14.9226 rad/s was reached" in branch.ended
     plane = neutral_curves(
-        p, {"Omega": ("142.5 rpm", 15), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2
+        p, {"Omega": ("142.5 rpm", "15 rad/s"), "h": ("2 mm", "2.1 mm")}, [0.00205], points=2
     )
     assert plane.bounds["h"] == pytest.approx((2e-3, 2.1e-3))
     with refusal(r"^bounds='5 kg': must be a number in rad/s"):

@@ -505,7 +505,7 @@ def test_pairs_go_with_axes() -> None:
     "table",
     [
         pd.DataFrame(PAIRS, index=[7, 8, 9]),
-        {"N": ["385 N", "0.3 kN", 385.0], "mu_k": np.array(PAIRS["mu_k"])},
+        {"N": ["385 N", "0.3 kN", "385.0 N"], "mu_k": np.array(PAIRS["mu_k"])},
         xr.Dataset({name: ("sample", values) for name, values in PAIRS.items()}),
     ],
     ids=["pandas", "units", "xarray"],
@@ -1106,7 +1106,7 @@ def test_an_argument_of_the_function_varies_along_a_dimension_of_its_own() -> No
 
 @pytest.mark.parametrize("workers", [{"workers": 2}, {"workers": 2, "processes": True}])
 def test_an_argument_that_varies_has_its_unit_and_meaning(workers: Any) -> None:
-    swept = sweep(dm.outcome, P, over={"horizon": [1, "0.05 min"]}, N=[300], **workers)
+    swept = sweep(dm.outcome, P, over={"horizon": ["1 s", "0.05 min"]}, N=[300], **workers)
     assert swept["horizon"].values.tolist() == [1.0, 3.0]
     assert swept["horizon"].attrs == {"units": "s", "long_name": "longest simulated time"}
     assert "horizon" not in json.loads(swept.attrs["options"])

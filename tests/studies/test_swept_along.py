@@ -15,7 +15,7 @@ STAYS = {"dwell": 10, "max_dwell": 40, "evaluation_time": 1, "tol": 1e-8}
 
 @pytest.fixture(scope="module")
 def sweep() -> xr.Dataset:
-    return dm.hysteresis(CASE, ("0.3 kN", 420), name="N", step="40 N", **STAYS)
+    return dm.hysteresis(CASE, ("0.3 kN", "420 N"), name="N", step="40 N", **STAYS)
 
 
 @pytest.mark.compiled

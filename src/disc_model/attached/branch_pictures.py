@@ -23,6 +23,7 @@ def plot_branches(
     labels: dict[str, str] | None = None,
     title: str | bool | None = None,
     looks: dict[str, dict[str, Any]] | None = None,
+    units: dict[str, str] | None = None,
 ) -> Axes:
     """Draw all branches of a sweep of `continue_cycle` on the same axes, as `Branch.plot` draws one.
 
@@ -35,6 +36,7 @@ def plot_branches(
     y : growth_rate, period, stick_fraction, range, u_min or u_max, as in `Branch.plot`
     ax, legend, labels, title : as in `Result.plot`
     looks : as in `Branch.plot`, such as ``{"stable": {"linestyle": "-"}, "unstable": {"linestyle": "--"}}``
+    units : as in `plot_sweep`, such as ``{"Omega": "rpm"}``
 
     Returns
     -------
@@ -53,23 +55,40 @@ def plot_branches(
     >>> dm.plot_branches(swept, "period").get_ylabel()
     'Period of the cycle (ms)'
     """
-    from disc_model.stability.continuation import Branch
+    from disc_model.figures.drawn_units import (
+        checked_units,
+        drawn_in,
+        units_of_coordinates,
+        with_coordinates_in_si,
+    )
 
     _refuse_others(swept)
+    units = {**units_of_coordinates(swept), **checked_units(units)}
+    with drawn_in(units):
+        return _plot(
+            with_coordinates_in_si(swept), y, ax, labels, legend=legend, title=title, looks=looks
+        )
+
+
+def _plot(
+    swept: xr.Dataset, y: str, ax: Axes | None, labels: dict[str, str] | None, **options: Any
+) -> Axes:
+    """Draw all branches of a sweep, whose coordinates are in SI."""
+    from disc_model.stability.continuation import Branch
+
     points = [*points_of_sweep(swept)]
     whole = [point for point in points if not has_failed(point)]
     failed = [_name_of(point, swept) for point in points if has_failed(point)]
     *before, last = whole
-    options: dict[str, Any] = {"legend": legend, "title": title, "looks": looks}
     for point in before:
         named = _with_name(point, swept, labels)
         ax = Branch.from_dataset(point).plot(y, ax=ax, labels=named, **options)
     named = _with_name(last, swept, labels)
-    options |= {"labels": named, "failed": failed}
-    axes = draw("plot_branch", Branch.from_dataset(last), y, ax=ax, **options)
+    further: dict[str, Any] = {"labels": named, "failed": failed}
+    axes = draw("plot_branch", Branch.from_dataset(last), y, ax=ax, **options, **further)
     if failed:
         why = 'swept["message"] says why'
-        warnings.warn(f"no branch at {'; '.join(failed)}: {why}", stacklevel=2)
+        warnings.warn(f"no branch at {'; '.join(failed)}: {why}", stacklevel=3)
     return axes
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import axis_of, presentation_of, typeset
+from disc_model.data.variables import typeset
 from disc_model.figures.branch_family import (
     NAME,
     NO_FURTHER,
@@ -16,7 +16,13 @@ from disc_model.figures.branch_family import (
     line_in_legend,
     next_look,
 )
-from disc_model.figures.branch_heights import axis_upward, refined_upward, upward_of
+from disc_model.figures.branch_heights import (
+    axis_upward,
+    drawn_unit,
+    label_along,
+    refined_upward,
+    upward_of,
+)
 from disc_model.figures.branch_lines import (
     FLOOR,
     Look,
@@ -33,6 +39,7 @@ from disc_model.figures.branch_lines import (
 from disc_model.figures.branch_wishes import PartLooks, part_looks
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.drawing import BLACK, COLUMN, mark, sample
+from disc_model.figures.drawn_units import in_readers_units
 from disc_model.figures.family import Member, name_in
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.rate_scale import scale_rates
@@ -45,6 +52,7 @@ if TYPE_CHECKING:
 WIDE = 30.0  # largest over least range from which the axis is logarithmic
 
 
+@in_readers_units
 def plot_branch(
     branch: Branch,
     y: str,
@@ -63,7 +71,7 @@ def plot_branch(
     failed : names of points of its sweep without a branch, which the legend says
     """
     first, *second = branch.parameters
-    across, factor = axis_of(first)
+    across, factor = label_along(first)
     x = branch.values[:, 0] * factor
     label, upward = axis_upward(branch, y)
     values = upward_of(branch, branch, y) * upward
@@ -135,7 +143,7 @@ def _mark_special_points(
     kind that is there once, or else how many there are. The factors are those from SI to the units
     of both axes."""
     across, upward = factors
-    unit = presentation_of(branch.parameters[0]).unit
+    unit = drawn_unit(branch.parameters[0])
     handles: list[Any] = []
     for kind, (sign, colour, name) in SPECIAL_MARKS.items():
         special = [each for each in branch.special if each.kind == kind]

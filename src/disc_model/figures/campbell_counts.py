@@ -13,6 +13,7 @@ from disc_model.figures.campbell_multiples import marked_at_multiples
 from disc_model.figures.campbell_peaks import Column, marked_at_peaks
 from disc_model.figures.drawing import sample
 from disc_model.figures.types import Array, Artist, Mask
+from disc_model.figures.words import named
 
 MANY_TIMES = 10  # from which ratio of the steps that crossings need two are named
 UNKNOWN = ("unresolved", "beyond_scan")
@@ -111,9 +112,10 @@ def _steps_needed(found: Sequence[Crossings], count: int) -> str:
     if not steps:
         return "unresolved"
     least = f"{rounded_down(min(steps)):g}"
+    unit = named(found[0].study["Omega"]).unit
     if max(steps) < MANY_TIMES * min(steps):
-        return f"{_needs(count)} steps of {least} rad/s"
-    return f"{_needs(count)} steps of\n{least} to {rounded_down(max(steps)):g} rad/s"
+        return f"{_needs(count)} steps of {least} {unit}"
+    return f"{_needs(count)} steps of\n{least} to {rounded_down(max(steps)):g} {unit}"
 
 
 def _steps_of(crossings: Crossings) -> Array:

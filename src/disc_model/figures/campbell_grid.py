@@ -12,7 +12,6 @@ from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, large
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.types import Axes
-from disc_model.figures.words import SPEED
 
 OF_SEVERAL = 4.4  # inch of each of several bands of panels
 MOST_ACROSS = 3  # panels beside each other in a new figure
@@ -54,10 +53,10 @@ def panels_of(page: Page, grid: Grid, count: int) -> tuple[list[Axes], list[Axes
     return above[:count], below[:count]
 
 
-def say_quantities(page: Page, above: Sequence[Axes]) -> None:
-    """Say what panels show: frequencies in the upper ones, and growth rates in all others."""
-    frequencies = Quantities(SPEED, FREQUENCY)
-    rates = Quantities(SPEED, " ".join(RATE.split()))
+def say_quantities(page: Page, above: Sequence[Axes], across: str) -> None:
+    """Say what panels show over a speed: frequencies in the upper ones, and growth rates in all others."""
+    frequencies = Quantities(across, FREQUENCY)
+    rates = Quantities(across, " ".join(RATE.split()))
     page.show(*(frequencies if ax in above else rates for ax in page.axes))
 
 

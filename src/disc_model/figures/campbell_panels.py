@@ -15,7 +15,7 @@ from disc_model.figures.drawing import BLACK, mark, whole_marks, wide
 from disc_model.figures.rate_scale import LINEAR, opens, scale_rates
 from disc_model.figures.selection import opened
 from disc_model.figures.types import Array, Axes
-from disc_model.figures.words import SPEED
+from disc_model.figures.words import label_of
 
 FREQUENCY = "Frequency in the slider's frame (Hz)"
 RATE = "Largest growth rate\nof the cycle (1/s)"
@@ -97,7 +97,7 @@ def _draw_column(top: Axes, bottom: Axes, column: Column, highest: float) -> Non
     draw_bands(top, bottom, study)
     for ax in (top, bottom):
         ax.set_xlim(speeds[0], speeds[-1])
-    bottom.set_xlabel(SPEED)
+    bottom.set_xlabel(label_of(study["Omega"])[0])
     bottom.tick_params(labelbottom=True)  # which a shared axis leaves to the lowest row
 
 

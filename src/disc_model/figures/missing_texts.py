@@ -5,14 +5,16 @@ from collections.abc import Mapping
 import numpy as np
 import xarray as xr
 
-from disc_model.data.swept_speeds import SPEED, number_swept, text_swept
-from disc_model.data.variables import stated_in
+from disc_model.data.swept_speeds import SPEED, number_swept
+from disc_model.data.variables import stated_in, unit_of_parameter
 from disc_model.figures.classes import name_of
 from disc_model.figures.durations import duration_of, horizon_text, run_text
-from disc_model.figures.words import NO_VALUE, measured, named
+from disc_model.figures.words import NO_VALUE, in_readers_unit, measured, named
 from disc_model.parameters import Parameters
 from disc_model.units import in_si
 
+RATE = "rad/s"
+"""The unit of speeds unless a reader has another one."""
 TIMES_OF_SEPARATION = ("first_separation", "scan_first_separation")
 """Variables that have no value where contact is kept up to the horizon."""
 BEYOND = {
@@ -132,8 +134,9 @@ def _reason_in(study: xr.Dataset, name: str) -> str:
     long name say; "" if they do not."""
     if name == "critical_speed" and "scan_Omega" in study.coords:
         speeds = study["scan_Omega"].values
-        found = f"none found from {speeds[0]:g} to {speeds[-1]:g} rad/s"
-        return found + _steps_of(study, "scan_Omega")
+        low, _ = in_readers_unit(SPEED, speeds[0], RATE)
+        high, unit = in_readers_unit(SPEED, speeds[-1], RATE)
+        return f"none found from {low:g} to {high:g} {unit}" + _steps_of(study, "scan_Omega")
     if study.attrs.get("function") == "critical" and name in ("value", "border"):
         return _without_critical(study, name)
     if name not in study:
@@ -160,7 +163,10 @@ def _none_swept_over(study: xr.Dataset) -> str:
     if along not in study.coords:
         return NOT_SWEPT_OVER
     values = study[along].values
-    found = f"none found from {values.min():g} to {text_swept(study, values.max())}"
+    name = number_swept(study)
+    low, unit = in_readers_unit(name, values.min(), unit_of_parameter(name))
+    high, _ = in_readers_unit(name, values.max(), unit)
+    found = f"none found from {low:g} to {high:g} {unit}".rstrip()
     if along != f"sweep_{SPEED}":
         return found
     return found + _steps_of(study, along)
@@ -171,10 +177,11 @@ def _without_in_ramps(study: xr.Dataset, reason: str) -> str:
     options = stated_in(study, "options")
     if not {"low", "high"} <= {*options}:
         return reason
-    low, high = options["low"], options["high"]
+    low, unit = in_readers_unit(SPEED, options["low"], RATE)
+    high, _ = in_readers_unit(SPEED, options["high"], RATE)
     if reason == ENDLESS:
-        return f"{reason} at {low:g} rad/s"
-    return f"{reason} from {low:g} to {high:g} rad/s"
+        return f"{reason} at {low:g} {unit}"
+    return f"{reason} from {low:g} to {high:g} {unit}"
 
 
 def text_below_lowest(study: xr.Dataset) -> str:
@@ -185,7 +192,9 @@ def text_below_lowest(study: xr.Dataset) -> str:
     )
     if f"sweep_{name}" not in study.coords:
         return text
-    return f"{text}, {text_swept(study, study[f'sweep_{name}'].values.min())}"
+    lowest = study[f"sweep_{name}"].values.min()
+    low, unit = in_readers_unit(name, lowest, unit_of_parameter(name))
+    return f"{text}, {low:g} {unit}".rstrip()
 
 
 def _steps_of(study: xr.Dataset, scanned: str) -> str:
@@ -196,7 +205,8 @@ def _steps_of(study: xr.Dataset, scanned: str) -> str:
     steps = np.diff(study[scanned].values)
     if not np.allclose(steps, steps[0], rtol=1e-3):
         return ""
-    return f" in steps of {abs(steps[0]):.3g} rad/s"
+    step, unit = in_readers_unit(SPEED, abs(steps[0]), RATE)
+    return f" in steps of {step:.3g} {unit}"
 
 
 def _without_critical(study: xr.Dataset, name: str) -> str:

@@ -31,6 +31,7 @@ def plot_sweep(  # noqa: PLR0913
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
     title: str | bool | None = None,
+    units: Mapping[str, str] | None = None,
 ) -> Axes:
     """Draw a variable of a sweep or of a grid study: a line along one dimension, or colours over
     two.
@@ -78,10 +79,13 @@ def plot_sweep(  # noqa: PLR0913
         "bar", and names of lines, by their variable, or by "case" for all of them. On axes that have lines of a
         sweep, those of another case, or of another variable of the same unit, get a colour and dashes of their own,
         and the legend names all by what differs; words along the axis are those of all. Bars and maps are not drawn
-        over each other. Usual labels are the attributes `long_name` and `units` of a variable, which are yours to
-        set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins are widened, as
-        by ``figure.subplots_adjust``, until labels, bar and legend lie on the page. Strips keep
+        over each other. Usual labels are the attributes `long_name` and `units` of a variable or coordinate, which are
+        yours to set. In a figure without a layout engine, such as plain ``pyplot.subplots()`` makes, margins
+        are widened, as by ``figure.subplots_adjust``, until labels, bar and legend lie on the page. Strips keep
         their words with ``legend=False``
+    units : units in which values are drawn and said, by the names of parameters or sampled variables, such as
+        ``{"Omega": "rpm", "P": "kN"}``; as `units` of a figure in a study. Without them, a coordinate of a parameter
+        is drawn in the unit that its attribute `units` says
 
     Returns
     -------
@@ -99,6 +103,11 @@ def plot_sweep(  # noqa: PLR0913
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
 
+    The same over rotations per minute:
+
+    >>> dm.plot_sweep(growth, units={"Omega": "rpm"}).get_xlabel()
+    'Speed Ω (rpm)'
+
     A line for each preload, in place of a map:
 
     >>> grid = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14], N=[300, 400])
@@ -114,7 +123,7 @@ def plot_sweep(  # noqa: PLR0913
     ['Preload N = 300 N', '400 N']
     """
     looks = {"lines": lines, "points": points, "log": log, "cmap": cmap, "limits": limits}
-    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
+    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title, "units": units}
     return draw("plot_sweep", study, variable, x, **looks, **wishes)
 
 
@@ -127,6 +136,7 @@ def plot_campbell(
     legend: bool | Mapping[str, Any] = True,
     labels: Mapping[str, str] | None = None,
     title: str | bool | None = None,
+    units: Mapping[str, str] | None = None,
 ) -> NDArray[Any]:
     """Draw a Campbell diagram: frequencies of steady sliding over the speed, above growth rates of the
     stick-slip cycle.
@@ -149,6 +159,7 @@ def plot_campbell(
     ax : two axes to draw on, that of frequencies first, without another Campbell diagram; of a further axis, two
         for each of its values, those of frequencies first
     legend, labels, title : as in `Result.plot`
+    units : as in `plot_sweep`, such as ``{"Omega": "rpm"}``
 
     Returns
     -------
@@ -174,7 +185,7 @@ def plot_campbell(
     >>> [text.get_text()[0] for text in frequencies.texts if "f_s" in text.get_text()]
     ['2', '3']
     """
-    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
+    wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title, "units": units}
     return draw("plot_campbell", study, highest=highest, multiples=multiples, **wishes)
 
 

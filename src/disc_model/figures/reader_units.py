@@ -5,29 +5,10 @@ from collections.abc import Mapping
 
 import xarray as xr
 
-from disc_model.data.variables import FOUND_SPEEDS, SERIES, SHOWN, ranged_variable
+from disc_model.data.variables import SHOWN
 from disc_model.figures.kinds.general import General
-from disc_model.figures.words import BORDER, CRITICAL, UNITS, known_name, label_in, parameter_within
-
-
-def unit_key(variable: xr.DataArray) -> str:
-    """The parameter or sampled variable by which a reader gives the unit of a variable; "" if there is
-    none."""
-    known = known_name(variable)
-    if known:
-        return known
-    for around in (CRITICAL, BORDER):
-        parameter = parameter_within(variable, around)
-        if parameter:
-            return parameter
-    name = str(variable.name)
-    if name in FOUND_SPEEDS:
-        return "Omega"
-    base = ranged_variable(name)
-    if base == name or base not in SERIES:
-        return ""
-    same_unit = variable.attrs.get("units") == SERIES[base].attributes.get("units")
-    return base if same_unit else ""
+from disc_model.figures.words import UNITS, label_in
+from disc_model.figures.words import unit_key as unit_key
 
 
 def key_by_label(plot: object, study: xr.Dataset) -> dict[str, str]:

@@ -14,6 +14,7 @@ from disc_model.figures.colour_wishes import ColourWishes, are_limits, is_colorm
 from disc_model.figures.covered import twins_of
 from disc_model.figures.curve_scales import number_whole
 from disc_model.figures.drawing import COLUMN
+from disc_model.figures.drawn_units import in_readers_units
 from disc_model.figures.gap_rows import tell_rows_apart
 from disc_model.figures.named_axes import Quantities, refuse_beside_areas
 from disc_model.figures.outside_limits import note_outside, remove_note, words_of_note
@@ -44,6 +45,7 @@ ALONE = "must be left out beside lines, or the colours of a map"
 MOST_CLASSES = 20  # different words that the colours and patterns of a map tell apart
 
 
+@in_readers_units
 def plot_sweep(  # noqa: PLR0913
     study: xr.Dataset | xr.DataTree,
     variable: str | Sequence[str] = "",

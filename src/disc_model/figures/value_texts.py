@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SHOWN, typeset
-from disc_model.figures.words import KINDS, MISSING, UNITS, WORDS, is_truth, named
+from disc_model.figures.words import KINDS, MISSING, UNITS, WORDS, is_truth, known_name, named
 from disc_model.parameters import NUMBER_OR_WORD
 
 MODELS = {
@@ -43,18 +43,20 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
         return words.get(value, value)
     if isinstance(value, float) and np.isnan(value):
         return MISSING
+    is_usual = known_name(data[by]) == by
     if by in AT_ZERO and not value:
         return AT_ZERO[by]
     if by in BY_SIZE:
         return BY_SIZE[by].format(value + 1) if value else f"largest {by.partition('_')[0]}"
-    if by == "contact_compliance":
+    if by == "contact_compliance" and is_usual:
         return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
-    if by == "contact_arc":
+    if by == "contact_arc" and is_usual:
         return f"a pad over {value:g} rad"
-    if by == "friction_offset":
+    if by == "friction_offset" and is_usual:
         return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
     _, unit, factor = named(data[by])
-    unit, factor = UNITS.get().get(by, (unit, factor))
+    if is_usual:
+        unit, factor = UNITS.get().get(by, (unit, factor))
     number = _short_number(value * factor) if short else f"{value * factor:g}"
     return f"{number} {unit}".strip()
 

@@ -10,10 +10,12 @@ import xarray as xr
 
 from disc_model.data.variables import (
     EXCLUDED,
+    FOUND_SPEEDS,
     SERIES,
     SHOWN,
     TRUTH,
     attributes,
+    attributes_of_number,
     axis_of,
     flag_names,
     ranged_variable,
@@ -50,6 +52,8 @@ OF_MODES = ("n_diameters", "n_circles")
 UNITS: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("units", default={})  # noqa: B039
 """Units of the reader and the factors from SI to them, by parameter or sampled variable, while a
 figure is drawn."""
+DRAWN_IN: ContextVar[Mapping[str, tuple[str, float]]] = ContextVar("drawn in", default={})  # noqa: B039
+"""The same of pictures whose values are drawn in these units, so that a reader may draw beside them."""
 UNIT_POWER = re.compile(r"([^\W\d]+|1|%)(-?)(\d*(?:\.\d+)?)")
 """A part of a unit in datasets: its name, the sign and the size of its power."""
 POWERS = {"": "", "1": "", "2": "²", "3": "³"}
@@ -92,6 +96,8 @@ STAYS = "stays"  # key of words for the time at each value of a sweep
 
 IN_THOUSANDTHS = {"period": "ms", "interval": "ms", "range": "mm"}
 """Units of numbers of cycles in all pictures, by the last word of their names, such as `sweep_range`."""
+WITHIN_STUDIES = (", in the scan", ", in the sweep")
+"""Ends of long names of values that a study goes through by itself."""
 IN_THOUSANDTH = "in thousandths"
 """Attribute of a variable that is drawn in thousandths of its unit."""
 LOWERED = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True))
@@ -121,7 +127,8 @@ def label_of(variable: xr.DataArray) -> tuple[str, float]:
     """Axis label of any variable or coordinate, and the factor from SI to its unit."""
     name, unit, factor = named(variable)
     found = [parameter_within(variable, around) for around in (CRITICAL, BORDER)]
-    label = typeset(name) if known_name(variable) or any(found) else name
+    is_usual = known_name(variable) and not _name_of_coordinate(variable)
+    label = typeset(name) if is_usual or any(found) else name
     if unit:
         label = f"{label} ({unit})"
     return label, factor
@@ -133,7 +140,8 @@ def named(variable: xr.DataArray) -> Named:
     known = known_name(variable)
     if known:
         shown = SHOWN[known]
-        return Named(f"{shown.name} {shown.symbol}".strip(), shown.unit, shown.factor)
+        usual = f"{shown.name} {shown.symbol}".strip()
+        return Named(_name_of_coordinate(variable) or usual, *_drawn_in(known))
     # disturbances have one name in all figures
     words = _words_of(variable).replace("disturbances of ", "")
     critical = parameter_within(variable, CRITICAL)
@@ -143,16 +151,19 @@ def named(variable: xr.DataArray) -> Named:
         motion = _motion_within(variable, CRITICAL)
         if motion:
             symbol += f" for instability of {motion}"
-        return Named(symbol, shown.unit, shown.factor)
+        return Named(symbol, *_drawn_in(critical))
     border = parameter_within(variable, BORDER)
     if border:
         shown = SHOWN[border]
         symbol = f"{shown.name} {shown.symbol}".strip()
         above = f" above which {_motion_within(variable, BORDER)} stays unstable"
-        return Named(symbol + above, shown.unit, shown.factor)
+        return Named(symbol + above, *_drawn_in(border))
     phrase = words[0].upper() + words[1:]
     if "long_name" not in variable.attrs and str(variable.name) not in SHORT:
         phrase = _name_of_own(str(variable.name))
+    key = unit_key(variable)
+    if key in DRAWN_IN.get():
+        return Named(phrase, *DRAWN_IN.get()[key])
     ranged = SHOWN.get(ranged_variable(str(variable.name)))
     if _is_own(variable):
         ranged = None
@@ -165,6 +176,63 @@ def named(variable: xr.DataArray) -> Named:
     if IN_THOUSANDTHS.get(base) == f"m{units}":
         return Named(phrase, IN_THOUSANDTHS[base], 1e3)
     return Named(phrase, unit_text(units), 1.0)
+
+
+def _drawn_in(name: str) -> tuple[str, float]:
+    """The unit in which values of a parameter or sampled variable are drawn, and the factor from SI to it."""
+    shown = SHOWN[name]
+    return DRAWN_IN.get().get(name, (shown.unit, shown.factor))
+
+
+def in_readers_unit(name: str, value: float, usual: str) -> tuple[float, str]:
+    """A number of a parameter in the unit of the reader, and this; in SI with its usual words if there
+    is none."""
+    unit, factor = UNITS.get().get(name, (usual, 1.0))
+    return value * factor, unit
+
+
+def unit_key(variable: xr.DataArray) -> str:
+    """The parameter or sampled variable by which a reader gives the unit of a variable; "" if there is
+    none."""
+    known = known_name(variable)
+    if known:
+        return known
+    for around in (CRITICAL, BORDER):
+        parameter = parameter_within(variable, around)
+        if parameter:
+            return parameter
+    name = str(variable.name)
+    if name in FOUND_SPEEDS:
+        is_in_si = variable.attrs.get("units") == attributes("Omega")["units"]
+        return "Omega" if is_in_si else ""
+    base = ranged_variable(name)
+    if base == name or base not in SERIES:
+        return ""
+    same_unit = variable.attrs.get("units") == SERIES[base].attributes.get("units")
+    return base if same_unit else ""
+
+
+def parameter_along(coordinate: xr.DataArray) -> str:
+    """The parameter or ratio of which a coordinate has values; "" if there is none."""
+    name = str(coordinate.name).removeprefix("scan_").removeprefix("sweep_")
+    return name if name in (*Parameters.model_fields, *RATIOS) else ""
+
+
+def _name_of_coordinate(variable: xr.DataArray) -> str:
+    """The name that a reader has given the values of a parameter in place of the usual one; "" if it is
+    this."""
+    long_name = variable.attrs.get("long_name")
+    name = parameter_along(variable)
+    if not name or not isinstance(long_name, str) or long_name.endswith(WITHIN_STUDIES):
+        return ""
+    usual = attributes_of_number(name).get("long_name", name)
+    if (
+        not long_name
+        or long_name in SHOWN
+        or _without_remarks(long_name) == _without_remarks(usual)
+    ):
+        return ""
+    return long_name[0].upper() + long_name[1:]
 
 
 def parameter_within(variable: xr.DataArray, said: re.Pattern[str]) -> str:
@@ -232,7 +300,11 @@ def _is_own(variable: xr.DataArray) -> bool:
     """Whether a variable has the name of a sampled one, such as w, or of a parameter, but is a reader's
     own, with another unit or long name, or none."""
     name = str(variable.name)
-    if name in (*Parameters.model_fields, *RATIOS) and name not in variable.coords:
+    parameter = parameter_along(variable)
+    if parameter and name in variable.coords:
+        units = variable.attrs.get("units")
+        return units is not None and units != attributes_of_number(parameter).get("units")
+    if name == parameter != "":
         return variable.attrs.get("units") != attributes(name).get("units")
     sampled = SERIES.get(ranged_variable(name))
     if sampled is None:

@@ -12,9 +12,9 @@ from disc_model.errors import Fault, ParameterError, raise_faults, suggestion, v
 from disc_model.fitting.measured import Measurement, is_finite, measurements_of
 from disc_model.fitting.prediction import is_of_steady_cycle
 from disc_model.fitting.table import in_row, is_table, measurements_in
-from disc_model.mode_units import column_of, mode_number_in_si
+from disc_model.mode_units import column_of, mode_number_in_si, si_unit_of_mode
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.units import in_si, is_number, number
+from disc_model.units import in_si, is_number, mixed_units, number
 
 Interval = tuple[float, float]
 
@@ -174,6 +174,7 @@ def _ends_in_si(name: str, pair: Any, faults: list[Fault]) -> Any:
 def _ends_of_mode_number(name: str, pair: Sequence[Any], faults: list[Fault]) -> list[Any]:
     """Return the bounds of a number of one mode of a disc in SI units; units of another kind become
     faults."""
+    faults += mixed_units(pair, si_unit_of_mode(name), ("bounds", name))
     found = []
     for i, end in enumerate(pair):
         of_end: list[Fault] = []

@@ -5,10 +5,8 @@ from typing import Any
 
 from disc_model.data.variables import SHOWN
 from disc_model.figures.kinds.base import si_unit
-from disc_model.units import ENDS, in_si, unit_of_text
+from disc_model.units import PARTS_OF_AXES, in_si, unit_of_text
 
-PARTS = (*ENDS, "extra", "blocks")
-"""Keys of an axis under which it has values."""
 OF_OPTIONS = {
     "scan": ("parameter", "Omega"),
     "x_range": ("x", "Omega"),
@@ -51,7 +49,7 @@ def _texts(values: Any) -> Iterator[str]:
     """Yield the numbers of an axis as texts, with their units if they have any."""
     match values:
         case Mapping():
-            for key in PARTS:
+            for key in PARTS_OF_AXES:
                 yield from _texts(values.get(key, []))
         case list() | tuple():
             for value in values:

@@ -12,7 +12,16 @@ from types import CodeType, MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import (
+    AfterValidator,
+    ConfigDict,
+    Field,
+    PrivateAttr,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+from pydantic.json_schema import SkipJsonSchema
 
 from disc_model.data.variables import (
     OF_RESULTS,
@@ -26,7 +35,7 @@ from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
 from disc_model.studies.costs import UnitCosts
-from disc_model.units import Count, Finite, Positive, Strict, must, number
+from disc_model.units import Count, Finite, Positive, Strict, converted, must, number
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -68,6 +77,9 @@ class Range(Ruled):
     count: Annotated[Count, Field(ge=2)] | None = None
     step: Positive | None = None
     scale: Literal["linear", "log"] = "linear"  # log: the ratio of neighbours is constant
+    given_in: SkipJsonSchema[tuple[str, str] | None] = Field(
+        None, repr=False
+    )  # the unit in which the file has the range, and that of SI, if these differ
 
     _rules = (
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
@@ -85,6 +97,14 @@ class Range(Ruled):
         ),
     )
 
+    @model_serializer(mode="wrap")
+    def _without_unset_unit(self, serialize: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """The fields by name, as they are in files of ranges in the unit of SI."""
+        content: dict[str, Any] = serialize(self)
+        if self.given_in is None:
+            content.pop("given_in", None)
+        return content
+
     @property
     def _steps(self) -> float:
         if self.step:
@@ -97,13 +117,32 @@ class Range(Ruled):
 
     @property
     def values(self) -> list[float]:
-        """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        shares = [i / self.intervals for i in range(1, self.intervals)]
+        """All values, those inside rounded to 12 digits in the unit in which the range is given, so
+        that ranges and lists agree on 0.3."""
+        return [self.value_at(place) for place in range(self.intervals + 1)]
+
+    def value_at(self, place: int) -> float:
+        """The value at a place, 0 for the first one."""
+        if place == 0:
+            return self.start
+        if place == self.intervals:
+            return self.stop
+        share = place / self.intervals
+        if self.given_in is None:
+            return self._inside(self.start, self.stop, share)
+        given, unit = self.given_in
+        size = converted(1.0, given, unit)
+        low = float(f"{self.start / size:.12g}")
+        high = float(f"{self.stop / size:.12g}")
+        return converted(self._inside(low, high, share), given, unit)
+
+    def _inside(self, start: float, stop: float, share: float) -> float:
+        """The value at a share of the way between two ends, with 12 digits."""
         if self.scale == "log":
-            inside = [self.start * (self.stop / self.start) ** share for share in shares]
+            value = start * (stop / start) ** share
         else:
-            inside = [self.start + share * (self.stop - self.start) for share in shares]
-        return [self.start, *(float(f"{value:.12g}") for value in inside), self.stop]
+            value = start + share * (stop - start)
+        return float(f"{value:.12g}")
 
 
 # ---- Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid

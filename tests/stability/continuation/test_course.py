@@ -118,7 +118,7 @@ def test_a_closed_branch_ends_where_it_began(monkeypatch):
 
 def test_a_branch_has_cycles_at_given_values_each_time_it_passes_them(monkeypatch):
     use(monkeypatch, FoldMap)
-    wanted = [14.0, "142.5 rpm", 15.9999, 16.5]
+    wanted = ["14 rad/s", "142.5 rpm", "15.9999 rad/s", "16.5 rad/s"]
     branch = continue_cycle(P, "Omega", (12.0, 17.0), values=wanted)
     values = branch.values[:, 0]
     for value in (14.0, 142.5 * math.tau / 60, 15.9999):

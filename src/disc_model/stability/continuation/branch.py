@@ -370,6 +370,7 @@ class Branch:
         labels: dict[str, str] | None = None,
         title: str | bool | None = None,
         looks: dict[str, dict[str, Any]] | None = None,
+        units: dict[str, str] | None = None,
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or of the slider's height the range, u_min or u_max
         (extremes over static equilibrium) over the parameter, thick where the cycle is stable, and
@@ -388,7 +389,8 @@ class Branch:
         `looks` has properties of matplotlib's lines for what is "stable", for what is "unstable", and for the dots,
         "cycles": ``looks={"stable": {"linestyle": "-"}, "unstable": {"linestyle": "--"}}`` draws as AUTO does, and
         ``"cycles": {"marker": ""}`` leaves the dots out. The legend shows the same. Where dashes tell the stability,
-        branches on the same axes differ in colour alone.
+        branches on the same axes differ in colour alone. `units` are as in `plot_sweep`, such as
+        ``{"Omega": "rpm"}``.
 
         Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
         understood.
@@ -399,6 +401,5 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        return draw(
-            "plot_branch", self, y, ax=ax, looks=looks, legend=legend, labels=labels, title=title
-        )
+        wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
+        return draw("plot_branch", self, y, looks=looks, units=units, **wishes)

@@ -165,6 +165,9 @@ class CriticalSpeed(Quantity):
 
     def _speed(self, i: int) -> float:
         """Speed, rad/s, of a place on the lattice of the precision."""
+        place, within = divmod(i, round(self.ratio))
+        if within == 0:
+            return self.scan.value_at(place)
         return float(f"{self.scan.start + i * self.precision:.12g}")
 
 
