@@ -9,7 +9,7 @@ from matplotlib.colors import to_rgb
 
 from disc_model.data.variables import EVENT_KINDS, LONG_TERM_OUTCOMES, PHASES, STATUSES, Outcome
 from disc_model.explorer import study_contents
-from disc_model.figures.basins import STACKED
+from disc_model.figures.basin_shares import STACKED
 from disc_model.figures.classes import LOOKS, UNRESOLVED, Look, lightness, looks_of, name_of
 from disc_model.studies.registry import quantity_names, quantity_of
 from tests.figures.reading import draw, labels

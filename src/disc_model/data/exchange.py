@@ -10,19 +10,16 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from disc_model.data import dataset
 from disc_model.data.complex_parts import joined, with_parts
+from disc_model.data.discs_as_text import with_discs, with_texts
 from disc_model.data.files import SUFFIXES, regular_file
 from disc_model.data.matlab import load_mat, save_mat
 from disc_model.data.tables import check_suffix
 from disc_model.data.text_tables import names_folder, save_all_tables, save_table
 from disc_model.errors import Fault, ParameterError, raise_faults, require
-from disc_model.parameters import PLATE_NAME, Disc
 
-DISCS = "json_of_disc"
-"""Attribute of a variable of texts, each of which is a disc in JSON, or the word for a plate: yes."""
 TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
 """Suffixes of files that are certainly no datasets."""
 TABLE = ".csv"
@@ -99,7 +96,7 @@ def save(
     require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
     file = None if names_folder(path) else check_suffix(regular_file(path), WRITTEN)
     tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
-    groups = {node.path: _with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
+    groups = {node.path: with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
     if file is None:
         save_all_tables(groups, path)
@@ -146,7 +143,7 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     readable = file.suffix not in TEXTS
     require((readable, "path", path, "must be a .nc or .mat file; tables are for pandas"))
     stored = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
-    groups = {path: _with_discs(group) for path, group in stored.items()}
+    groups = {path: with_discs(group) for path, group in stored.items()}
     if len(groups) == 1:
         return next(iter(groups.values()))
     return xr.DataTree.from_dict(groups)
@@ -208,60 +205,6 @@ def _attribute_faults(place: tuple[str, ...], attrs: Mapping[Any, Any]) -> Itera
         kind = np.asarray(value).dtype.kind
         if not isinstance(value, str) and kind not in "iuf":
             yield Fault.of((*place, str(name)), value, "must be text or numbers, as an attribute")
-
-
-# ---- Discs
-
-
-def _with_texts(group: xr.Dataset) -> xr.Dataset:
-    """A dataset with the JSON of discs in their place."""
-    texts = {}
-    for key, variable in group.variables.items():
-        values = variable.values
-        if _are_discs(str(key), values):
-            written = [_text_of(value) for value in values.flat]
-            attrs = {**variable.attrs, DISCS: "yes"}
-            texts[key] = xr.Variable(variable.dims, np.reshape(written, values.shape), attrs)
-    return _replaced(group, texts)
-
-
-def _are_discs(name: str, values: NDArray[Any]) -> bool:
-    """Whether values are discs, or None for a plate beside them or along the axis `disc`."""
-    known = [value for value in values.flat if value is not None]
-    are_known = bool(known) or (name == "disc" and values.size > 0)
-    return are_known and all(isinstance(value, Disc) for value in known)
-
-
-def _text_of(disc: Disc | None) -> str:
-    """A disc as JSON; the word for a plate, which is given by its sizes and material."""
-    return PLATE_NAME if disc is None else disc.model_dump_json()
-
-
-def _disc_of(text: str) -> Disc | None:
-    """The disc of a text, None for a plate."""
-    return None if text == PLATE_NAME else Disc.model_validate_json(text)
-
-
-def _with_discs(group: xr.Dataset) -> xr.Dataset:
-    """A dataset with discs in place of their JSON."""
-    discs = {}
-    for key, variable in group.variables.items():
-        if DISCS not in variable.attrs:
-            continue
-        values = np.empty(variable.shape, object)
-        for place, text in np.ndenumerate(variable.values):
-            values[place] = _disc_of(str(text))
-        attrs = {name: value for name, value in variable.attrs.items() if name != DISCS}
-        discs[key] = xr.Variable(variable.dims, values, attrs)
-    return _replaced(group, discs)
-
-
-def _replaced(group: xr.Dataset, others: Mapping[Any, xr.Variable]) -> xr.Dataset:
-    """A dataset with other variables in place of those of the same names."""
-    if not others:
-        return group
-    variables = {**group.variables, **others}
-    return xr.Dataset(variables, attrs=group.attrs).set_coords([*group.coords])
 
 
 # ---- netCDF

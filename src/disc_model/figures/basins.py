@@ -1,16 +1,23 @@
 """Outcomes of many starts: their shares, the attractors, and the critical energy of separation."""
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.ticker import FixedLocator
 
-from disc_model.data.variables import flag_names, stated_in
-from disc_model.figures.cells import entries
-from disc_model.figures.classes import LOOKS
+from disc_model.data.variables import flag_names
+from disc_model.figures.basin_shares import (
+    BARS,
+    OF_ENERGY,
+    STACKED,
+    draw_shares,
+    explain,
+    outcomes_in,
+    shares_of,
+)
+from disc_model.figures.basins_over_energy import draw_over_energies
 from disc_model.figures.drawing import (
     BLACK,
     GREY,
@@ -20,60 +27,29 @@ from disc_model.figures.drawing import (
     mark,
     mark_failed,
     new_figure,
-    panels,
     plain_decades,
     wide,
 )
 from disc_model.figures.kinds.motions import ENERGY, BasinShares
-from disc_model.figures.left_out import parts_shown, titles_of_panels
-from disc_model.figures.legends import figure_legend, legend_above
-from disc_model.figures.selection import failed, without_single
-from disc_model.figures.separating_share import (
-    draw_interval,
-    entries_of_interval,
-    interval_of,
-    share_text,
-)
-from disc_model.figures.types import Array, Artist, Axes, Figure
+from disc_model.figures.legends import legend_above
+from disc_model.figures.selection import failed
+from disc_model.figures.separating_share import draw_interval, interval_of, share_text
+from disc_model.figures.types import Array, Axes, Figure
 from disc_model.figures.words import measured
 
-STACKED = (
-    "separating",
-    "quiet",
-    "other_cycle",
-    "quasi_periodic",
-    "irregular",
-    "steady_sliding",
-    "at_rest",
-    "undecided",
-    "undecided_lost",
-    "failed",
-)
-"""Order in which shares of outcomes are stacked; those that separate start at zero, as do their intervals."""
-LOST = "undecided_lost"
-"""Class of undecided starts that have lost contact."""
-BARS = {**LOOKS, LOST: LOOKS["undecided"]._replace(hatch=3 * "-")}
-"""Looks of the classes that are stacked."""
-OF_ENERGY = "basin_fraction_by_energy"
-"""Shares of the starts of each energy."""
-IN_A_ROW = 4  # panels over the energy on a page
-OF_ROW = 1.7  # height of a row of them, inch,
-OF_LEGEND = 0.7  # and of what is below them
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 AREAS = {"10 %": 0.1, "50 %": 0.5, "all starts": 1.0}
 """Shares of starts that the legend shows."""
 OF_DIAMOND = "50 %"  # size of the diamond there
 ZERO = 0.04  # height of the marks of critical energies of zero, as a share of the panel
 BELOW = 0.1  # share of the panel below the axis for them
-ROUNDING = 1e-9  # of a share
-BAR = 0.9  # width of a bar over the least distance of two
 
 
 def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset]) -> Figure:
     """Draw the fractions for each energy; below, attractors by range, as large as their
     fractions, and energies. Over the energy, draw the fractions alone, for each value of a parameter."""
     if plot.x == ENERGY:
-        return _draw_over_energies(plot, study)
+        return draw_over_energies(plot, study)
     study = study.transpose(plot.x, ...)
     across = measured(study[plot.x])
     energies = study["energy"].values
@@ -102,49 +78,8 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
     ends = np.transpose([ax.get_xlim() for ax in axes])
     for ax in axes:
         ax.set_xlim(ends[0].min(), ends[1].max())
-    _explain(figure, study, classes)
+    explain(figure, study, classes)
     return figure
-
-
-def _draw_over_energies(plot: BasinShares, study: xr.Dataset) -> Figure:
-    """Draw the fractions against the energy, with a panel for each value of a parameter."""
-    parts = parts_shown(study, plot.by, plot.names)
-    columns = 1
-    width = plot.inches_of(len(parts))
-    if width == PAGE:
-        columns = math.ceil(len(parts) / math.ceil(len(parts) / IN_A_ROW))
-    rows = math.ceil(len(parts) / columns)
-    height = OF_LEGEND + OF_ROW * rows
-    figure, axes = panels(width, height, rows, columns, sharex=True, sharey=True)
-    for ax in axes[len(parts) :]:
-        ax.remove()
-    axes = axes[: len(parts)]
-    classes = outcomes_in(shares_of(study, OF_ENERGY))
-    places = np.arange(study.sizes[ENERGY], dtype=float)  # one of the energies may be 0
-    for ax, part in zip(axes, parts, strict=True):
-        point = without_single(part.data, ENERGY, "start")
-        draw_shares(ax, shares_of(point, OF_ENERGY), classes, places)
-        draw_interval(ax, interval_of(point, OF_ENERGY), classes, places)
-        ax.set_xticks(places, [f"{energy:g}" for energy in study[ENERGY].values])
-        ax.set_xlabel(measured(study[ENERGY]).label)
-        ax.set_ylabel(share_text(study.sizes["start"]))
-        ax.margins(x=0.04)
-        mark_failed(ax, places[np.broadcast_to(failed(point).values, places.shape)])
-        ax.label_outer()
-    for ax in axes[-columns:]:  # below some of them there is none
-        ax.set_xlabel(measured(study[ENERGY]).label)
-        ax.tick_params(labelbottom=True)
-    letters(axes, titles_of_panels(parts, study, plot.by))
-    _explain(figure, study, classes)
-    return figure
-
-
-def _explain(figure: Figure, study: xr.Dataset, classes: Sequence[str]) -> None:
-    """Write the legend of the outcomes of starts below a figure."""
-    horizon = stated_in(study, "options")["horizon"]
-    handles = entries_of(classes, f"undecided after {horizon:g} s")
-    handles += entries_of_interval(study, OF_ENERGY, classes)
-    figure_legend(figure, handles, loc="outside lower center")
 
 
 def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:
@@ -158,70 +93,6 @@ def _panels(width: float, count: int) -> tuple[Figure, list[Axes]]:
     above, below = np.asarray(figure.subfigures(2, 1))
     shares = above.subplots(1, count, sharey=True, squeeze=False)[0]
     return figure, [*shares, *below.subplots(1, 2)]
-
-
-# ---- Shares
-
-
-def shares_of(study: xr.Dataset, variable: str) -> xr.DataArray:
-    """Shares of starts by what these come to; undecided ones that have lost contact are a class of their
-    own where the study knows of all starts."""
-    shares = study[variable]
-    if not {"kind", "lost_contact"} <= {*study}:
-        return shares
-    undecided = study["kind"].copy(data=flag_names(study["kind"]) == "undecided")
-    apart = study["lost_contact"].copy(data=flag_names(study["lost_contact"]) == "yes")
-    starts = [dim for dim in undecided.dims if dim not in shares.dims]
-    whole = shares.sel(attractor_class="undecided", drop=True)
-    known = whole.isnull() | (abs(undecided.mean(starts) - whole) < ROUNDING)
-    if not known.all():  # some starts were left out
-        return shares
-    kept = (undecided & ~apart).mean(starts).where(whole.notnull())
-    lost = (undecided & apart).mean(starts).where(whole.notnull())
-    others = shares.where(shares["attractor_class"] != "undecided", kept)
-    further = lost.expand_dims(attractor_class=[LOST])
-    return xr.concat([others, further], "attractor_class", coords="minimal", compat="override")
-
-
-def outcomes_in(shares: xr.DataArray) -> list[str]:
-    """The outcomes that occur among the starts, in the order in which their shares are stacked."""
-    known = {str(word) for word in shares["attractor_class"].values}
-    return [
-        word for word in STACKED if word in known and (shares.sel(attractor_class=word) > 0).any()
-    ]
-
-
-def entries_of(classes: Sequence[str], undecided: str) -> list[Artist]:
-    """Entries of a legend of outcomes, and its words for undecided ones, of which those that have lost
-    contact say so before what is advised."""
-    words, colon, advice = undecided.partition(":")
-    named = {
-        "undecided": BARS["undecided"]._replace(label=undecided),
-        LOST: BARS[LOST]._replace(label=f"{words}, but contact was lost{colon}{advice}"),
-    }
-    return entries(classes, {**BARS, **named})
-
-
-def draw_shares(ax: Axes, shares: xr.DataArray, classes: Sequence[str], along: Array) -> None:
-    """Draw the shares of outcomes along another dimension, stacked, as bars at the places
-    `along`."""
-    steps = np.diff(along)
-    width = BAR * (steps.min() if steps.size else 1.0)
-    shares = shares.sel(attractor_class=[*classes]).transpose("attractor_class", ...)
-    below = shares.cumsum("attractor_class") - shares.fillna(0)
-    for word, heights, bottoms in zip(classes, shares, below, strict=True):
-        look = BARS[word]
-        ax.bar(
-            along,
-            heights,
-            width,
-            bottoms,
-            lw=wide(0.4),
-            fc=look.face,
-            hatch=look.hatch,
-            ec=look.ink,
-        )
-    ax.set_ylim((0, 1))
 
 
 # ---- Attractors

@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.errors import raise_faults, require, violations
+from disc_model.figures.drawn_units import with_drawn_speeds
 from disc_model.figures.selection import without_single
 from disc_model.units import in_si, is_number
 
@@ -21,7 +22,7 @@ MOST_COLUMNS = 6
 def checked_study(
     study: xr.Dataset, highest: float | str | None, multiples: Sequence[float] | None
 ) -> tuple[xr.Dataset, float | None]:
-    """The study along its speeds, and the highest frequency shown (Hz) if one is asked for, after all
+    """The study along its speeds as they are drawn, and the highest frequency shown (Hz) if one is asked for, after all
     checks."""
     is_study = isinstance(study, xr.Dataset) and all(name in study for name in NEEDED)
     faults: list[Any] = []
@@ -48,7 +49,7 @@ def checked_study(
         (few, "study", ", ".join(further), rule),
         (drawn.sizes["Omega"] > 1, "study", "a single speed", points),
     )
-    return drawn, limit
+    return with_drawn_speeds(drawn), limit
 
 
 def dims_of_columns(study: xr.Dataset) -> list[str]:

@@ -6,12 +6,16 @@ from contextlib import AbstractContextManager
 from typing import Any, NamedTuple
 
 import numpy as np
+import xarray as xr
 
 from disc_model.figures.campbell_panels import FREQUENCY, HEIGHT, RATE
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.drawing import COLUMN, PAGE, large
+from disc_model.figures.head_texts import what_case
 from disc_model.figures.named_axes import Quantities
+from disc_model.figures.sweep_titles import values_of
 from disc_model.figures.types import Axes
+from disc_model.figures.words import label_of
 
 OF_SEVERAL = 4.4  # inch of each of several bands of panels
 MOST_ACROSS = 3  # panels beside each other in a new figure
@@ -33,8 +37,9 @@ def grid_for(count: int, *, is_own: bool) -> Grid:
     return Grid(bands, math.ceil(count / bands))
 
 
-def page_of(wishes: Wishes, grid: Grid, case: str) -> AbstractContextManager[Page]:
-    """The page of such a grid."""
+def page_of(wishes: Wishes, grid: Grid, study: xr.Dataset) -> AbstractContextManager[Page]:
+    """The page of such a grid, for a study whose case the title says."""
+    case = what_case(values_of(study))
     width = COLUMN if grid.across == 1 else PAGE
     height = HEIGHT if grid.bands == 1 else grid.bands * OF_SEVERAL
     shared: dict[str, Any] = {"sharex": True, "sharey": "row"}
@@ -53,8 +58,9 @@ def panels_of(page: Page, grid: Grid, count: int) -> tuple[list[Axes], list[Axes
     return above[:count], below[:count]
 
 
-def say_quantities(page: Page, above: Sequence[Axes], across: str) -> None:
+def say_quantities(page: Page, above: Sequence[Axes], speeds: xr.DataArray) -> None:
     """Say what panels show over a speed: frequencies in the upper ones, and growth rates in all others."""
+    across, _ = label_of(speeds)
     frequencies = Quantities(across, FREQUENCY)
     rates = Quantities(across, " ".join(RATE.split()))
     page.show(*(frequencies if ax in above else rates for ax in page.axes))

@@ -20,12 +20,9 @@ from disc_model.figures.campbell_legend import entries_of
 from disc_model.figures.campbell_names import name_peaks
 from disc_model.figures.campbell_panels import FREQUENCY, draw_panels
 from disc_model.figures.canvas import Wishes
-from disc_model.figures.drawn_units import in_readers_units, with_drawn_speeds
-from disc_model.figures.head_texts import what_case
+from disc_model.figures.drawn_units import in_readers_units
 from disc_model.figures.left_out import parts_shown, titles_of_panels
 from disc_model.figures.named_axes import check_free
-from disc_model.figures.sweep_titles import values_of
-from disc_model.figures.words import label_of
 
 
 @in_readers_units
@@ -42,7 +39,6 @@ def plot_campbell(
     """Draw frequencies, multiples and growth rates over the speed, as `disc_model.plot_campbell`
     describes."""
     drawn, limit = checked_study(study, highest, multiples)
-    drawn = with_drawn_speeds(drawn)
     asked_for = () if multiples is None else tuple(multiples)
     by = next(iter(dims_of_columns(drawn)), None)
     parts = parts_shown(drawn, by)
@@ -53,11 +49,10 @@ def plot_campbell(
         title = with_name_below(title, names[0])
     wishes = Wishes(ax, legend, labels, title)
     grid = grid_for(len(parts), is_own=ax is None)
-    across = label_of(drawn["Omega"])[0]
-    with page_of(wishes, grid, what_case(values_of(drawn))) as page:
+    with page_of(wishes, grid, drawn) as page:
         check_free(page.axes, FREQUENCY, "a Campbell diagram")
         above, below = panels_of(page, grid, len(parts))
-        say_quantities(page, above, across)
+        say_quantities(page, above, drawn["Omega"])
         draw_panels(above, below, columns, shown, asked_for)
         name_panels(page, above, names)
         for top, bottom, column in zip(above, below, columns, strict=True):

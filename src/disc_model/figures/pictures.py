@@ -67,7 +67,7 @@ def plot_sweep(  # noqa: PLR0913
         of the turns that a function of your own returns
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,
         and then linear up to its least size, or to a thousandth of the greatest if that is more. If not given, growth
-        rates beyond 0.2/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of
+        rates beyond 0.3/s have such a scale, linear up to 0.1/s, unless they are of one sign and within a factor of
         two, and all else a linear one
     cmap : another colour map of matplotlib for a map of numbers, from the least of them to the greatest; colours with a
         middle, such as "RdBu_r", have it at zero if numbers have both signs. The usual colours of growth rates have it
@@ -103,24 +103,12 @@ def plot_sweep(  # noqa: PLR0913
     >>> dm.plot_sweep(growth).get_xlabel()
     'Speed Ω (rad/s)'
 
-    The same over rotations per minute:
-
-    >>> dm.plot_sweep(growth, units={"Omega": "rpm"}).get_xlabel()
-    'Speed Ω (rpm)'
-
-    A line for each preload, in place of a map:
+    A line for each preload, in place of a map, over rotations per minute:
 
     >>> grid = dm.sweep(dm.floquet, dm.Parameters(N=300, Omega=15), Omega=[10, 12, 14], N=[300, 400])
-    >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N")
-    >>> [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    ['Preload N = 300 N', '400 N']
-
-    A legend of your own, which may be that of several panels:
-
-    >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N", legend=False)
-    >>> legend = ax.figure.legend(loc="outside lower center", ncols=2)
-    >>> [text.get_text() for text in legend.get_texts()]
-    ['Preload N = 300 N', '400 N']
+    >>> ax = dm.plot_sweep(grid, "growth_rate", x="Omega", lines="N", units={"Omega": "rpm"})
+    >>> ax.get_xlabel(), [text.get_text() for text in ax.figure.legends[0].get_texts()]
+    ('Speed Ω (rpm)', ['Preload N = 300 N', '400 N'])
     """
     looks = {"lines": lines, "points": points, "log": log, "cmap": cmap, "limits": limits}
     wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title, "units": units}

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.figures.basins import draw_shares, entries_of, outcomes_in, shares_of
+from disc_model.figures.basin_shares import draw_shares, entries_of, outcomes_in, shares_of
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.separating_share import (
     draw_interval,

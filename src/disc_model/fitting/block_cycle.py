@@ -3,6 +3,7 @@
 import math
 from typing import NamedTuple
 
+from disc_model.data.variables import GIVE_A_GUESS
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 
@@ -12,8 +13,19 @@ LONGEST = 6
 """Number of times that a simulation is doubled until the motion repeats."""
 
 
+BY_A_FUNCTION = (
+    "measure by a function of the case that calls floquet with a guess and returns the quantity"
+)
+"""Advice on a motion whose cycle is not found, of a fit, which takes no guess."""
+
+
 class Unpredicted(Exception):
     """A case has no such quantity; the message says why."""
+
+
+def no_cycle(reason: str) -> Unpredicted:
+    """That the cycle of a motion was not found, with the advice that a fit can follow."""
+    return Unpredicted(reason.replace(GIVE_A_GUESS, BY_A_FUNCTION))
 
 
 class Cycle(NamedTuple):

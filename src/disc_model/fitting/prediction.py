@@ -13,11 +13,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from disc_model.data.variables import GIVE_A_GUESS
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import suggestion
-from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid
+from disc_model.fitting.block_cycle import Cycle, Unpredicted, block_cycle, is_rigid, no_cycle
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import FloquetResult, find_cycle
 from disc_model.stability.floquet import beside_motion
@@ -27,11 +26,6 @@ MODE = re.compile(r"(frequency|damping_ratio)_(\d+)_(\d+)")
 """Names of quantities of one mode: nodal diameters, nodal circles."""
 COUPLED = re.compile(r"coupled_frequency_([1-9]\d*)")
 """Names of natural frequencies with the slider attached, by their number from the lowest on."""
-
-BY_A_FUNCTION = (
-    "measure by a function of the case that calls floquet with a guess and returns the quantity"
-)
-"""Advice on a motion whose cycle is not found, of a fit, which takes no guess."""
 
 TOLERANCE = 1e-12
 """Relative residual of cycles."""
@@ -71,7 +65,7 @@ class Prediction:
         found = self._found
         if math.isnan(found.period):
             reason = found.message.removeprefix(f"{found.status.value}: ")
-            raise Unpredicted(reason.replace(GIVE_A_GUESS, BY_A_FUNCTION))
+            raise no_cycle(reason)
         return Cycle(found.period, found.growth_rate, found.stick_fraction, found.releases)
 
     @cached_property
