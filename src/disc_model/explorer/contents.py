@@ -59,6 +59,16 @@ IN_A_SENTENCE: Mapping[tuple[str, str], str] = {
 """Words of parameters that do not say by themselves what they are of."""
 
 
+REMARKS: Mapping[tuple[str, str], str] = MappingProxyType(
+    {
+        ("regions", "simulated_time"): "It is the time that was simulated to know the outcome, and not "
+        "that of the motion, which a call has as time_reached: departures that were extrapolated are "
+        "left out, and what was simulated twice counts twice.",
+    }
+)
+"""What the page says of variables that are easily taken for others."""
+
+
 class Stated(NamedTuple):
     """What a study's file and its quantity state, beside its dataset.
 
@@ -393,6 +403,7 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     described = _named(name, variable.attrs)
     described["label"] = with_duration(study, name, described["label"])
     described["dims"] = list(variable.dims)
+    described["remark"] = REMARKS.get((str(study.attrs.get("quantity", "")), name), "")
     described["marks"] = _marks(study, name)
     meanings = variable.attrs.get("flag_meanings")
     worded = as_classes(study, name)
