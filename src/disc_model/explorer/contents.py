@@ -61,9 +61,12 @@ IN_A_SENTENCE: Mapping[tuple[str, str], str] = {
 
 REMARKS: Mapping[tuple[str, str], str] = MappingProxyType(
     {
-        ("regions", "simulated_time"): "It is the time that was simulated to know the outcome, and not "
+        (
+            "regions",
+            "simulated_time",
+        ): "It is the time that was simulated to know the outcome, and not "
         "that of the motion, which a call has as time_reached: departures that were extrapolated are "
-        "left out, and what was simulated twice counts twice.",
+        "left out, and what was simulated twice counts twice."
     }
 )
 """What the page says of variables that are easily taken for others."""
