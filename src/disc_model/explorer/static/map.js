@@ -167,7 +167,7 @@ function markOfClass(ink, chosen, x, y, radius) {
   draw(ink, x, y, radius);
 }
 
-const APART = 6; // between texts below a bar, pixels
+const APART = 10; // between texts below a bar, pixels
 
 /** The room that a text takes at an end of a bar, with a gap beside it. */
 const roomOf = (ink, text) => (text ? ink.measureText(text).width + APART : 0);
@@ -186,16 +186,19 @@ function colourBar(ink, box, colours, title) {
   write(ink, above, box.right, box.bottom + 5, "right", "top");
   const [first, last] = [box.left + roomOf(ink, below), box.right - roomOf(ink, above)];
   const written = [];
+  const extra = ticks.some(([, found]) => found < 0) ? ink.measureText("−").width : 0;
   for (const [share, found] of ticks) {
     const text = number(found, digits);
     const width = ink.measureText(text).width;
     const at = box.left + share * size;
     const left = Math.max(box.left, Math.min(at - width / 2, box.right - width));
     const right = left + width;
-    const isFree = written.every((other) => right + APART <= other.left || left >= other.right + APART);
+    // as wide as with a minus, so that both signs of a number are written or neither
+    const more = found > 0 ? extra / 2 : 0;
+    const isFree = written.every((other) => right + more + APART <= other.left || left - more >= other.right + APART);
     if (left < first || right > last || !isFree) continue;
     write(ink, text, left, box.bottom + 5, "left", "top");
-    written.push({ left, right });
+    written.push({ left: left - more, right: right + more });
   }
   writeLines(ink, title, box.left, box.top - 4);
 }
