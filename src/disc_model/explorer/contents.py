@@ -12,6 +12,7 @@ from disc_model.display import counted
 from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
+from disc_model.explorer.modes import looks_of_modes
 from disc_model.explorer.packing import packed
 from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
@@ -161,6 +162,7 @@ def _study_contents(
         "variables": [_variable(study, x, exact=str(x.name) in exact) for x in drawn],
         "samples": marks_of_samples(study),
         "kinds": strip_of_kinds(study),
+        "modes": looks_of_modes(study),
         "messages": _messages(study),
         "motions": shown_motions,
     }

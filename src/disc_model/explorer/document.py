@@ -25,6 +25,7 @@ SCRIPTS = (
     "drawing",
     "lines",
     "samples",
+    "modes",
     "map",
     "point",
     "motion",

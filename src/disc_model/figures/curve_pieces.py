@@ -36,9 +36,9 @@ def open_steps(
     study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
 ) -> dict[str, Mask]:
     """The steps at which each line of a variable is open: of critical values, those to or from the main
-    border of stability; of critical speeds, those to another range of separation; of a variable of cycles, those at which the growth rate says that they may
-    lead to another cycle, and those to or from a cycle that the motion is not near; none of other
-    variables."""
+    border of stability; of critical speeds, those to another range of separation; of a variable of
+    cycles, those at which the growth rate says that they may lead to another cycle, and those to or from
+    a cycle that the motion is not near; none of other variables."""
     on_border = border_alone(study, str(array.name))
     if on_border is not None:
         parts = parts_along(on_border, by)

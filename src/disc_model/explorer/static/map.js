@@ -61,7 +61,7 @@ function drawMap() {
   const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
   const seen = {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
-    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), kinds,
+    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), modes: new Map(), kinds,
   };
   const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
@@ -107,6 +107,7 @@ function drawMap() {
     const points = curveOf(cells, numbers, intervals, marked, seen);
     drawKinds(ink, box, kinds, points);
     seen.samples = drawCurve(ink, points, open, chosen);
+    seen.modes = drawModes(ink, points);
   } else markChosen(ink);
   legend(seen, chosen);
 }
@@ -236,6 +237,7 @@ function legend(seen, chosen) {
   if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), seen.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   entries.push(...entriesOfLines(seen.lines), ...entriesOfSamples(seen.samples, seen.kinds));
+  entries.push(...entriesOfModes(seen.modes));
   if (chosen && !seen.lines.size) entries.push([classSwatch(chosen), chosen.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
