@@ -3,6 +3,7 @@ gives its value."""
 
 import json
 import math
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -142,7 +143,9 @@ def test_the_call_of_a_point_gives_its_value(shown: Shown, name: str) -> None:
         text = "\n".join(before)
         assert "start = " not in text, "only the motion below begins there"
         if text not in ran:
-            exec(text, names)
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                exec(text, names)
             ran[text] = names
         value = eval(last, ran[text])
         assert equal(value, stored(shown.datasets[name], row)), row

@@ -79,3 +79,11 @@ def test_lines_over_decades_have_numbers_at_both_ends(opened: Open) -> None:
     with opened(contents()) as shown:
         words = shown.page.run(ticks, [3.0, 40.0, 450.0])
     assert sorted(as_numbers(words)) == [2, 5, 10, 20, 50, 100, 200, 500]
+
+
+def test_a_bar_of_large_rates_has_both_signs_of_a_number_and_zero(opened: Open) -> None:
+    """In a narrow window it had -0.1 in the place of zero, and not 0.1."""
+    with opened(contents()) as shown:
+        words = as_numbers(shown.ask("wordsOfBar", [-9.0, 9.0], {"width": 0.3, "end": 9.0}))
+    assert 0 in words
+    assert words == [-word for word in reversed(words)]

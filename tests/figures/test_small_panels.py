@@ -3,6 +3,7 @@
 import json
 import re
 import warnings
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.data.variables import attributes
+from disc_model.figures.colours import bars_of
 from disc_model.figures.drawing import large
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.sizes import COLUMN, INCH, PAGE
@@ -120,3 +122,23 @@ def test_strips_have_their_usual_size_again_after_a_panel_was_cleared() -> None:
     figure.set_figheight(5.0)
     dm.plot_sweep(crowded(2e4), ax=ax, lines="N")
     assert {row.words.get_fontsize() for row in rows_above(ax)} == {large(7)}
+
+
+@pytest.mark.parametrize("inches", [84 / 25.4, 174 / 25.4])
+def test_numbers_about_zero_beside_a_bar_of_large_rates_are_apart(inches: float) -> None:
+    """0.1, 0 and -0.1 touched beside a bar that ends at 9/s."""
+    loads = np.linspace(100, 400, 20)
+    speeds = np.linspace(10, 30, 20)
+    rates = np.clip(np.linspace(-4, 4, 400), -9, 9).reshape(20, 20)
+    rates[0] = -9
+    rates[-1] = 9
+    study = xr.Dataset({"growth_rate": (("N", "Omega"), rates)}, {"N": loads, "Omega": speeds})
+    figure, ax = pyplot.subplots(figsize=(inches, 0.6 * inches), layout="constrained")
+    dm.plot_sweep(study, "growth_rate", lines=False, ax=ax)
+    figure.draw_without_rendering()
+    [bar] = bars_of(ax)
+    shown = [text for text in bar.get_yticklabels() if text.get_text()]
+    assert "0" in {text.get_text() for text in shown}
+    boxes = sorted((text.get_window_extent() for text in shown), key=lambda box: box.y0)
+    gaps = [above.y0 - below.y1 for below, above in pairwise(boxes)]
+    assert min(gaps) >= 1.9 * figure.dpi / 72

@@ -28,7 +28,7 @@ def test_names_of_attractors_say_what_they_are_of() -> None:
         ),
         (
             "rate, nan if the motion is near the cycle, or no other was found",
-            "near the cycle, or no other found",
+            "stable, near the cycle, or no other found",
         ),
     ],
 )

@@ -32,6 +32,12 @@ NEAR = 4.0  # and up to which one with another unit would be near it
 PREFIXES = {"m": 1e-3, "µ": 1e-6, "n": 1e-9}  # of seconds and metres
 
 
+MEASURES = ("a", "b", "h", "E", "nu", "rho")
+"""Numbers of the plate by which it is another than the paper's."""
+STATED_WITH_MEASURES = ("normalization", "D_star", "damping_ratio")
+"""What a case of another plate has to state."""
+
+
 class ImplausibleValue(UserWarning):
     """A value is allowed but implausible.
 
@@ -331,9 +337,7 @@ def _unlike_shapes(p: Parameters, disc: Disc) -> str:
 
 
 def _unstated(p: Parameters) -> str:
-    changed = [
-        name for name in ("a", "b", "h", "E", "nu", "rho") if getattr(p, name) != DEFAULTS[name]
-    ]
+    changed = [name for name in MEASURES if getattr(p, name) != DEFAULTS[name]]
     needed = {"the normalization of modes ('orthonormal' for a real disc)": {"normalization"}}
     if changed != ["E"]:  # the paper varies E alone, with the damping of Table 1
         needed |= {"the damping (D_star or damping_ratio)": {"D_star", "damping_ratio"}}

@@ -12,6 +12,7 @@ from disc_model.display import counted
 from disc_model.explorer.beginning import usual_place
 from disc_model.explorer.curves import bounds_and_doubts, open_along
 from disc_model.explorer.marks import marked_cells
+from disc_model.explorer.modes import looks_of_modes
 from disc_model.explorer.packing import packed
 from disc_model.explorer.padding import without_padding
 from disc_model.explorer.rules import rule_of
@@ -57,6 +58,19 @@ IN_A_SENTENCE: Mapping[tuple[str, str], str] = {
     ("contact_compliance", "residual"): "residual flexibility",
 }
 """Words of parameters that do not say by themselves what they are of."""
+
+
+REMARKS: Mapping[tuple[str, str], str] = MappingProxyType(
+    {
+        (
+            "regions",
+            "simulated_time",
+        ): "It is the time that was simulated to know the outcome, and not "
+        "that of the motion, which a call has as time_reached: departures that were extrapolated are "
+        "left out, and what was simulated twice counts twice."
+    }
+)
+"""What the page says of variables that are easily taken for others."""
 
 
 class Stated(NamedTuple):
@@ -148,6 +162,7 @@ def _study_contents(
         "variables": [_variable(study, x, exact=str(x.name) in exact) for x in drawn],
         "samples": marks_of_samples(study),
         "kinds": strip_of_kinds(study),
+        "modes": looks_of_modes(study),
         "messages": _messages(study),
         "motions": shown_motions,
     }
@@ -393,6 +408,7 @@ def _variable(study: xr.Dataset, variable: xr.DataArray, *, exact: bool) -> dict
     described = _named(name, variable.attrs)
     described["label"] = with_duration(study, name, described["label"])
     described["dims"] = list(variable.dims)
+    described["remark"] = REMARKS.get((str(study.attrs.get("quantity", "")), name), "")
     described["marks"] = _marks(study, name)
     meanings = variable.attrs.get("flag_meanings")
     worded = as_classes(study, name)

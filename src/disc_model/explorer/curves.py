@@ -9,6 +9,7 @@ from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_pieces import open_steps
 from disc_model.figures.rate_scale import RATE
 from disc_model.figures.selection import OF_CYCLES, at_lower_bound, border_alone, doubts
+from disc_model.figures.tongues import has_ranges
 from disc_model.figures.types import Mask
 
 
@@ -16,9 +17,10 @@ def open_along(study: xr.Dataset, name: str) -> dict[str, Mask]:
     """The steps at which curves of a variable along each of its dimensions are open, in the shape of
     the variable: at the points where they begin. Only dimensions with such steps, and those of
     numbers, as points along words are not joined."""
-    if name not in OF_CYCLES and border_alone(study, name) is None:
+    is_open = name in OF_CYCLES or has_ranges(study, name)
+    if not is_open and border_alone(study, name) is None:
         return {}
-    needed = (name, RATE, "near_motion", "border", "at_lower_bound")
+    needed = (name, RATE, "near_motion", "border", "at_lower_bound", "crossing", "crossing_kind")
     part = study[[other for other in needed if other in study]]
     _, heights = heights_of(part, name)
     found = {}

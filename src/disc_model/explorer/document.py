@@ -11,6 +11,7 @@ import jinja2
 from cmcrameri import cm
 from matplotlib.colors import Colormap, to_hex
 
+from disc_model.disc.plausibility import MEASURES, STATED_WITH_MEASURES
 from disc_model.explorer.embedding import embedded
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.colours import COMMON, LINEAR_OF_MEDIAN, LINEAR_SHARE, NEAR_END, ROUNDING
@@ -24,6 +25,7 @@ SCRIPTS = (
     "drawing",
     "lines",
     "samples",
+    "modes",
     "map",
     "point",
     "motion",
@@ -55,6 +57,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "weights": WEIGHTS,
         "computed": ["ok", *WITHOUT_CYCLE],
         "parameters": [*Parameters.model_fields, *RATIOS],
+        "plate": {"measures": _measures(), "stated": STATED_WITH_MEASURES},
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     template = jinja2.Template(
@@ -73,6 +76,12 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         ),  # so that none of them ends the enclosing HTML element
         script="\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     )
+
+
+def _measures() -> list[str]:
+    """Numbers of a case by which its plate is another than the paper's, ratios among them."""
+    ratios = [ratio for ratio, (replaced, _) in RATIOS.items() if replaced in MEASURES]
+    return [*MEASURES, *ratios]
 
 
 def _colours(scale: Colormap) -> list[str]:

@@ -12,6 +12,7 @@ from disc_model.figures.types import Axes
 MOST_STEPS = 6  # between numbers along an axis on which more of them would meet
 NUMBERS_APART = 4.0  # points, least gap between these
 HEIGHTS_APART = 1.5  # points, least gap between numbers on each other
+BAR_APART = 2.0  # and beside a bar, where those about zero would seem one group
 UNEVEN = ("asinh", "log", "symlog")  # scales on which equal steps have unequal lengths
 Number = tuple[float, Any]
 """A number beside an axis, and the box that it takes."""
@@ -42,7 +43,7 @@ def _numbers_have_room(axis: Any) -> bool:
     figure = axis.get_figure(root=True)
     if ends and ends[-1][1] > figure.bbox.x1:
         return False
-    gap = NUMBERS_APART * figure.dpi / 72
+    gap = NUMBERS_APART * _pixels(axis)
     return all(after[0] - before[1] > gap for before, after in pairwise(ends))
 
 
@@ -93,7 +94,7 @@ def spare_numbers(bar: Axes) -> None:
     numbers = _numbers_beside(axis)
     has_own_steps = isinstance(axis.get_major_locator(), FixedLocator)
     if bar.get_yscale() in UNEVEN and has_own_steps:
-        hidden = _meeting(_ends_first(numbers), gap=0.0)
+        hidden = _meeting(_ends_first(numbers), BAR_APART * _pixels(axis))
     else:
         hidden = _between_even_steps(axis, numbers)
     if hidden:
@@ -131,9 +132,14 @@ def spare_heights(ax: Axes) -> None:
     else:
         whole = _shown(axis, axis.get_majorticklocs())
         numbers.sort(key=lambda each: (each[0] not in whole, abs(each[0]), each[0]))
-        hidden = _meeting(numbers, HEIGHTS_APART * axis.get_figure(root=True).dpi / 72)
+        hidden = _meeting(numbers, HEIGHTS_APART * _pixels(axis))
     if hidden:
         _hide_numbers(axis, hidden)
+
+
+def _pixels(axis: Any) -> float:
+    """Pixels in a point of the figure of an axis."""
+    return float(axis.get_figure(root=True).dpi / 72)
 
 
 def _ends_first(numbers: Sequence[Number]) -> list[Number]:

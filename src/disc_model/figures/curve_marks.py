@@ -13,7 +13,7 @@ from disc_model.figures.curve_looks import MARK, Looks
 from disc_model.figures.drawing import GREY, mark, wide
 from disc_model.figures.gap_rows import add_row
 from disc_model.figures.missing_texts import missing_text, text_below_lowest, texts_without_border
-from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
+from disc_model.figures.rate_scale import ANOTHER_BORDER, ANOTHER_RANGE, OPEN
 from disc_model.figures.selection import (
     Part,
     beyond_lowest_speed,
@@ -173,6 +173,8 @@ def _without_value(study: xr.Dataset, name: str, gone: xr.DataArray) -> dict[str
 
 def reason_of_open_steps(variable: str) -> str:
     """The words that say why lines of a variable are open at some steps."""
+    if variable == "critical_speed":
+        return ANOTHER_RANGE
     return ANOTHER_BORDER if variable == "value" else OPEN
 
 

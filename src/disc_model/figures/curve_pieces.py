@@ -9,6 +9,7 @@ import xarray as xr
 
 from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens
 from disc_model.figures.selection import at_lower_bound, border_alone, not_near, opened, parts_along
+from disc_model.figures.tongues import has_ranges, steps_between_ranges
 from disc_model.figures.types import Array, Axes, Mask
 
 
@@ -35,13 +36,15 @@ def open_steps(
     study: xr.Dataset, array: xr.DataArray, by: str | None, log: bool
 ) -> dict[str, Mask]:
     """The steps at which each line of a variable is open: of critical values, those to or from the main
-    border of stability; of a variable of cycles, those at which the growth rate says that they may
-    lead to another cycle, and those to or from a cycle that the motion is not near; none of other
-    variables."""
+    border of stability; of critical speeds, those to another range of separation; of a variable of
+    cycles, those at which the growth rate says that they may lead to another cycle, and those to or from
+    a cycle that the motion is not near; none of other variables."""
     on_border = border_alone(study, str(array.name))
     if on_border is not None:
         parts = parts_along(on_border, by)
         return {part.name: np.abs(np.diff(part.data.values)) > 0 for part in parts}
+    if has_ranges(study, str(array.name)):
+        return steps_between_ranges(study, by)
     rates = array if array.name == RATE else study.get(RATE, array)
     if not are_of_cycles(array, rates) or (array.name == RATE and not are_rates(array, log)):
         return {}

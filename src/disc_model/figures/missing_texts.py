@@ -27,6 +27,7 @@ BEYOND = {
     "attractor": "no further attractor",
     "release": "no further release",
     "begin": "contact is not lost",
+    "probe": "no release held for a phase",
 }
 """What it means that there is no value at a place of a dimension that has room for more than was found."""
 _NO_MODE = "no mode of this number"
@@ -36,15 +37,22 @@ _NOT_SWEPT = "the sweep did not come here"
 _NO_START = "no start led to lasting separation"
 _NO_MULTIPLIER = "no multiplier of the mode"
 _NO_CYCLE = "no cycle is followed"
+_NOT_ON_RECORD = "the record shows none"
+_NO_ATTRACTOR = "no further attractor, or not periodic"
+_NO_EFFECT = "no further crossing, or not known"
+_NOT_ANOTHER = "stable, near the cycle, or no other found"
 GONE: Mapping[str, Mapping[str, str]] = {
-    "basins": dict.fromkeys(
-        ("critical_energy", "critical_energy_lower", "critical_energy_sampled"), _NO_START
-    ),
+    "basins": {
+        **dict.fromkeys(("critical_energy", "critical_energy_sampled"), _NO_START),
+        "critical_energy_lower": "no start separates, or that without energy does",
+        **dict.fromkeys(("attractor_period", "attractor_growth_rate"), _NO_ATTRACTOR),
+    },
     "bifurcation": {
         **dict.fromkeys(("psi", "psi_velocity", "P", "u"), "no further event while sampled"),
         "w_point": "sampled once a turn only",
         "first_separation": "no separation up to the last sample",
-        "period_events": "not shown to repeat",
+        **dict.fromkeys(("period_events", "period_residual"), "not shown to repeat"),
+        **dict.fromkeys(("change_rate", "least_rate"), _NOT_ON_RECORD),
     },
     "branches": dict.fromkeys(("sweep_range", "sweep_separation_rate"), _NOT_SWEPT),
     "campbell": {
@@ -52,20 +60,22 @@ GONE: Mapping[str, Mapping[str, str]] = {
             ("sliding_frequency", "sliding_growth_rate", "forward_wave_fraction"), _NO_MODE
         ),
         **dict.fromkeys(("cycle_frequency", "cycle_growth_rate", "mac"), _NO_MULTIPLIER),
+        **dict.fromkeys(("crossing_growth_rate", "crossing_rise"), _NO_EFFECT),
     },
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
     "floquet": {"near_motion": "stable: not examined"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
         **dict.fromkeys(("leading_multiplier", "growth_rate"), _NO_LOCK),
-        **dict.fromkeys(("real_multiplier", "swing_multiplier"), _NO_LOCK),
+        "swing_multiplier": _NO_LOCK,
+        "real_multiplier": f"{_NO_LOCK}, or none is real",
         "separations_per_release": "no release of stick, or no separation",
         "separation_interval": "no release of stick, or no separation",
     },
     "outcome": {
         "cycle_distance": "it was not left for a cycle",
         "return_map_residual": "it returned too seldom",
-        "return_map_residual_rate": "it returned too seldom",
+        "return_map_residual_rate": "it returned too seldom, or exactly",
     },
     "regions": {
         **dict.fromkeys(("period", "period_ratio"), _NO_CYCLE),
@@ -97,7 +107,8 @@ WITHOUT = {
     "unless every step is audited": "not every step is audited",
     "unless friction acts on a surface that moves": "friction acts on no surface that moves",
     "if friction acts on no surface that moves": "friction acts on no surface that moves",
-    "if the motion is near the cycle, or no other was found": "near the cycle, or no other found",
+    "if the motion is near the cycle, or no other was found": _NOT_ANOTHER,
+    "if the cycle is stable, the motion is near it, or no other was found": _NOT_ANOTHER,
 }
 """What figures say for what long names say after "nan"."""
 

@@ -27,8 +27,13 @@ def speeds_of(study: xr.Dataset, horizon: float, kind: str = "begins") -> list[A
     each load."""
     of_horizon = study.sel(horizon=horizon).transpose("N", ..., "crossing_number")
     kinds = flag_names(of_horizon["crossing_kind"])
-    speeds = np.where(kinds == kind, of_horizon["crossing"].values, np.nan)
     first = of_horizon["critical_speed"].where(kind == "begins")
+    return rising_rows(first.values, of_horizon["crossing"].values, kinds == kind)
+
+
+def rising_rows(first: Array, crossings: Array, chosen: Mask) -> list[Array]:
+    """Rising speeds of each point: its first one, and the chosen ones of its crossings, (points, most)."""
+    speeds = np.where(chosen, crossings, np.nan)
     rows = np.column_stack([first, speeds])
     return [np.unique(row[np.isfinite(row)]) for row in rows]
 

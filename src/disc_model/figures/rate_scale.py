@@ -34,6 +34,8 @@ OPEN = f"line open: {ANOTHER_CYCLE}"
 """What such a break may be: finer steps show which, as the rate of one cycle is steep beside its end."""
 ANOTHER_BORDER = "line open: another border"
 """Said of steps between critical values that lie on different borders of stability."""
+ANOTHER_RANGE = "line open: another range of separation"
+"""Said of steps between critical speeds at which different ranges of separation begin."""
 RATE = "growth_rate"
 """Growth rate of a motion, with narrow peaks of tens beside hundredths."""
 

@@ -35,6 +35,8 @@ WITHOUT_CYCLE = (
 """Statuses of points that were computed, and have no stick-slip cycle."""
 ROUNDING = 1e-9
 """Relative difference of equal speeds in files."""
+TIME_OF_SEPARATION = "first_separation"
+"""Variable of a simulation, which some samples are without."""
 NOT_SIMULATED = "not_simulated"
 """Outcome of a sample whose motion was not simulated."""
 OF_STAYS = (
@@ -67,6 +69,10 @@ OF_CYCLES = (
 )
 """Variables of a cycle."""
 
+OF_SLIDING_MODES = ("sliding_frequency", "sliding_growth_rate", "forward_wave_fraction")
+"""Variables of the modes of steady sliding, which need no cycle."""
+BESIDE_MOTION = ("near_motion", "other_growth_rate")
+"""Variables of the cycle beside the motion from the static start."""
 ALONE = 0.1
 """Half the width of a cell over its value, where this is the only one along an axis."""
 
@@ -249,9 +255,33 @@ def statuses(study: xr.Dataset) -> xr.DataArray:
     return words.astype(str)
 
 
+def statuses_of(study: xr.Dataset, array: xr.DataArray) -> xr.DataArray:
+    """The status of each point as far as a variable depends on it: modes of steady sliding need no
+    cycle, and samples with a status of "ok" may be without one, or not simulated."""
+    words = statuses(study)
+    name = str(array.name)
+    if name in OF_SLIDING_MODES and "mode" in array.dims:
+        return words.where(~words.isin(WITHOUT_CYCLE), "ok")
+    if name in BESIDE_MOTION:
+        return _with_flag(words, study.get("cycle"), (*WITHOUT_CYCLE, "failed"))
+    if name == TIME_OF_SEPARATION:
+        return _with_flag(words, study.get("outcome"), (NOT_SIMULATED,))
+    return words
+
+
+def _with_flag(
+    words: xr.DataArray, flag: xr.DataArray | None, chosen: Sequence[str]
+) -> xr.DataArray:
+    """Statuses with some words of a flag of the same points in place of "ok"."""
+    if flag is None or {*flag.dims} != {*words.dims} or "flag_meanings" not in flag.attrs:
+        return words
+    of_flag = flag.copy(data=flag_names(flag)).transpose(*words.dims)
+    return words.where(~((words == "ok") & of_flag.isin(chosen)), of_flag)
+
+
 def statuses_like(study: xr.Dataset, array: xr.DataArray) -> Words:
     """The status of each point, in the shape of a variable of the study."""
-    words = statuses(study).broadcast_like(array).transpose(*array.dims)
+    words = statuses_of(study, array).broadcast_like(array).transpose(*array.dims)
     return np.asarray(words.values, dtype=str)
 
 
@@ -275,7 +305,7 @@ def class_of_gap(status: str) -> str:
     and "no_value" for a point that was computed."""
     if status == "ok":
         return NO_VALUE
-    if status in (*WITHOUT_CYCLE, EXCLUDED):
+    if status in (*WITHOUT_CYCLE, EXCLUDED, NOT_SIMULATED):
         return status
     return "failed"
 
@@ -285,7 +315,6 @@ def classes_of_gaps(study: xr.Dataset, array: xr.DataArray) -> Words:
     status = statuses_like(study, array)
     gone = ~np.isfinite(array.values.astype(float)) | (status == EXCLUDED)
     classes = np.vectorize(class_of_gap, otypes=[str])(status)
-    classes = np.where(_not_simulated(study, array), NOT_SIMULATED, classes)
     of_starts = class_of_starts(study, str(array.name))
     if of_starts is not None:
         words = of_starts.broadcast_like(array).transpose(*array.dims).values
@@ -303,19 +332,10 @@ def classes_of_infinite(variable: xr.DataArray) -> Words:
     return np.where(np.isneginf(values), below, classes)
 
 
-def _not_simulated(study: xr.Dataset, array: xr.DataArray) -> Mask:
-    """Samples whose motion was not simulated."""
-    outcome = study.get("outcome")
-    words = () if outcome is None else outcome.attrs.get("flag_meanings", "").split()
-    if outcome is None or NOT_SIMULATED not in words or {*outcome.dims} != {*array.dims}:
-        return np.zeros(array.shape, dtype=bool)
-    return flag_names(outcome.transpose(*array.dims)) == NOT_SIMULATED
-
-
 def gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, xr.DataArray]:
     """Points where a variable has no value, by the name of their class; without those that a rule
     excludes."""
-    words = statuses(study)
+    words = statuses_of(study, variable)
     of_starts = class_of_starts(study, str(variable.name))
     if of_starts is not None:
         words = words.where((words != "ok") | (of_starts == ""), of_starts)

@@ -121,7 +121,7 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
     described = {
         "quantity": first.quantity,
         "options": json_attribute(first.options),
-        "base": json_attribute(_fixed(first.base, first.names, quantity)),
+        "base": json_attribute(fixed_base(first.base, first.names, quantity)),
     }
     if starts:
         described["starts"] = json_attribute(dict(sorted(starts.items())))
@@ -130,7 +130,7 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
     return described
 
 
-def _fixed(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) -> dict[str, Any]:
+def fixed_base(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) -> dict[str, Any]:
     """The values of a base that all points have: not of what a quantity varies by itself, of which
     it has those with which the file was checked, such as a speed of zero; nor the damping that a
     damping ratio replaces, which may be among the names of axes; nor what a plate has, of a disc that

@@ -173,10 +173,10 @@ function stepsBetween(least, greatest, digits = STEPS) {
   return found;
 }
 
-/** Zero and two powers of ten on each side of it, up to the larger end of a bar of growth rates. */
+/** Zero and two powers of ten on each side of it, up to the larger end of a bar of growth rates, zero first. */
 function ratesOnBar(low, high) {
   const largest = 10 ** Math.floor(log10(Math.max(-low, high)));
-  return [-largest, -largest / 10, 0, largest / 10, largest];
+  return [0, -largest, largest, -largest / 10, largest / 10];
 }
 
 /** Whether a number at this share of a bar does not meet those of its ends. */

@@ -61,7 +61,7 @@ function drawMap() {
   const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
   const seen = {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
-    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), kinds,
+    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), modes: new Map(), kinds,
   };
   const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
@@ -107,6 +107,7 @@ function drawMap() {
     const points = curveOf(cells, numbers, intervals, marked, seen);
     drawKinds(ink, box, kinds, points);
     seen.samples = drawCurve(ink, points, open, chosen);
+    seen.modes = drawModes(ink, points);
   } else markChosen(ink);
   legend(seen, chosen);
 }
@@ -167,7 +168,7 @@ function markOfClass(ink, chosen, x, y, radius) {
   draw(ink, x, y, radius);
 }
 
-const APART = 6; // between texts below a bar, pixels
+const APART = 10; // between texts below a bar, pixels
 
 /** The room that a text takes at an end of a bar, with a gap beside it. */
 const roomOf = (ink, text) => (text ? ink.measureText(text).width + APART : 0);
@@ -186,16 +187,19 @@ function colourBar(ink, box, colours, title) {
   write(ink, above, box.right, box.bottom + 5, "right", "top");
   const [first, last] = [box.left + roomOf(ink, below), box.right - roomOf(ink, above)];
   const written = [];
+  const extra = ticks.some(([, found]) => found < 0) ? ink.measureText("−").width : 0;
   for (const [share, found] of ticks) {
     const text = number(found, digits);
     const width = ink.measureText(text).width;
     const at = box.left + share * size;
     const left = Math.max(box.left, Math.min(at - width / 2, box.right - width));
     const right = left + width;
-    const isFree = written.every((other) => right + APART <= other.left || left >= other.right + APART);
+    // as wide as with a minus, so that both signs of a number are written or neither
+    const more = found > 0 ? extra / 2 : 0;
+    const isFree = written.every((other) => right + more + APART <= other.left || left - more >= other.right + APART);
     if (left < first || right > last || !isFree) continue;
     write(ink, text, left, box.bottom + 5, "left", "top");
-    written.push({ left, right });
+    written.push({ left: left - more, right: right + more });
   }
   writeLines(ink, title, box.left, box.top - 4);
 }
@@ -233,6 +237,7 @@ function legend(seen, chosen) {
   if (seen.open) entries.push([bareSwatch((ink) => stroke(ink, 8, 3)), seen.open]);
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   entries.push(...entriesOfLines(seen.lines), ...entriesOfSamples(seen.samples, seen.kinds));
+  entries.push(...entriesOfModes(seen.modes));
   if (chosen && !seen.lines.size) entries.push([classSwatch(chosen), chosen.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }

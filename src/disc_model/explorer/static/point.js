@@ -138,6 +138,14 @@ function sampledAt(study, place) {
 /** Arguments of a call in Python. */
 const argumentsOf = (values) => values.map(([name, one]) => `${name}=${python(one)}`).join(", ");
 
+/** What the case of a plate that is not the paper's has to state, and does not yet: of which the package asks. */
+function statedWith(study, given) {
+  const { measures, stated } = contents.plate;
+  if (!measures.some((name) => given.includes(name))) return [];
+  const missing = study.fixed.filter((one) => stated.includes(one.name) && !given.includes(one.name) && one.value !== null);
+  return missing.map((one) => [one.name, one.value]);
+}
+
 /** The point as a case of the package, in SI units: what varies, and what is not as in the paper's Table 1; a parameter that the
  * quantity varies by itself has its value at the point, or else that where its range begins. */
 function caseOf(study, place, variable) {
@@ -152,6 +160,7 @@ function caseOf(study, place, variable) {
   // numbers of a disc's modes, and what is drawn about the values of a point
   const ofModes = Object.entries(scanned).filter(([name]) => !contents.parameters.includes(name));
   const replaced = [...ofModes, ...Object.entries(sampledAt(study, place))];
+  known.push(...statedWith(study, [...known, ...replaced].map(([name]) => name)));
   return `dm.Parameters(${argumentsOf(known)})${replaced.length ? `.replace(${argumentsOf(replaced)})` : ""}`;
 }
 
@@ -234,11 +243,12 @@ function saidOfPoint(study, place, variable) {
   const waiting = Object.keys(study.call.begins).filter((name) => !(name in scanned));
   const ends = waiting.length > 1 ? "stand where their ranges begin" : "stands where its range begins";
   const begins = waiting.length ? ` ${waiting.join(" and ")}, which the study varies by itself, ${ends}.` : "";
-  if (!known) return `The case of this point.${study.call.quantity ? " No call of it alone gives the value above." : ""}${begins}`;
+  const remark = variable.remark ? ` ${variable.remark}` : "";
+  if (!known) return `The case of this point.${study.call.quantity ? " No call of it alone gives the value above." : ""}${remark}${begins}`;
   const alone = known.found.startsWith("dm.run_study") ? "a study of it alone" : "the call";
   const what = gapAt(study, variable, place) ? "computes it anew" : `gives the value above${variable.unit ? ", in SI units" : ""}`;
   const all = study.call.computes && !known.found.startsWith("dm.steady") ? ` It computes ${study.call.computes}.` : "";
-  return `The case of this point, and ${alone} that ${what}.${all}${begins}`;
+  return `The case of this point, and ${alone} that ${what}.${all}${remark}${begins}`;
 }
 
 const SIMULATED_FOR = 60; // s, as in the package's first examples
@@ -373,7 +383,7 @@ function fillTable(id, rows) {
     const row = document.createElement("tr");
     const [head, cell] = ["th", "td"].map((tag) => document.createElement(tag));
     head.scope = "row";
-    head.textContent = `${one.name}: ${one.title}`;
+    head.textContent = `${one.name}: ${one.title}${one.remark ? `. ${one.remark}` : ""}`;
     cell.textContent = text;
     row.append(head, cell);
     return row;

@@ -16,6 +16,7 @@ const CORNERS = {
   s: [[-0.8, -0.8], [0.8, -0.8], [0.8, 0.8], [-0.8, 0.8]],
   D: turned(4, 0),
   "^": turned(3, -Math.PI / 2),
+  v: turned(3, Math.PI / 2),
   ">": turned(3, 0),
   o: turned(16, 0),
   ".": turned(8, 0).map(([x, y]) => [x / 2, y / 2]),
