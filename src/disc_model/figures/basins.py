@@ -76,7 +76,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         of_energy = by_energy.sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
         of_separating = interval_of(study.sel(energy=energy), "basin_fraction_by_energy")
-        draw_interval(ax, of_separating, classes, across.values)
+        draw_interval(ax, of_separating, across.values)
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
     for ax in shares if plot.inches != PAGE else shares[:1]:
@@ -94,7 +94,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         ax.set_xlim(ends[0].min(), ends[1].max())
     horizon = stated_in(study, "options")["horizon"]
     handles = entries_of(classes, f"undecided after {horizon:g} s")
-    handles += entries_of_interval(study, "basin_fraction_by_energy", classes)
+    handles += entries_of_interval(study, "basin_fraction_by_energy")
     figure_legend(figure, handles, loc="outside lower center")
     return figure
 
