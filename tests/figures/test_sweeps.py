@@ -268,9 +268,8 @@ def test_equal_values_of_two_variables_have_marks_around_each_other(width: int) 
     assert heights[0] + half <= ax.bbox.y1 + 0.5
 
     _, other = pyplot.subplots(layout="constrained")
-    dm.plot_sweep(
-        study.assign(border=value[:1] + ([15.0, 14.0, 13.0], unit)), ["value", "border"], ax=other
-    )
+    apart = study.assign(border=("mu_k", [15.0, 14.0, 13.0], unit))
+    dm.plot_sweep(apart, ["value", "border"], ax=other)
     assert len({line.get_markersize() for line in other.lines if line.get_label()[0] != "_"}) == 1
     pyplot.close("all")
 
