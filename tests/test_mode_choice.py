@@ -164,6 +164,81 @@ def test_growth_of_steady_sliding_converges_under_a_pad_and_not_at_a_point(
         choose_modes(STEEL, quantity="sliding_growth")
 
 
+@pytest.fixture
+def one_grows_at_86_khz(monkeypatch: pytest.MonkeyPatch) -> None:
+    """All models from 14 diameters and 3 circles on agree on a mode at 11 kHz, but a mode of one of
+    them at 86.6 kHz grows faster."""
+
+    def judged(p: Parameters, highest: float) -> tuple[float, float]:
+        if (p.n_diameters, p.n_circles) == (28, 3) and highest > 86.6e3:
+            return 45.0, 86.6e3
+        if p.n_diameters >= 14 and p.n_circles >= 3:
+            return 27.0, 11.1e3
+        return float(p.n_diameters + p.n_circles), 4e3
+
+    for place, name in enumerate(("sliding_growth", "growing_frequency")):
+        monkeypatch.setattr(mode_choice, name, lambda p, top, i=place: judged(p, top)[i])
+
+
+@pytest.mark.usefixtures("one_grows_at_86_khz")
+def test_a_refusal_has_the_frequencies_of_modes_that_grow() -> None:
+    """It said by how much the growth rate changes, and not that one mode is at 86.6 kHz."""
+    with pytest.raises(UndecidedModes) as raised:
+        choose_modes(STEEL.replace(contact_arc=0.35), quantity="sliding_growth")
+    said = str(raised.value)
+    assert "116, 228, 285 modes (27/s at 11.1 kHz, 45/s at 86.6 kHz, 27/s at 11.1 kHz)" in said
+    assert "or highest_frequency, up to which growing modes are judged" in said
+    [note] = [note for note in raised.value.__notes__ if "28 diameters, 3 circles" in note]
+    assert note.endswith(": 45 at 86.6 kHz")
+    choice = choose_modes(
+        STEEL.replace(contact_arc=0.35), quantity="sliding_growth", highest_frequency="20 kHz"
+    )
+    assert (choice.parameters.n_diameters, choice.parameters.n_circles) == (14, 3)
+    assert choice.frequencies[28, 3] == pytest.approx(11.1e3)
+
+
+@pytest.mark.parametrize(("highest", "text"), [("12 kHz", "up to 12 kHz"), (900.0, "up to 900 Hz")])
+def test_only_modes_up_to_a_frequency_are_judged(highest: Any, text: str) -> None:
+    """There was no upper frequency to set, and none is too high for a thin plate."""
+    case = STEEL.replace(contact_arc=0.4)
+    choice = choose_modes(case, quantity="sliding_growth", highest_frequency=highest)
+    assert dict(choice.summary())["modes judged"] == text
+    assert choice.highest_frequency is not None
+    limit = math.tau * choice.highest_frequency
+    assert json.loads(choice.to_json())["highest_frequency"] == choice.highest_frequency
+    for frequency in choice.frequencies.values():
+        assert frequency <= choice.highest_frequency
+
+    found = steady_sliding(choice.parameters)
+    judged = found.eigenvalues[abs(found.eigenvalues.imag) <= limit]
+    size = (choice.parameters.n_diameters, choice.parameters.n_circles)
+    assert choice.values[size] == pytest.approx(judged.real.max())
+    assert choice.growing is not None
+    assert choice.growing[0] == (found.growing.imag <= limit).sum()
+
+
+def test_a_highest_frequency_is_that_of_modes_of_sliding() -> None:
+    with refusal("highest_frequency=20000: is used with quantity='sliding_growth' only"):
+        choose_modes(STEEL, highest_frequency="20 kHz")
+    with refusal("highest_frequency='20 N': must be a number in Hz"):
+        choose_modes(STEEL, quantity="sliding_growth", highest_frequency="20 N")
+
+
+def test_a_refusal_says_which_tolerance_would_do(measured: Measured) -> None:
+    """It advised a larger tolerance, and the flexibility of the modes left out to a case that has it."""
+    measured(lambda d, c: 1.0 + 0.5 / d + 0.05 * c)
+    with pytest.raises(UndecidedModes) as raised:
+        choose_modes(P, quantity="growth")
+    ways = "give the number of modes, a tolerance of {}, or contact_compliance='residual'"
+    change = max(abs(1.1125 / other - 1) for other in (1.08125, 1.13125))
+    enough = math.ceil(1000 * change) / 1000
+    assert str(raised.value).endswith(ways.format(enough))
+    assert choose_modes(P, enough, quantity="growth").error <= enough
+    with pytest.raises(UndecidedModes) as raised:
+        choose_modes(RESIDUAL, quantity="growth")
+    assert str(raised.value).endswith(f"give the number of modes, or a tolerance of {enough}")
+
+
 @pytest.mark.compiled
 def test_a_disc_that_does_not_swing_has_no_first_separation() -> None:
     assert math.isnan(mode_choice.MEASURES["first_separation"](P.replace(n_diameters=-1)))

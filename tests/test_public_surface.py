@@ -56,7 +56,11 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.steady_sliding, {}, {}),
     (dm.split_growth, {"case": P, "split": 0.0}, {}),
-    (dm.choose_modes, {"case": P}, {"case": "dict", "tolerance": "None", "progress": "True"}),
+    (
+        dm.choose_modes,
+        {"case": P, "quantity": "sliding_growth"},
+        {"case": "dict", "tolerance": "None", "highest_frequency": "None", "progress": "True"},
+    ),
     (
         dm.simulate,
         {"case": P, "t_end": 1.0},

@@ -18,9 +18,15 @@ from disc_model.disc.plausibility import trial_cases, warn_of_doubts
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Bar, Summarised, counted, number_text, progress_bar
 from disc_model.errors import DiscModelError, require, with_known_names
-from disc_model.mode_measures import LACKING, MEASURES, growing_modes
+from disc_model.mode_measures import (
+    LACKING,
+    MEASURES,
+    growing_frequency,
+    growing_modes,
+    sliding_growth,
+)
 from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
-from disc_model.parameters import Disc, Parameters
+from disc_model.parameters import RESIDUAL, Disc, Parameters
 
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
@@ -49,6 +55,8 @@ class ModeChoice(Summarised):
     values : the quantity for each model computed, by size as in `rich`; empty if the modes were chosen by frequencies
     growing : by the growth rate of steady sliding, how many modes grow with the chosen ones, and with those of `rich`;
         the quantity is the largest rate alone, and modes that were left out may grow as well
+    frequencies : by the growth rate of steady sliding, that of the mode that grows fastest with each model, Hz
+    highest_frequency : of the growing modes that were judged, Hz; None if all were
     """
 
     parameters: Parameters
@@ -59,6 +67,8 @@ class ModeChoice(Summarised):
     quantity: str = FREQUENCIES
     values: Mapping[tuple[int, ...], float] = field(default_factory=dict)
     growing: tuple[int, int] | None = None
+    frequencies: Mapping[tuple[int, ...], float] = field(default_factory=dict)
+    highest_frequency: float | None = None
 
     def __repr__(self) -> str:
         p = self.parameters
@@ -97,6 +107,8 @@ class ModeChoice(Summarised):
         yield "chosen by", self.quantity
         if self.quantity != FREQUENCIES:
             yield "at", f"{p.Omega:g} rad/s, {p.N:g} N; other speeds may need more modes"
+        if self.highest_frequency is not None:
+            yield "modes judged", f"up to {_frequency_text(self.highest_frequency)}"
         yield "error", f"{self.error:.2g}, relative; {self.tolerance:g} was asked for"
         yield "largest model compared", self.size_text(self.rich)
         yield "modes that grow", self._growing_text()
@@ -108,7 +120,8 @@ class ModeChoice(Summarised):
                 f"{waves}, frequency of a thin plate {100 * shortest.excess:.2g} % too high",
             )
         for size, value in self.values.items():
-            yield f"{self.quantity} with {self.size_text(size)}", f"{value:.6g}"
+            text = f"{value:.6g}{_at_frequency(self.frequencies, size)}"
+            yield f"{self.quantity} with {self.size_text(size)}", text
 
     @staticmethod
     def size_text(size: tuple[int, ...]) -> str:
@@ -134,6 +147,8 @@ class ModeChoice(Summarised):
             record |= {"quantity": self.quantity, "values": values}
         if self.growing is not None:
             record["growing"] = list(self.growing)
+        if self.highest_frequency is not None:
+            record["highest_frequency"] = self.highest_frequency
         record["compared_with"] = list(self.rich)
         return json.dumps(record, sort_keys=True)
 
@@ -153,15 +168,33 @@ class UndecidedModes(DiscModelError):
 
     @classmethod
     def after(
-        cls, p: Parameters, what: str, values: Mapping[tuple[int, ...], float], reason: str
+        cls,
+        p: Parameters,
+        what: str,
+        values: Mapping[tuple[int, ...], float],
+        reason: str,
+        frequencies: Mapping[tuple[int, ...], float] | None = None,
     ) -> UndecidedModes:
-        """The error with the values of a quantity, and a note of them in words."""
+        """The error with the values of a quantity, and a note of them in words; with the frequencies of
+        modes that grow fastest, if the quantity has any."""
         error = cls(f"n_diameters: undecided: {reason}")
         error.values = values
         for size, value in values.items():
             modes = counted(count_modes(p, size), "real mode")
-            error.add_note(f"{what} with {ModeChoice.size_text(size)} ({modes}): {value:.6g}")
+            text = f"{value:.6g}{_at_frequency(frequencies or {}, size)}"
+            error.add_note(f"{what} with {ModeChoice.size_text(size)} ({modes}): {text}")
         return error
+
+
+def _at_frequency(frequencies: Mapping[tuple[int, ...], float], size: tuple[int, ...]) -> str:
+    """At what frequency a model grows fastest, after its growth rate; "" if that is unknown."""
+    frequency = frequencies.get(size, np.nan)
+    return "" if np.isnan(frequency) else f" at {_frequency_text(frequency)}"
+
+
+def _frequency_text(frequency: float) -> str:
+    """A frequency in Hz with its unit, in kHz from 1 kHz on."""
+    return f"{frequency:.4g} Hz" if frequency < 1e3 else f"{frequency / 1e3:.4g} kHz"
 
 
 def by_frequencies(p: Parameters, tolerance: float) -> ModeChoice:
@@ -257,6 +290,7 @@ def choose_modes(
     tolerance: float | None = None,
     *,
     quantity: str = FREQUENCIES,
+    highest_frequency: float | str | None = None,
     progress: bool = False,
 ) -> ModeChoice:
     """Find the fewest real-valued modes with which a quantity's error is within ``tolerance``.
@@ -274,6 +308,8 @@ def choose_modes(
         compared with those of 20 diameters and 6 circles; "growth", the growth rate of the stick-slip cycle;
         "sliding_growth", that of steady sliding; "first_separation", its time within 600 s.  "growth" and
         "first_separation" need simulations. Modes of a table are compared with the whole table
+    highest_frequency : Hz, or with a unit, such as "20 kHz": by "sliding_growth", of the growing modes that are judged;
+        others may grow faster, but a thin plate is wrong at high frequencies. None is no limit
     progress : whether a bar on standard error counts the models that are done, with a quantity of the motion; if
         not, a line there names this argument after 10 s
 
@@ -290,7 +326,8 @@ def choose_modes(
         If no model meets the tolerance or agrees with two larger ones, or there is no cycle, separation or steady
         sliding to choose by; and if a table has too few modes to tell. Its `values` are those of all models that were
         computed. Where friction acts on the surface at a point, motions do not converge: the message then asks for the
-        arc of a pad.
+        arc of a pad. By the growth rate of steady sliding it has the frequency of the mode that grows fastest with each
+        model.
 
     Warns
     -----
@@ -303,10 +340,9 @@ def choose_modes(
     >>> dm.choose_modes({"N": 385, "Omega": 15.1}, 1e-3).parameters.n_diameters
     3
     """
-    if tolerance is None:
-        request = ModeRequest(quantity=quantity)
-    else:
-        request = ModeRequest(quantity=quantity, tolerance=tolerance)
+    asked = {"tolerance": tolerance, "highest_frequency": highest_frequency}
+    given = {name: value for name, value in asked.items() if value is not None}
+    request = ModeRequest.model_validate({"quantity": quantity, **given})
     known = isinstance(case, Parameters | Mapping)
     told = isinstance(progress, bool)
     require(
@@ -335,18 +371,16 @@ def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) ->
     bar = bar or Bar(None)
     if request.quantity == FREQUENCIES:
         return by_frequencies(p, request.tolerance)
-    values: dict[tuple[int, ...], float] = {}
+    found = _Measured(p, request)
+    values = found.values
     for group in _compared(p, request.quantity):
-        size, *others = group
+        size = group[0]
         for each in group:
-            if each not in values:
-                bar.describe(f"choose_modes: {counted(count_modes(p, each), 'mode')}")
-                values[each] = MEASURES[request.quantity](resized(p, each))
-                bar.advance()
+            found.measure(each, bar)
         if (p.disc is not None or size == GIVEN_UP) and all(map(np.isnan, values.values())):
             reason = f"no {request.quantity} to choose by with {_listed(p, group)}"
             raise UndecidedModes.after(p, request.quantity, values, reason)
-        change = max(_change(values[size], values[other]) for other in others)
+        change = found.change(group)
         if change <= request.tolerance:
             return ModeChoice(
                 parameters=resized(p, size),
@@ -356,51 +390,103 @@ def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) ->
                 rich=group[-1],
                 quantity=request.quantity,
                 values=values,
-                growing=_growing(p, request.quantity, size, group[-1]),
+                growing=found.growing(size, group[-1]),
+                frequencies=found.frequencies,
+                highest_frequency=request.highest_frequency,
             )
-    reason = _why_undecided(p, request, values, group)
-    raise UndecidedModes.after(p, request.quantity, values, f"{reason}; {_advice(p)}")
+    reason = f"{_why_undecided(found, group)}; {_advice(found, group)}"
+    raise UndecidedModes.after(p, request.quantity, values, reason, found.frequencies)
 
 
-def _growing(
-    p: Parameters, quantity: str, size: tuple[int, ...], rich: tuple[int, ...]
-) -> tuple[int, int] | None:
-    """How many modes of steady sliding grow with two sizes; None for other quantities."""
-    if quantity != SLIDING_GROWTH:
-        return None
-    return growing_modes(resized(p, size)), growing_modes(resized(p, rich))
+@dataclass
+class _Measured:
+    """What was measured of models of a case: values of the quantity, and where it is the growth rate of
+    steady sliding, the frequencies of the modes that grow fastest, Hz."""
+
+    p: Parameters
+    request: ModeRequest
+    values: dict[tuple[int, ...], float] = field(default_factory=dict)
+    frequencies: dict[tuple[int, ...], float] = field(default_factory=dict)
+
+    @property
+    def highest(self) -> float:
+        """The highest frequency of the modes that are judged, Hz."""
+        limit = self.request.highest_frequency
+        return np.inf if limit is None else limit
+
+    def measure(self, size: tuple[int, ...], bar: Bar) -> None:
+        """Measure a model, unless that is done, and count it."""
+        if size in self.values:
+            return
+        bar.describe(f"choose_modes: {counted(count_modes(self.p, size), 'mode')}")
+        case = resized(self.p, size)
+        if self.request.quantity == SLIDING_GROWTH:
+            self.values[size] = sliding_growth(case, self.highest)
+            self.frequencies[size] = growing_frequency(case, self.highest)
+        else:
+            self.values[size] = MEASURES[self.request.quantity](case)
+        bar.advance()
+
+    def growing(self, size: tuple[int, ...], rich: tuple[int, ...]) -> tuple[int, int] | None:
+        """How many modes of steady sliding grow with two sizes; None for other quantities."""
+        if self.request.quantity != SLIDING_GROWTH:
+            return None
+        chosen, largest = (
+            growing_modes(resized(self.p, each), self.highest) for each in (size, rich)
+        )
+        return chosen, largest
+
+    def change(self, group: Sequence[tuple[int, ...]]) -> float:
+        """The largest change of the quantity from the first model of a group to the others."""
+        size, *others = group
+        return max(_change(self.values[size], self.values[other]) for other in others)
 
 
-def _why_undecided(
-    p: Parameters,
-    request: ModeRequest,
-    values: Mapping[tuple[int, ...], float],
-    group: tuple[tuple[int, ...], ...],
-) -> str:
+def _why_undecided(found: _Measured, group: tuple[tuple[int, ...], ...]) -> str:
     """How the quantity of the last models that were compared still changes."""
-    size, *others = group
+    p = found.p
+    request = found.request
+    values = found.values
     missing = [each for each in group if np.isnan(values[each])]
     lacking = LACKING[request.quantity]
     if len(missing) == len(group):
         return f"models of {_listed(p, group)} have no {lacking}, and others do"
     if missing:
         return f"some models have a {lacking} and others none, among {_listed(p, group)}"
-    change = max(_change(values[size], values[other]) for other in others)
+    change = found.change(group)
     by = f"by {change:.2g} of itself" if np.isfinite(change) else "from zero"
     changes = f"changes {by} among {_listed(p, group)}"
+    if found.frequencies:
+        rates = (f"{values[each]:.3g}/s{_at_frequency(found.frequencies, each)}" for each in group)
+        changes = f"{changes} ({', '.join(rates)})"
     return f"{request.quantity} still {changes}, more than {request.tolerance:g}"
 
 
-def _advice(p: Parameters) -> str:
+def _advice(found: _Measured, group: tuple[tuple[int, ...], ...]) -> str:
     """What to do where a quantity changes with the number of modes."""
+    p = found.p
     if p.friction_offset != 0 and p.contact_arc == 0:
         return (
             "friction on the surface at a point excites modes of any number of nodal diameters, "
             "and the motion does not converge: give contact_arc, the arc of the pad"
         )
     if p.disc is not None:
-        return MORE_MODES
-    return "give the number of modes, a larger tolerance, or contact_compliance='residual'"
+        ways = ["a table with more modes", _enough(found.change(group))]
+    else:
+        ways = ["the number of modes", _enough(found.change(group))]
+        if p.contact_compliance != RESIDUAL:
+            ways.append(f"contact_compliance={RESIDUAL!r}")
+    if found.request.quantity == SLIDING_GROWTH:
+        ways.append("highest_frequency, up to which growing modes are judged")
+    return f"give {', '.join(ways[:-1])}, or {ways[-1]}"
+
+
+def _enough(change: float) -> str:
+    """The tolerance, in two digits, with which a change would do."""
+    if not np.isfinite(change):
+        return "a larger tolerance"
+    unit = 10.0 ** (np.floor(np.log10(change)) - 1)
+    return f"a tolerance of {np.ceil(change / unit) * unit:.2g}"
 
 
 def _compared(p: Parameters, quantity: str) -> Iterator[tuple[tuple[int, ...], ...]]:

@@ -5,13 +5,13 @@ meets them.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, model_validator
 
 from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.parameters import AUTO, CHOOSING, Parameters
-from disc_model.units import Finite, Strict
+from disc_model.units import Finite, Strict, Unit
 
 FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
 SLIDING_GROWTH = "sliding_growth"  # the growth rate of steady sliding
@@ -25,17 +25,26 @@ _PREFIX = "truncation_"  # begins the names of `CHOOSING`, beside the parameters
 
 
 class ModeRequest(Strict):
-    """Quantity and tolerance for the choice of the number of modes; `CHOSEN_BY` has the default
-    tolerances."""
+    """Quantity and tolerance for the choice of the number of modes, and the highest frequency of growing
+    modes that are judged, Hz; `CHOSEN_BY` has the default tolerances."""
 
     quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
     tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
+    highest_frequency: Annotated[Finite, Field(gt=0), Unit("Hz")] | None = None
 
     @model_validator(mode="before")
     @classmethod
     def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
         tolerance = CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
         return {"tolerance": tolerance, **values}
+
+    @model_validator(mode="after")
+    def _of_sliding(self) -> Self:
+        """A highest frequency is that of modes of steady sliding."""
+        if self.highest_frequency is not None and self.quantity != SLIDING_GROWTH:
+            rule = f"is used with quantity={SLIDING_GROWTH!r} only"
+            raise_faults([Fault.of(("highest_frequency",), self.highest_frequency, rule)])
+        return self
 
     @property
     def given(self) -> dict[str, Any]:

@@ -278,6 +278,22 @@ def test_each_bar_has_the_interval_of_the_share_that_separates(shares: xr.Datase
     assert labels(figure) == ["quiet", "separating"]
 
 
+@pytest.mark.parametrize("speed", [12.0, 15.0], ids=["none", "all"])
+def test_bars_have_intervals_also_where_no_start_or_each_separates(
+    shares: xr.Dataset, speed: float
+) -> None:
+    """A bar of four quiet starts looked certain."""
+    study = shares.sel(Omega=[speed], energy=[0.1])
+    separating = study.sel(energy=0.1, attractor_class="separating")
+    low = separating["basin_fraction_by_energy_low"].item()
+    high = separating["basin_fraction_by_energy_high"].item()
+    assert high - low > 0.4
+    figure = draw("basins", study, x="Omega")
+    [interval] = figure.axes[0].lines
+    assert interval.get_ydata() == pytest.approx([low, high])
+    assert "95 % interval of the share that separates" in labels(figure)
+
+
 def test_panels_of_shares_in_a_column_have_numbers_below_them(shares: xr.Dataset) -> None:
     """Below each other, panels of shares had ticks and a name, but no numbers."""
     figure = draw("basins", shares, x="Omega", width="column")

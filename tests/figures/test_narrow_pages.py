@@ -224,6 +224,24 @@ def run() -> dm.Result:
     return dm.simulate(CASE, 8, {"late": dm.Window(last=0.5, rate=1e4)})
 
 
+@pytest.mark.parametrize("width", [COLUMN, PAGE])
+def test_legends_of_one_figure_have_letters_of_one_size(width: float) -> None:
+    """Those in the panels had others than those below them."""
+    rates = growth([0.01, np.nan, 0.03, 0.02, 0.01, 0.0])
+    lines = xr.concat([rates, rates], xr.Variable("c", [0.0, 0.1], {"units": "N s m-1"}))
+    lines["growth_rate"][1] += 0.01
+    crowded = lines.assign(growth_rate=lines["growth_rate"].where(lines["Omega"] < 0, 0.0))
+    crowded["growth_rate"][:, -1] = 0.05
+    figure, axes = pyplot.subplots(3, 1, figsize=(width, 4))
+    dm.plot_sweep(lines, "growth_rate", x="Omega", ax=axes[0])
+    run().plot(windows="late", variables=["u"], ax=axes[1])
+    dm.plot_sweep(crowded, "growth_rate", x="Omega", ax=axes[2])
+    legends: list[Any] = [ax.get_legend() for ax in axes]
+    sizes = {text.get_fontsize() for legend in legends for text in legend.get_texts()}
+    assert len(sizes) == 1
+    pyplot.close(figure)
+
+
 def shown_of(ax: Any) -> Any:
     """The line of a variable, which has more points than those that mark something."""
     return max(ax.lines, key=lambda line: len(line.get_xdata()))

@@ -352,7 +352,8 @@ def test_shares_of_undecided_starts_say_what_decides_them() -> None:
     found = dm.basins(P.replace(Omega=14), [0.1], 2, horizon=0.5)
     assert found.attrs["message"] == "2 of 2 starts undecided within the horizon: raise it"
     ax = dm.plot_sweep(found)
-    assert labels(ax.figure) == ["undecided within 0.5 s: raise horizon"]
+    interval = "95 % interval of the share that separates"
+    assert labels(ax.figure) == ["undecided within 0.5 s: raise horizon", interval]
 
 
 def test_undecided_starts_that_lost_contact_are_told_apart() -> None:
@@ -365,6 +366,7 @@ def test_undecided_starts_that_lost_contact_are_told_apart() -> None:
     assert said == [
         "undecided within 0.5 s: raise horizon",
         "undecided within 0.5 s, but contact was lost: raise horizon",
+        "95 % interval of the share that separates",
     ]
     heights = [bar.get_height() for bar in ax.patches]
     assert heights == [1.0, 0.5, 0.0, 0.5], "of both energies, first those that kept contact"

@@ -248,6 +248,32 @@ def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
     pyplot.close("all")
 
 
+@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
+def test_equal_values_of_two_variables_have_marks_around_each_other(width: int) -> None:
+    """Marks of the border of stability covered those of equal critical values."""
+    unit = {"units": "rad s-1"}
+    value = ("mu_k", [9.14, 12.61, 9.48], unit)
+    study = xr.Dataset(
+        {"value": value, "border": ("mu_k", [15.74, 12.61, 9.48], unit)},
+        {"mu_k": [0.20, 0.24, 0.28]},
+    )
+    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
+    dm.plot_sweep(study, ["value", "border"], ax=ax)
+    inner, outer = [line for line in ax.lines if str(line.get_label())[0] != "_"]
+    assert outer.get_markersize() - inner.get_markersize() >= 2
+    assert outer.get_markerfacecolor() == "none"
+    figure.draw_without_rendering()
+    heights = ax.transData.transform(outer.get_xydata())[:, 1]
+    half = outer.get_markersize() / 2 / 72 * figure.dpi
+    assert heights[0] + half <= ax.bbox.y1 + 0.5
+
+    _, other = pyplot.subplots(layout="constrained")
+    apart = study.assign(border=("mu_k", [15.0, 14.0, 13.0], unit))
+    dm.plot_sweep(apart, ["value", "border"], ax=other)
+    assert len({line.get_markersize() for line in other.lines if line.get_label()[0] != "_"}) == 1
+    pyplot.close("all")
+
+
 MAPS = {
     dm.floquet: ("growth_rate", "releases", "stable", "bifurcation_type"),
     dm.steady_sliding: ("contact_force", "stable"),

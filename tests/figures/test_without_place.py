@@ -1,8 +1,12 @@
 """Points of lines that have no value along the axis."""
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
+import pytest
 import xarray as xr
+from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
@@ -51,6 +55,37 @@ def test_a_symbol_with_an_index_is_set_once() -> None:
     assert [text for text in said if "not drawn" in text] == [
         "not drawn: 1 of 3 without Static friction $μ_s$"
     ]
+
+
+def test_a_note_alone_has_no_frame_and_no_blank_sample() -> None:
+    """It stood in a frame, behind the room for a sample."""
+    ax = dm.plot_sweep(dm.sweep(load_of, CASE, zip=TABLE), "size", x="c")
+    [legend] = ax.figure.legends
+    assert not legend.get_frame_on()
+    assert _indent(legend, 0) < 3
+
+
+@pytest.mark.parametrize("wish", [True, {"loc": "upper left"}], ids=["usual", "placed"])
+def test_a_note_begins_where_samples_of_lines_do(wish: Any) -> None:
+    sizes = dm.sweep(load_of, CASE, zip=TABLE, N=[200.0, 385.0])
+    figure, ax = pyplot.subplots(layout="constrained")
+    dm.plot_sweep(sizes, "size", x="c", ax=ax, legend=wish)
+    dm.plot_sweep(sizes, "size", x="c", ax=ax, legend=wish)
+    legend: Any = ax.get_legend()
+    said = [in_a_row(text.get_text()) for text in legend.get_texts()]
+    note = said.index(WORDS)
+    assert legend.get_frame_on()
+    assert _indent(legend, note) < 3
+    assert _indent(legend, 0) > 15
+    pyplot.close(figure)
+
+
+def _indent(legend: Any, row: int) -> float:
+    """Distance of words from where the row of a legend begins, points."""
+    figure = legend.get_figure(root=True)
+    figure.draw_without_rendering()
+    starts = legend._legend_handle_box.get_window_extent(figure.canvas.get_renderer()).x0
+    return (legend.get_texts()[row].get_window_extent().x0 - starts) / figure.dpi * 72
 
 
 def test_nothing_is_said_where_all_have_a_place() -> None:

@@ -288,6 +288,23 @@ def test_a_sweep_says_why_it_has_no_onset_or_end(
     assert bool(said) == bool(message)
 
 
+@pytest.mark.parametrize(
+    ("rates", "message"),
+    [
+        ([[0, 0, 0], [0, 0, 0]], "at all 3 values of mu_k from 12 to 16"),
+        ([[9, 9, 9], [9, 9, 9]], "still lost on the way down at the lower bound, mu_k = 12;"),
+        ([[0, 9, 0], [0, 0, 0]], "kept at mu_k = 16, where the way down begins"),
+        ([[0, 0, 9], [0, 0, 9]], "at mu_k = 12, 14 on the way up the motion in contact"),
+    ],
+)
+def test_a_sweep_along_another_number_names_it(rates: list[list[float]], message: str) -> None:
+    """It said "at the lower bound, 0.2"."""
+    sweep = swept(rates, math.nan, math.nan)
+    stays = [["doubled", "doubled", "settled"], ["settled", "settled", "settled"]]
+    sweep["sweep_settled"] = sweep["separation_rate"].astype(str).copy(data=stays)
+    assert message in functions._with_reasons(sweep, "mu_k").attrs["message"]
+
+
 def swept(rates: list[list[float]], onset: float, end: float) -> xr.Dataset:
     data = {
         "separation_rate": (("direction", "sweep_Omega"), np.array(rates)),

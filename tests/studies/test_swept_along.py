@@ -28,7 +28,7 @@ def test_a_sweep_of_the_preload_goes_on_from_load_to_load(sweep: xr.Dataset) -> 
     assert (rates.sel(direction="down").values[:3] > 100).all()
     assert np.isnan(sweep["offset"].item())
     assert sweep["onset"].units == "N"
-    assert "still lost on the way down at the lower bound, 300 N" in sweep.message
+    assert "still lost on the way down at the lower bound, N = 300 N" in sweep.message
     assert not any(
         "speed" in sweep[name].long_name for name in ("range", "stay", "onset", "offset")
     )

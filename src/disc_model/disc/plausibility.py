@@ -85,6 +85,16 @@ def warn_of_doubts(p: Parameters, tell: Callable[[str], object] | None = None) -
             (tell or _warn)(text)
 
 
+def is_told(kind: str) -> bool:
+    """Whether a doubt of cases was reported in this process, or is not to be, since cases are tried."""
+    return _on_trial.get() or (kind,) in _reported
+
+
+def note_told(kind: str) -> None:
+    """Have a doubt of cases that is not among the `RULES` count as reported."""
+    _reported.add((kind,))
+
+
 def _told_of(kind: str, disc: Disc | None) -> tuple[object, ...]:
     """By what it is known that a doubt was told: a disc whose numbers vary, as in a sweep, is the
     one of which it was made."""
@@ -170,6 +180,12 @@ def _in_usual_unit(value: float, unit: str) -> str:
         if unit != "Hz" and size <= value < 1000 * size:
             return f"{value / size:.6g} {prefix}{unit}"
     return f"{value:.6g} {unit}"
+
+
+def warn_if(text: str) -> None:
+    """Warn of an implausible value, unless the text is empty."""
+    if text:
+        _warn(text)
 
 
 def _warn(text: str) -> None:

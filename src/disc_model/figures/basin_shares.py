@@ -101,5 +101,5 @@ def explain(figure: Figure, study: xr.Dataset, classes: Sequence[str]) -> None:
     """Write the legend of the outcomes of starts below a figure."""
     horizon = stated_in(study, "options")["horizon"]
     handles = entries_of(classes, f"undecided after {horizon:g} s")
-    handles += entries_of_interval(study, OF_ENERGY, classes)
+    handles += entries_of_interval(study, OF_ENERGY)
     figure_legend(figure, handles, loc="outside lower center")

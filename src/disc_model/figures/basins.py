@@ -62,7 +62,7 @@ def draw(plot: BasinShares, study: xr.Dataset, overlays: Mapping[str, xr.Dataset
         of_energy = by_energy.sel(energy=energy)
         draw_shares(ax, of_energy, classes, across.values)
         of_separating = interval_of(study.sel(energy=energy), OF_ENERGY)
-        draw_interval(ax, of_separating, classes, across.values)
+        draw_interval(ax, of_separating, across.values)
         if plot.inches == PAGE:  # below each other, each panel has numbers and names
             ax.label_outer()
     for ax in shares if plot.inches != PAGE else shares[:1]:

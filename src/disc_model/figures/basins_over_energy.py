@@ -37,7 +37,7 @@ def draw_over_energies(plot: BasinShares, study: xr.Dataset) -> Figure:
     for ax, part in zip(axes, parts, strict=True):
         point = without_single(part.data, ENERGY, "start")
         draw_shares(ax, shares_of(point, OF_ENERGY), classes, places)
-        draw_interval(ax, interval_of(point, OF_ENERGY), classes, places)
+        draw_interval(ax, interval_of(point, OF_ENERGY), places)
         ax.set_xticks(places, [f"{energy:g}" for energy in study[ENERGY].values])
         ax.set_xlabel(measured(study[ENERGY]).label)
         ax.set_ylabel(share_text(study.sizes["start"]))

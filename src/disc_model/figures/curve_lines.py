@@ -7,7 +7,15 @@ import xarray as xr
 from disc_model.figures.branch_lines import Look
 from disc_model.figures.class_axis import join_classes
 from disc_model.figures.curve_heights import heights_of
-from disc_model.figures.curve_looks import CROWDED, PLAIN, dashes_of, draw_dots, few_marks, looks_of
+from disc_model.figures.curve_looks import (
+    CROWDED,
+    PLAIN,
+    around_former,
+    dashes_of,
+    draw_dots,
+    few_marks,
+    looks_of,
+)
 from disc_model.figures.curve_marks import (
     fill_doubtful,
     mark_gaps,
@@ -62,6 +70,8 @@ def draw_lines(  # noqa: PLR0913
     parts = parts_along(array, by)
     line = dashes_of(single) if joined and not names else ""
     looks = looks_of(parts, marks, single)._replace(sweep=sweep, dashes=line)
+    if along.dtype.kind not in "UO" and array.dtype.kind not in "UO":
+        looks = around_former(ax, parts, along, looks)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = open_steps(study, array, by, log) if joined else {}
     bounds = at_bound_by_line(study, array, by)

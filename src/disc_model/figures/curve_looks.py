@@ -8,7 +8,7 @@ import xarray as xr
 from cmcrameri import cm
 
 from disc_model.figures.branch_lines import THIN, Look
-from disc_model.figures.drawing import BLACK, mark
+from disc_model.figures.drawing import BLACK, is_in_data, mark
 from disc_model.figures.selection import Part
 from disc_model.figures.types import Array, Axes
 
@@ -60,6 +60,31 @@ def _sizes(parts: Sequence[Part[xr.DataArray]]) -> dict[str, float]:
 def _coincide(heights: Array, others: Array) -> bool:
     """Whether two lines have equal values at a point."""
     return bool(np.isclose(heights.astype(float), others.astype(float), rtol=1e-6).any())
+
+
+def around_former(
+    ax: Axes, parts: Sequence[Part[xr.DataArray]], along: Array, looks: Looks
+) -> Looks:
+    """Looks whose open marks are larger where lines that a panel has already have equal points, so that
+    their marks show inside."""
+    sizes = {}
+    for part in parts:
+        points = set(_rounded(along, part.data.values))
+        marks_inside = set()
+        for line in ax.lines:
+            if is_in_data(ax, line) and points & set(_rounded(*line.get_data())):
+                marks_inside.add(line.get_marker())
+        marks_inside -= {"None", "", ".", looks.marks[part.name]}
+        wider = mark(WIDER * len(marks_inside))
+        sizes[part.name] = min(looks.sizes[part.name] + wider, mark(WIDEST))
+    return looks._replace(sizes=sizes)
+
+
+def _rounded(along: Any, heights: Any) -> list[tuple[str, str]]:
+    """Points in so many digits that equal ones are the same."""
+    across = (f"{x:.6g}" for x in np.asarray(along, dtype=float))
+    up = (f"{y:.6g}" for y in np.asarray(heights, dtype=float))
+    return [point for point in zip(across, up, strict=True) if "nan" not in point]
 
 
 def choose_marks(marks: dict[str, str], parts: Sequence[Part[Any]]) -> None:

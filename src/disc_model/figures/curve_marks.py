@@ -10,7 +10,7 @@ import xarray as xr
 from disc_model.figures.arrows import draw_arrows, has_arrows
 from disc_model.figures.classes import FILLED_MARK, UNSETTLED, name_of
 from disc_model.figures.curve_looks import MARK, Looks
-from disc_model.figures.drawing import GREY, mark, wide
+from disc_model.figures.drawing import GREY, is_in_data, mark, wide
 from disc_model.figures.gap_rows import add_row
 from disc_model.figures.missing_texts import missing_text, text_below_lowest, texts_without_border
 from disc_model.figures.rate_scale import ANOTHER_BORDER, ANOTHER_RANGE, OPEN
@@ -32,6 +32,8 @@ from disc_model.figures.words import KINDS, NO_VALUE, WORDS, Measured, measured
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
 FILLED = 1.9  # order of filled marks, just below that of lines
 MARGIN = 0.03  # share of the panel beside values
+MARGIN_OF_LARGE = 0.06  # above and below marks of more than this size
+LARGE = 5.0  # points
 ROOM = 0.12  # share of the panel beside its values that has room for them
 
 
@@ -74,8 +76,11 @@ def point_down(
 
 
 def set_margins(ax: Axes) -> None:
-    """Leave room around values, and more below them if arrows hang there."""
-    ax.margins(MARGIN, ROOM if has_arrows(ax) else MARGIN)
+    """Leave room around values, more above and below them for large marks, and most if arrows hang
+    there."""
+    sizes = [line.get_markersize() for line in ax.lines if is_in_data(ax, line)]
+    upward = MARGIN_OF_LARGE if max(sizes, default=0.0) > mark(LARGE) else MARGIN
+    ax.margins(MARGIN, ROOM if has_arrows(ax) else upward)
 
 
 def fill_doubtful(ax: Axes, study: xr.Dataset, array: xr.DataArray, x: str, looks: Looks) -> None:

@@ -18,25 +18,25 @@ ROUNDS = 4  # in which legends find their places after axes have got other sizes
 SPARE = 0.03  # inch, which they leave free more in each: their height changes the width of axes
 
 
-def _below_axes(figure: Any) -> dict[Legend, tuple[Page, Wishes]]:
-    """The legends that were placed below axes, and the pictures to which they belong."""
+def _placed_on(figure: Any) -> dict[Legend, tuple[Page, Wishes]]:
+    """The legends on a figure that were placed for their readers, and the pictures to which they belong."""
     found = {}
     for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
-        page, wishes = vars(legend).get(PLACED, (None, None))
-        if page is not None and page.beside == "below":
-            found[legend] = (page, wishes)
+        if PLACED in vars(legend):
+            found[legend] = vars(legend)[PLACED]
     return found
 
 
 def move_legends(figure: Any) -> None:
-    """Move legends below axes, which have other margins since they were placed, onto the page, with
-    letters of one size."""
-    placed = _below_axes(figure)
-    if not placed:
-        return
+    """Set the legends of all panels in letters of one size, and move those below axes, which have other
+    margins since they were placed, onto the page."""
+    placed = _placed_on(figure)
     _set_in_one_size([legend for legend, (_, asked) in placed.items() if asked.legend is True])
+    below = [page for page, _ in placed.values() if page.beside == "below"]
+    if not below:
+        return
     set_places(figure)  # sets the places
-    for page, _ in placed.values():
+    for page in below:
         move_to_page(page.axes[-1], page.beside_last)
 
 
@@ -58,9 +58,8 @@ def cramped_in(figure: Any) -> list[tuple[Page, Wishes]]:
     """The pictures on a figure whose legends have no room, but those that a reader has placed and
     those that have found none in all rounds."""
     found = []
-    for legend in filter(None, (ax.get_legend() for ax in figure.axes)):
-        page, wishes = vars(legend).get(PLACED, (None, None))
-        if page is not None and page.spare < ROUNDS * SPARE and not _finds_room(page):
+    for page, wishes in _placed_on(figure).values():
+        if page.spare < ROUNDS * SPARE and not _finds_room(page):
             found.append((page, wishes))
     return found
 

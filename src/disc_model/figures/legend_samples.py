@@ -1,4 +1,4 @@
-"""Samples of legends that show the dashes of lines between their marks."""
+"""Samples of legends that show the dashes of lines between their marks, and notes, which have none."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -8,10 +8,13 @@ from matplotlib.colors import to_hex
 from matplotlib.font_manager import FontProperties
 from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
+from matplotlib.offsetbox import DrawingArea
 
 from disc_model.figures.types import Legend
 
 MARK_PAD = 0.3  # distance of marks at the ends of a sample from these, over the size of the text
+NOTE = "disc_model_note"
+"""Begins the group ids of entries of legends that are only words, and of no line."""
 
 
 def draw_legend(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
@@ -26,7 +29,30 @@ def draw_legend(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
         at_ends = HandlerLine2D(MARK_PAD, 2)  # one in the middle would cover a gap
         handlers = {handle: at_ends for handle in handles if _joins_marks(handle)}
         look = {"handler_map": handlers, **look, "handlelength": max(length, given)}
-    return parent.legend(handles=list(handles), **look)
+    legend = parent.legend(handles=list(handles), **look)
+    write_notes(legend, handles)
+    if handles and all(map(_is_note, handles)) and "frameon" not in look:
+        legend.set_frame_on(False)
+    return legend
+
+
+def write_notes(legend: Legend, handles: Sequence[Any]) -> None:
+    """Have the notes of a legend begin where the samples of other entries do."""
+    columns = legend._legend_handle_box.get_children()
+    rows = [row for column in columns for row in column.get_children()]
+    for row, entry, handle in zip(rows, legend.legend_handles, handles, strict=True):
+        if not _is_note(handle):
+            continue
+        entry.set_gid(handle.get_gid())
+        row.sep = 0
+        for part in row.get_children():
+            if isinstance(part, DrawingArea):
+                part.width = 0
+
+
+def _is_note(handle: Any) -> bool:
+    """Whether an entry of a legend is only words."""
+    return isinstance(handle, Line2D) and str(handle.get_gid()).startswith(NOTE)
 
 
 def _joins_marks(handle: Any) -> bool:

@@ -7,12 +7,13 @@ from textwrap import fill
 import numpy as np
 from matplotlib.lines import Line2D
 
+from disc_model.figures import legend_samples
 from disc_model.figures.drawing import is_in_data, mark
 from disc_model.figures.types import Array, Axes
 from disc_model.figures.value_texts import LONGEST_NAME
 
 ALL = "all values"  # of a single line, which has no name
-NOTE = "outside the limits"
+NOTE = f"{legend_samples.NOTE}: outside the limits"
 """What matplotlib calls the entry of a legend that says it, and marks where lines go on outside."""
 ARROW = 3.5
 """Size of such a mark, points."""

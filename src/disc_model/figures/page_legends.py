@@ -8,6 +8,7 @@ from disc_model.errors import Fault, ParameterError
 from disc_model.figures.covered import twins_of
 from disc_model.figures.entries import keep_entries
 from disc_model.figures.labels import is_square
+from disc_model.figures.legend_samples import write_notes
 from disc_model.figures.legends import (
     figure_legend,
     keep_share,
@@ -98,7 +99,8 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if isinstance(wishes.legend, Mapping):
         look |= _checked_look(page, wishes.legend)
     if any(name in look for name in PLACING):
-        page.ax.legend(handles=list(page.handles), **look)
+        placed = page.ax.legend(handles=list(page.handles), **look)
+        write_notes(placed, page.handles)
     elif page.figure.get_gid() == OWN:
         size = {}
         if page.is_small or len(page.handles) > MANY:

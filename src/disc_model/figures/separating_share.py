@@ -1,7 +1,7 @@
 """How many starts a share is of, and the confidence interval of the share that separates, on bars and on
 lines."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -52,12 +52,10 @@ def interval_of(study: xr.Dataset, variable: str) -> xr.Dataset | None:
     return study[names].sel(attractor_class=SEPARATING, drop=True)
 
 
-def draw_interval(
-    ax: Axes, interval: xr.Dataset | None, classes: Sequence[str], along: Array
-) -> None:
-    """Draw the interval of the share that separates on each bar, at the places `along`, if starts of any
-    bar separate."""
-    if interval is None or SEPARATING not in classes:
+def draw_interval(ax: Axes, interval: xr.Dataset | None, along: Array) -> None:
+    """Draw the interval of the share that separates on each bar, at the places `along`, also where no
+    start or each of them separates."""
+    if interval is None:
         return
     look: dict[str, Any] = {"linewidth": wide(0.9), "markersize": mark(4), "marker": "_"}
     ends = interval.to_dataarray().transpose("variable", ...).values
@@ -65,9 +63,10 @@ def draw_interval(
         ax.plot([place, place], [low, high], color=BLACK, path_effects=halo(2.5), zorder=3, **look)
 
 
-def entries_of_interval(study: xr.Dataset, variable: str, classes: Sequence[str]) -> list[Artist]:
+def entries_of_interval(study: xr.Dataset, variable: str) -> list[Artist]:
     """The entry of a legend for the intervals that are drawn, with their level, if any are."""
-    if interval_of(study, variable) is None or SEPARATING not in classes:
+    interval = interval_of(study, variable)
+    if interval is None or not interval.to_dataarray().notnull().any():
         return []
     look: dict[str, Any] = {"color": BLACK, "markersize": mark(8), "markeredgewidth": wide(0.9)}
     return [sample(label=_name_of_interval(study), linestyle="", marker=INTERVAL, **look)]

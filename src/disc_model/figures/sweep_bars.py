@@ -49,7 +49,7 @@ def draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     if are_apart(places, drawn.across):
         places = np.arange(places.size)
     draw_shares(ax, shares, classes, places)
-    draw_interval(ax, interval_of(study, drawn.variable), classes, places)
+    draw_interval(ax, interval_of(study, drawn.variable), places)
     if places is not across.values:
         texts = [each if isinstance(each, str) else f"{each:g}" for each in across.values]
         ax.set_xticks(places, texts)
@@ -58,4 +58,4 @@ def draw_bars(ax: Axes, study: xr.Dataset, drawn: Drawn) -> list[Artist]:
     ax.set_xmargin(0.04)
     within = horizon_text(study) or "the horizon"
     handles = entries_of(classes, f"undecided within {within}: raise horizon")
-    return handles + entries_of_interval(study, drawn.variable, classes)
+    return handles + entries_of_interval(study, drawn.variable)

@@ -4,10 +4,11 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import typeset
+from disc_model.figures import legend_samples
 from disc_model.figures.types import Axes
 from disc_model.figures.words import named
 
-NOTE = "without a place"
+NOTE = f"{legend_samples.NOTE}: without a place"
 """What matplotlib calls the entry of a legend that says it."""
 
 

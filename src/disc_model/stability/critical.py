@@ -16,7 +16,7 @@ from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
 from disc_model.stability.floquet import beside_motion
 from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
-from disc_model.stability.sliding import SteadySliding
+from disc_model.stability.sliding import SteadySliding, check_modes
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -120,6 +120,7 @@ def critical(
     values = np.linspace(low, high, points).tolist()
     for value in values:
         case.replace(**{name: value})  # must be a case, which is found before any work is done
+    check_modes(case.replace(**{name: high}))
 
     shortest = SHORTEST * (high - low)
     if precision is not None:

@@ -23,6 +23,7 @@ from disc_model.stability.cycle import (
     may_stick_and_slip,
 )
 from disc_model.stability.return_map import Orbit, ReturnMap, newton
+from disc_model.stability.sliding import check_modes
 from disc_model.stability.slipping_cycle import find_slipping_cycle
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
@@ -102,6 +103,7 @@ def floquet(
     """
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
     raise_faults(foreign_case(case) + wrong)
+    check_modes(case)
     if kind == SLIPPING:
         return find_slipping_cycle(case, float(tol), guess)
     if guess is None:

@@ -14,7 +14,7 @@ from disc_model.data.swept_speeds import SPEED, doubtful_contact, swept_speeds
 from disc_model.errors import renamed, require, with_known_names
 from disc_model.parameters import Parameters
 from disc_model.studies.of_case import compute_quantity
-from disc_model.studies.swept_along import named_along, scan_along, unit_along
+from disc_model.studies.swept_along import named_along, scan_along, unit_along, value_along
 from disc_model.units import in_si, is_number
 
 PRECISION = 0.1
@@ -352,13 +352,13 @@ def _with_reasons(sweep: xr.Dataset, name: str = SPEED) -> xr.Dataset:
     if sweep.attrs["message"]:
         return sweep
     values = sweep["sweep_Omega"].values
-    unit = unit_along(name)
-    swept = "speeds" if name == SPEED else "values"
-    lowest = f"{values[0]:g}{unit}"
-    highest = f"{values[-1]:g}{unit}"
+    swept = "speeds" if name == SPEED else f"values of {name}"
+    lowest = value_along(name, f"{values[0]:g}")
+    highest = value_along(name, f"{values[-1]:g}")
     if not (sweep["separation_rate"] > 0).any():
-        reason = f"contact is kept at all {values.size} {swept} from {values[0]:g} to {highest}"
-        return sweep.assign_attrs(message="; ".join([reason, *_doubts_of_contact(sweep, unit)]))
+        span = f"from {values[0]:g} to {values[-1]:g}{unit_along(name)}"
+        reason = f"contact is kept at all {values.size} {swept} {span}"
+        return sweep.assign_attrs(message="; ".join([reason, *_doubts_of_contact(sweep, name)]))
 
     speeds = swept_speeds(sweep)
     reasons = []
@@ -372,11 +372,11 @@ def _with_reasons(sweep: xr.Dataset, name: str = SPEED) -> xr.Dataset:
         reasons.append(f"contact is kept at {highest}, where the way down begins")
     if speeds.onset_at_bound or speeds.end_at_bound:
         reasons.append("bounds further down may show where it is kept")
-    reasons += _doubts_of_contact(sweep, unit)
+    reasons += _doubts_of_contact(sweep, name)
     return sweep.assign_attrs(message="; ".join(reasons))
 
 
-def _doubts_of_contact(sweep: xr.Dataset, unit: str) -> list[str]:
+def _doubts_of_contact(sweep: xr.Dataset, name: str) -> list[str]:
     """Where a motion in contact had not settled when its stay ended, in words."""
     doubtful = doubtful_contact(sweep)
     doubts = []
@@ -385,7 +385,7 @@ def _doubts_of_contact(sweep: xr.Dataset, unit: str) -> list[str]:
         if speeds.size:
             at = ", ".join(f"{speed:g}" for speed in speeds[:3])
             more = f" and {speeds.size - 3} more" if speeds.size > 3 else ""
-            doubts.append(f"at {at}{more}{unit} on the way {direction}")
+            doubts.append(f"at {value_along(name, at + more)} on the way {direction}")
     if not doubts:
         return []
     where = " and ".join(doubts)

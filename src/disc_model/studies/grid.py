@@ -31,6 +31,7 @@ from disc_model.parameters import (
     case_of,
 )
 from disc_model.simulation.case import SomeParameters, Start
+from disc_model.stability.sliding import modes_in_doubt
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
@@ -451,8 +452,9 @@ class GridStudy:
         """Warnings about implausible corners of the grid, one by each rule, and about units of what
         figures do not show."""
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
-        cases = map(self._case_at, corners)
+        cases = [*map(self._case_at, corners)]
         yield from ChainMap(*map(doubts, cases)).values()
+        yield from filter(None, map(modes_in_doubt, cases[-1:]))
         yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says

@@ -40,6 +40,7 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
+from disc_model.stability.sliding import modes_in_doubt
 from disc_model.studies.given_units import given_units
 from disc_model.studies.grid import (
     GRID_KEYS,
@@ -453,7 +454,9 @@ class Study(Strict):
     @property
     def doubts(self) -> Iterator[str]:
         """Warnings about implausible cases, one by each rule."""
+        cases = [spec.parameters for spec in self.specs.values() if not spec.modes]
         yield from ChainMap(*(doubts(spec.parameters) for spec in self.specs.values())).values()
+        yield from filter(None, map(modes_in_doubt, cases))
 
     def grids(
         self, folders: Sequence[Path] = (Path(),)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -15,6 +16,7 @@ from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
+from disc_model.stability.sliding import check_modes
 from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import message_of, variables_of_result
 from disc_model.studies.quantity import NUMERICAL
@@ -120,6 +122,8 @@ def sweep(  # noqa: PLR0913
     records = are_recorded(errors)
     points = [*call.points()]
     first = _first_possible(case, call, points)
+    with suppress(*NUMERICAL):  # of a point that is no case
+        check_modes(case.replace(**call.changes(points[-1])))
     row = partial(_row, partial(function, **call.options), case, call, records)
     numbered = [(number == first, point) for number, point in enumerate(points)]
     rows = calls.results(row, numbered, call.title)

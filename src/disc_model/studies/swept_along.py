@@ -54,6 +54,13 @@ def unit_along(name: str) -> str:
     return f" {unit_of_parameter(name)}".rstrip()
 
 
+def value_along(name: str, value: str) -> str:
+    """A value along a sweep with its unit, and with the name of what is swept unless that is the
+    speed."""
+    shown = f"{value}{unit_along(name)}"
+    return shown if name == SPEED else f"{name} = {shown}"
+
+
 def named_along(sweep: xr.Dataset, name: str) -> xr.Dataset:
     """A sweep along another number than the speed, with its values under the name of that number."""
     along = f"sweep_{name}"
