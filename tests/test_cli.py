@@ -14,7 +14,7 @@ import snakemake.workflow
 import disc_model
 from disc_model import Parameters, cli, simulate
 from disc_model.cli import option_name
-from disc_model.stability.sliding import sliding_modes
+from disc_model.stability.sliding_modes import sliding_modes
 from disc_model.studies.study import load_study
 from tests.figures.described import campbell_study
 from tests.processes import run

@@ -92,11 +92,11 @@ def test_few_cases_are_compared(monkeypatch: pytest.MonkeyPatch) -> None:
 
     found = few_modes.Growth(-1.0, float("nan"))
     for _ in range(5):
-        assert few_modes.doubt_of_modes(BRAKE, found, growth) == ""
+        assert few_modes.doubt_of_modes(BRAKE, growth, found) == ""
     assert computed == MOST_FOR_A_PLATE * [8]
     for thousandths in range(40):
         case = BRAKE.replace(h=5e-3 + 1e-4 * thousandths)
-        few_modes.doubt_of_modes(case, found, growth)
+        few_modes.doubt_of_modes(case, growth, found)
     assert len(computed) == MOST_IN_ALL
     monkeypatch.setattr(few_modes, "_compared", Counter())
     many = BRAKE.replace(n_diameters=20)

@@ -10,14 +10,8 @@ from disc_model import Disc, Parameters, plate_modes, steady_sliding
 from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine import transitions
 from disc_model.simulation.states import State
-from disc_model.stability.sliding import (
-    SlidingStatus,
-    SteadySliding,
-    follow_modes,
-    height_of_slider,
-    sliding_modes,
-    split_rows,
-)
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, height_of_slider, split_rows
+from disc_model.stability.sliding_modes import follow_modes, sliding_modes
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
 from tests.references import taylor

@@ -11,13 +11,12 @@ import jinja2
 from cmcrameri import cm
 from matplotlib.colors import Colormap, to_hex
 
-from disc_model.disc.plausibility import MEASURES, STATED_WITH_MEASURES
+from disc_model.explorer.call_names import names_of_calls
 from disc_model.explorer.embedding import embedded
 from disc_model.figures.classes import WEIGHTS
 from disc_model.figures.colours import COMMON, LINEAR_OF_MEDIAN, LINEAR_SHARE, NEAR_END, ROUNDING
 from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.figures.selection import WITHOUT_CYCLE
-from disc_model.parameters import RATIOS, Parameters
 
 SCRIPTS = (
     "contents",
@@ -56,8 +55,7 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         "phases": PHASE_COLOURS,
         "weights": WEIGHTS,
         "computed": ["ok", *WITHOUT_CYCLE],
-        "parameters": [*Parameters.model_fields, *RATIOS],
-        "plate": {"measures": _measures(), "stated": STATED_WITH_MEASURES},
+        **names_of_calls(),
     }
     texts = json.dumps(contents, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
     template = jinja2.Template(
@@ -76,12 +74,6 @@ def page(title: str, studies: Sequence[Mapping[str, Any]], pictures: Sequence[Pi
         ),  # so that none of them ends the enclosing HTML element
         script="\n".join(['"use strict";', *(_part(f"{name}.js") for name in SCRIPTS)]),
     )
-
-
-def _measures() -> list[str]:
-    """Numbers of a case by which its plate is another than the paper's, ratios among them."""
-    ratios = [ratio for ratio, (replaced, _) in RATIOS.items() if replaced in MEASURES]
-    return [*MEASURES, *ratios]
 
 
 def _colours(scale: Colormap) -> list[str]:

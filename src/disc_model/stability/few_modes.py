@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Callable
 from typing import NamedTuple
 
-from disc_model.disc.plausibility import is_told, note_told, trial_cases
+from disc_model.disc.plausibility import is_told, note_told, trial_cases, warn_if
 from disc_model.display import counted
 from disc_model.errors import DiscModelError
 from disc_model.parameters import DEFAULTS, Parameters
@@ -50,14 +50,29 @@ def may_have_few_modes(p: Parameters) -> bool:
     return modes <= LARGEST and not known and not is_told(RULE)
 
 
-def doubt_of_modes(p: Parameters, found: Growth, growth: Callable[[Parameters], Growth]) -> str:
+def check_few_modes(
+    p: Parameters, growth: Callable[[Parameters], Growth], found: Growth | None = None
+) -> None:
+    """Warn, once in a process, of a case whose steady sliding grows much faster with more modes; arguments
+    as of `doubt_of_modes`."""
+    warn_if(doubt_of_modes(p, growth, found))
+
+
+def doubt_of_modes(
+    p: Parameters, growth: Callable[[Parameters], Growth], found: Growth | None = None
+) -> str:
     """What is said, once in a process, of a case whose steady sliding grows much faster with more modes;
     "" of others.
 
-    found : of the case
-    growth : computes that of another case
+    growth : computes that of a case
+    found : that of this case, if it is known
     """
-    if not may_have_few_modes(p) or math.isnan(found.rate):
+    if not may_have_few_modes(p):
+        return ""
+    if found is None:
+        with trial_cases():
+            found = growth(p)
+    if math.isnan(found.rate):
         return ""
     _compared[_family(p)] += 1
     try:

@@ -18,7 +18,8 @@ from disc_model.simulation.states import State
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.floquet import search_near_start
 from disc_model.stability.return_map import ReturnMap
-from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
+from disc_model.stability.sliding import split_rows
+from disc_model.stability.sliding_modes import SlidingModes, sliding_modes
 
 
 @compiling()

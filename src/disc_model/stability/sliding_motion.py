@@ -14,13 +14,8 @@ from disc_model.stability import thresholds
 from disc_model.stability.linear_motion import grows_at_rate, left_vector
 from disc_model.stability.return_map import Array
 from disc_model.stability.segments import Segment
-from disc_model.stability.sliding import (
-    SteadySliding,
-    energy_weights,
-    height_of_slider,
-    join_rows,
-    steady_sliding,
-)
+from disc_model.stability.sliding import SteadySliding, height_of_slider, join_rows, steady_sliding
+from disc_model.stability.sliding_modes import energy_weights
 
 _sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
 

@@ -115,15 +115,13 @@ def sweep(  # noqa: PLR0913
     """
     call = checked_call(function, case, unnamed, over, zip, named)
     calls = checked_workers(workers, processes, executor, progress)
-    chosen = {**call.defaults, **call.options}
     searched = _searched(call)
     _refuse_searched(call, searched)
     _refuse_what_is_left_out(call)
     records = are_recorded(errors)
     points = [*call.points()]
     first = _first_possible(case, call, points)
-    with suppress(*NUMERICAL):  # of a point that is no case
-        check_modes(case.replace(**call.changes(points[-1])))
+    _check_modes_at(call.changes(points[-1]), case)
     row = partial(_row, partial(function, **call.options), case, call, records)
     numbered = [(number == first, point) for number, point in enumerate(points)]
     rows = calls.results(row, numbered, call.title)
@@ -134,7 +132,7 @@ def sweep(  # noqa: PLR0913
         variables[name].attrs.setdefault("long_name", meaning)
     attrs = {
         "function": call.title,
-        "options": json.dumps(chosen, sort_keys=True, default=repr),
+        "options": json.dumps({**call.defaults, **call.options}, sort_keys=True, default=repr),
         "parameters": case.canonical_json,
         "base": _base(case, searched),
         "versions": versions_text(),
@@ -222,6 +220,12 @@ def _first_possible(case: Parameters, call: Call, points: Sequence[Mapping[str, 
         return number
     place = _place(call.changes(points[0]))
     raise ParameterError(f"no point of the sweep makes a case: at the first, {place}: {faults[0]}")
+
+
+def _check_modes_at(point: Mapping[str, Any], case: Parameters) -> None:
+    """Warn of too few modes at a point, if its values make a case."""
+    with suppress(*NUMERICAL):
+        check_modes(case.replace(**point))
 
 
 def _place(point: Mapping[str, Any]) -> str:
