@@ -22,7 +22,7 @@ def test_a_disc_takes_texts_with_units() -> None:
         diameters=[0, 2],
         omega=["929 Hz", "1.212 kHz"],
         amplitude=["0.43 kg^-1/2", "0.54"],
-        damping_ratio=["0.1 %", 1e-3],
+        damping_ratio=["0.1 %", "0.1 %"],
         tangential=[0, "-0.13 1/sqrt(kg)"],
         static_compliance="42 nm/N",
         radii=["80 mm", "0.1 m"],

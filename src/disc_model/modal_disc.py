@@ -10,7 +10,13 @@ from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 import pydantic
-from pydantic import BeforeValidator, Field, field_validator, model_validator
+from pydantic import (
+    BeforeValidator,
+    Field,
+    ModelWrapValidatorHandler,
+    field_validator,
+    model_validator,
+)
 
 from disc_model.attachable import DiscFiles
 from disc_model.display import counted, html_table
@@ -119,15 +125,16 @@ class Disc(DiscFiles, Strict):
             radii: Column = ..., shapes: Iterable[Column] = ...,
         ) -> None: ...  # fmt: skip
 
-    @model_validator(mode="before")
+    @model_validator(mode="wrap")
     @classmethod
-    def _of_one_unit(cls, data: Any) -> Any:
-        """Refuse columns of which some numbers have a unit and others none."""
+    def _of_one_unit(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
+        """Refuse columns of which some numbers have a unit and others none, where each is right by itself."""
+        disc = handler(data)
         for name in UNCERTAIN:
             column: Any = data.get(name) if isinstance(data, dict) else None
             if isinstance(column, list | tuple) or hasattr(column, "dtype"):
                 raise_faults(mixed_units(column, OF_COLUMNS.get(name, "1"), (name,)))
-        return data
+        return disc
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

@@ -16,8 +16,8 @@ from tests.figures.reading import assert_numbers_are_apart
     ("ends", "numbers"),
     [
         ((0.4, 6.0), ["0.5", "1", "2", "5"]),
-        ((3.2, 21.0), ["5", "10", "20"]),
-        ((0.0147, 0.0202), ["0.016", "0.018", "0.02"]),
+        ((3.2, 21.0), ["3.5", "5", "10", "20"]),
+        ((0.0147, 0.0202), ["0.015", "0.016", "0.018", "0.02"]),
     ],
 )
 def test_numbers_of_few_decades_are_plain_and_apart(

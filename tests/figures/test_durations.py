@@ -83,7 +83,7 @@ def test_a_critical_value_of_multipliers_has_no_horizon() -> None:
     ("name", "said"),
     [
         ("critical_energy", "no start led to lasting separation within 60 s"),
-        ("attractor_period", "no value"),
+        ("attractor_period", "no further attractor, or not periodic"),
     ],
 )
 def test_an_energy_that_was_not_found_has_its_horizon(name: str, said: str) -> None:

@@ -46,7 +46,8 @@ def test_merged_points_are_in_the_order_of_the_grid(
     assert merged["growth_rate"].attrs["units"] == "s-1"
     lines = list(failures(merged))
     assert len(lines) == 4
-    assert lines[0].startswith("N = 100, Omega = 10: permanent stick: Nothing ever slips")
+    assert lines[0].startswith("N = 100, Omega = 10: permanent stick: at_rest: the slider stays")
+    assert "Nothing ever slips" in lines[0]
 
 
 def test_a_remark_on_a_point_with_a_result_is_no_failure() -> None:

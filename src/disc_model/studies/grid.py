@@ -31,9 +31,9 @@ from disc_model.parameters import (
     case_of,
 )
 from disc_model.simulation.case import SomeParameters, Start
-from disc_model.stability.sliding import modes_in_doubt
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
+from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.studies.unused_units import unused_units
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
@@ -454,7 +454,7 @@ class GridStudy:
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
         cases = [*map(self._case_at, corners)]
         yield from ChainMap(*map(doubts, cases)).values()
-        yield from filter(None, map(modes_in_doubt, cases[-1:]))
+        yield from doubts_of_modes(cases[-1:])
         yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says

@@ -40,7 +40,6 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.stability.sliding import modes_in_doubt
 from disc_model.studies.given_units import given_units
 from disc_model.studies.grid import (
     GRID_KEYS,
@@ -52,6 +51,7 @@ from disc_model.studies.grid import (
     described,
 )
 from disc_model.studies.mending import all_faults
+from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
@@ -456,7 +456,7 @@ class Study(Strict):
         """Warnings about implausible cases, one by each rule."""
         cases = [spec.parameters for spec in self.specs.values() if not spec.modes]
         yield from ChainMap(*(doubts(spec.parameters) for spec in self.specs.values())).values()
-        yield from filter(None, map(modes_in_doubt, cases))
+        yield from doubts_of_modes(cases)
 
     def grids(
         self, folders: Sequence[Path] = (Path(),)
