@@ -7,6 +7,7 @@ import pytest
 import xarray as xr
 from matplotlib import pyplot
 
+from disc_model.figures.axis_numbers import spare_heights
 from disc_model.figures.drawing import plain_decades, whole_marks
 from disc_model.figures.runs import show_thickness
 from tests.figures.reading import assert_numbers_are_apart
@@ -31,6 +32,8 @@ def test_numbers_of_few_decades_are_plain_and_apart(
     low, high = ends
     ticks = [tick for tick in ax.yaxis.get_major_ticks() if low <= tick.get_loc() <= high]
     assert [tick.label1.get_text() for tick in ticks] == numbers
+    spare_heights(ax)
+    figure.draw_without_rendering()
     assert_numbers_are_apart(ax)
     pyplot.close(figure)
 

@@ -424,6 +424,7 @@ def test_a_legend_keeps_values_with_their_symbols_and_units() -> None:
         "not settled",
     ]
     assert broken("In-plane spring", 12).splitlines() == ["In-plane", "spring"]
+    assert broken("largest |κ| = 0.99844", 12).splitlines() == ["largest |κ|", "= 0.99844"]
 
 
 def test_a_name_of_a_curve_is_nearer_to_it_than_to_others() -> None:

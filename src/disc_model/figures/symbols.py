@@ -31,10 +31,18 @@ def without_font(text: str) -> str:
 
 
 def broken(text: str, length: int) -> str:
-    """A text in lines of a number of characters, or longer ones where a value has to stay with its name and
-    its unit."""
-    kept = VALUE.sub(lambda found: found[0].replace(" ", UNBROKEN), text.replace("\n", " "))
-    return fill(kept, length, break_long_words=False).replace(UNBROKEN, " ")
+    """A text in lines of a number of characters, in which a value stays with its symbol and its unit; one that
+    is longer than a line begins with the equals sign."""
+
+    def kept(found: re.Match[str]) -> str:
+        """A symbol and its value on one line, or a longer value below its symbol."""
+        whole = found[0].replace(" ", UNBROKEN)
+        if len(MARKUP.sub("", whole)) > length:
+            return whole.replace(f"{UNBROKEN}=", " =")
+        return whole
+
+    in_one_line = text.replace("\n", " ")
+    return fill(VALUE.sub(kept, in_one_line), length, break_long_words=False).replace(UNBROKEN, " ")
 
 
 def in_a_row(text: str) -> str:
