@@ -90,7 +90,7 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
     highest = np.where(beside, rate, -np.inf).max(axis=1)
     largest = (rate >= LINEAR) & (rate == highest)
     tops = np.flatnonzero(largest & (_above_neighbours(followed) | _beside_gaps(study)))
-    stand_out = [i for i in tops if _stands_out(rate, i)]
+    stand_out = [i for i in tops.tolist() if _stands_out(rate, i)]
     for i in sorted(stand_out, key=lambda i: -rate[i])[:MOST]:
         leading = int(np.nanargmax(study["cycle_growth_rate"].values[i]))
         apart = np.abs(study["crossing_Omega"].values - speeds[i])

@@ -3,7 +3,7 @@
 import numpy as np
 
 from disc_model.figures.colours import ROUNDING
-from disc_model.figures.types import Array
+from disc_model.figures.types import Array, Indices
 
 
 def growing_part(along: Array, rate: Array, values: Array) -> tuple[Array, Array]:
@@ -26,6 +26,6 @@ def _shares_of_zero(before: Array, after: Array) -> Array:
     return np.clip(before / (before - after), 0.0, 1.0)
 
 
-def _between(values: Array, places: Array, shares: Array) -> Array:
+def _between(values: Array, places: Indices, shares: Array) -> Array:
     """Values at shares of the steps that begin at some places."""
     return values[places] + shares * (values[places + 1] - values[places])
