@@ -214,12 +214,25 @@ GAP = np.nan
     [
         ([GAP, 0.74, 0.53, 0.45, 0.40, 0.36], []),
         ([0.74, 0.70, 0.45, 0.40, 0.36, 0.33], []),
-        ([0.10, 0.20, 0.30, GAP, 0.20, 0.10], []),
+        ([0.10, 0.20, 0.30, GAP, 0.20, 0.10], [12]),
+        ([0.10, 0.20, GAP, 0.30, 0.20, 0.10], [13]),
+        ([0.10, 0.20, 0.30, GAP, GAP, GAP], []),
+        ([0.20, 0.30, 0.29, 0.31, 0.20, 0.10], [13]),
         ([0.10, 0.20, 0.30, 0.40, 0.50, 0.60], []),
         ([0.10, 0.20, 0.30, 0.28, 0.20, 0.10], [12]),
         ([0.00, 0.00, 0.30, 0.00, 0.00, 0.00], [12]),
     ],
-    ids=["falls from a gap", "falls", "ends at a gap", "rises", "smooth peak", "by itself"],
+    ids=[
+        "no cycle up to the first rate",
+        "falls",
+        "ends at a gap",
+        "begins at a gap",
+        "no cycle after the last rate",
+        "ripple",
+        "rises",
+        "smooth peak",
+        "by itself",
+    ],
 )
 def test_a_peak_is_above_both_its_neighbours(rates: list[float], places: list[int]) -> None:
     """Points along a flank that falls from the end of a branch were peaks of growth, each with a line."""
@@ -229,6 +242,27 @@ def test_a_peak_is_above_both_its_neighbours(rates: list[float], places: list[in
     study["growth_rate"][:10] = rates[0]
     study["growth_rate"][16:] = rates[-1]
     assert [peak.place for peak in peaks(study)] == places
+
+
+def test_a_rate_beside_another_cycle_is_no_peak() -> None:
+    """The motion is near one cycle up to a speed and near another one from the next on: neither is missing."""
+    study = campbell_study()
+    study["growth_rate"][:] = -0.05
+    study["growth_rate"][10:14] = [0.1, 0.2, 0.3, 40.0]
+    near = np.where(study["growth_rate"] > 1, 0.0, 1.0)
+    study["near_motion"] = ("Omega", near)
+    assert not list(peaks(study))
+
+
+def test_the_end_of_a_cycle_has_the_mark_of_the_crossing_there() -> None:
+    """The highest rate stood beside the one speed without a cycle, and ripples had all marks."""
+    study = campbell_study()
+    study["growth_rate"][:] = [*np.linspace(0.1, 5, 6), GAP, *np.full(14, 0.5)]
+    study["growth_rate"][13] = 0.51
+    (peak,) = peaks(study)
+    assert peak.place == 5
+    assert peak.crossing is not None
+    assert float(peak.crossing["crossing_multiple"]) == 2.5
 
 
 def test_the_highest_frequency_may_have_a_unit() -> None:

@@ -9,12 +9,15 @@ from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
+from disc_model.figures.drawing import BLACK
+from disc_model.figures.growing_parts import growing_part
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
 from disc_model.figures.sliding_modes import LEAST, _name_decays, lines_of
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
+from tests.figures.described import sliding_modes
 from tests.figures.reading import labels
 from tests.studies.conftest import SMALL, computed
 
@@ -91,6 +94,33 @@ def test_modes_have_thick_lines_where_they_grow(over_mu: xr.Dataset) -> None:
     growing = rates[rates > ROUNDING]
     assert growing.size
     np.testing.assert_array_equal(np.sort(thick[np.isfinite(thick)]), np.sort(growing))
+
+
+def test_thick_lines_begin_where_the_growth_rate_is_zero() -> None:
+    """They began at the next value of the parameter, where the mode had grown for long."""
+    figure = sliding_modes()
+    for ax, height in zip(figure.axes, (131 + 1 / 3, 0.0), strict=True):
+        lines = [line for line in ax.lines if line.get_color() == BLACK]
+        thick = max(lines, key=lambda line: line.get_linewidth())
+        at = np.flatnonzero(np.isfinite(thick.get_ydata()))[0]
+        assert thick.get_xdata()[at] == pytest.approx(0.2 + 0.1 / 3)
+        assert thick.get_ydata()[at] == pytest.approx(height)
+
+
+@pytest.mark.parametrize(
+    ("rates", "ends"),
+    [
+        ([-1.0, 1.0, -3.0], [0.5, 1.25]),
+        ([3.0, -1.0, 1.0], [0.75, 1.5]),
+        ([np.nan, 1.0, 1.0], []),
+        ([0.0, 1.0, 1.0], [0.0]),
+    ],
+)
+def test_a_mode_grows_from_the_zeros_of_its_rate_on(rates: list[float], ends: list[float]) -> None:
+    along = np.arange(3.0)
+    x, y = growing_part(along, np.array(rates), 10 * along)
+    assert x[np.isfinite(y)].tolist() == sorted([*ends, *along[np.array(rates) > 0]])
+    np.testing.assert_allclose(y[np.isfinite(y)], 10 * x[np.isfinite(y)])
 
 
 @pytest.mark.parametrize(("crossed", "side"), [(False, "center"), (True, "right")])

@@ -9,12 +9,13 @@ import xarray as xr
 from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.figures.campbell_crossings import meeting_of, places_of
 from disc_model.figures.growth import ROUNDING
-from disc_model.figures.rate_scale import LINEAR, opens
+from disc_model.figures.rate_scale import LINEAR, on_scale, opens
 from disc_model.figures.selection import doubts, stretches
 from disc_model.figures.types import Array, Mask
 
 MOST = 5  # number of peaks that are named at most
 NEAR = 0.01  # share of the speeds shown within which peaks are one, and crossings belong to a peak
+PROMINENT = 0.02  # of the height of the panel of rates, from which a peak stands out from ripples
 
 
 class Peak(NamedTuple):
@@ -77,8 +78,9 @@ def jumps_of(study: xr.Dataset) -> Mask:
 
 def peaks(study: xr.Dataset) -> Iterator[Peak]:
     """The `MOST` highest peaks of the cycle's growth rate from `LINEAR` on, with the nearest
-    crossing, of the leading mode if possible; without ends of lines, beyond which the rate may rise, and
-    points by themselves beside gaps, which are of another cycle."""
+    crossing, of the leading mode if possible: also rises that end beside speeds without a cycle. Ripples
+    are none, nor ends of the scan, beyond which the rate may rise, nor points by themselves beside gaps,
+    which are of another cycle."""
     speeds = study["Omega"].values
     followed = followed_rates(study)
     is_open = beside_open_step(followed)
@@ -87,8 +89,9 @@ def peaks(study: xr.Dataset) -> Iterator[Peak]:
     beside = np.abs(speeds - speeds[:, None]) <= NEAR * extent
     highest = np.where(beside, rate, -np.inf).max(axis=1)
     largest = (rate >= LINEAR) & (rate == highest)
-    tops = np.flatnonzero(largest & _above_neighbours(followed))
-    for i in sorted(tops, key=lambda i: -rate[i])[:MOST]:
+    tops = np.flatnonzero(largest & (_above_neighbours(followed) | _beside_gaps(study)))
+    stand_out = [i for i in tops.tolist() if _stands_out(rate, i)]
+    for i in sorted(stand_out, key=lambda i: -rate[i])[:MOST]:
         leading = int(np.nanargmax(study["cycle_growth_rate"].values[i]))
         apart = np.abs(study["crossing_Omega"].values - speeds[i])
         # crossings of other modes come after those of the leading one
@@ -107,6 +110,36 @@ def _above_neighbours(rate: Array) -> Mask:
     before = extended[:-2]
     after = extended[2:]
     return (rate > before) & (rate > after)
+
+
+def _beside_gaps(study: xr.Dataset) -> Mask:
+    """Points whose growth rate is higher than that of a neighbour, while there is no cycle at the other:
+    a cycle that the motion is not near is one."""
+    rate = study["growth_rate"].values
+    extended = np.concatenate([[np.inf], rate, [np.inf]])
+    before = extended[:-2]
+    after = extended[2:]
+    return (np.isnan(before) & (rate > after)) | (np.isnan(after) & (rate > before))
+
+
+def _stands_out(rate: Array, place: int) -> bool:
+    """Whether the rate falls from a peak on both sides, before it is higher again, by more than ripples
+    do: by a share of the heights shown. Minus infinity is a gap, over which it goes on."""
+    heights = on_scale(rate)
+    known = np.isfinite(heights)
+    top = heights[place]
+    shown = heights.max(initial=0.0) - heights[known].min(initial=0.0)
+    before = heights[:place][known[:place]][::-1]
+    after = heights[place + 1 :][known[place + 1 :]]
+    return all(_fall(top, side) >= PROMINENT * shown for side in (before, after))
+
+
+def _fall(top: float, side: Array) -> float:
+    """By how much heights fall from a top, before they are higher again; zero without any."""
+    higher = np.flatnonzero(side > top)
+    if higher.size:
+        side = side[: higher[0]]
+    return float(top - side.min(initial=top))
 
 
 def _without_lone_points(rate: Array) -> Array:

@@ -11,6 +11,7 @@ from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.case_lines import Lines, Style, limits_of_motion
 from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
+from disc_model.figures.growing_runs import growth_entries, growth_note
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
 from disc_model.figures.runs import TIME, end_of_ranges, sampled, show, spans_in, window_of
@@ -66,7 +67,7 @@ def plot_run(
     ) as page:
         page.show(*_quantities(shown, variables))
         apart = told_apart(case, name, window=f"window {windows[0]}")
-        overlaid = Case("run", apart, stated(case))
+        overlaid = Case("run", apart, stated(case), ending=growth_note(case, shown))
         panels = [_lines(case, window, variable) for variable in variables for window in shown]
         grid: Any = np.array(page.axes, dtype=object).reshape(rows, columns)
         alone = draw_case(
@@ -93,7 +94,7 @@ def _draw_alone(
         handles = draw_history(column, case, window, variables, marked=not twin)
         handles += shade_ramps([] if twin else column, ramps_of(case))
         entries.update({str(handle.get_label()): handle for handle in handles})
-    page.explain([*entries.values()])
+    page.explain([*entries.values(), *growth_entries(case, windows)])
     if page.own:
         page.figure.align_ylabels()
     else:

@@ -38,6 +38,7 @@ class Case:
     title : what the title of a new figure says of it alone
     notes : what stands above panels that show it alone
     place : in the order of the cases
+    ending : what the legend says after its name
     """
 
     kind: str
@@ -45,6 +46,7 @@ class Case:
     title: str
     notes: Sequence[str] = ()
     place: int = 0
+    ending: str = ""
 
 
 @dataclass
@@ -190,16 +192,22 @@ def _remove(ax: Axes, panel: Panel) -> None:
 
 def _name(panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
     """Name the entries of cases in the legend."""
-    names = names_of([panel.shown for panel in panels], NAME)
-    for entry, name in zip(entries, names, strict=True):
+    for entry, name in zip(entries, _names_in(panels), strict=True):
         entry.set_label(name)
+
+
+def _names_in(panels: Sequence[Panel]) -> list[str]:
+    """What the legend calls the cases of panels."""
+    names = names_of([panel.shown for panel in panels], NAME)
+    endings = [panel.case.ending for panel in panels]
+    return [", ".join(filter(None, pair)) for pair in zip(names, endings, strict=True)]
 
 
 def _explain(page: Page, panels: Sequence[Panel], entries: Sequence[Artist]) -> None:
     """Set the entries of the legend, and let the title say what all cases have in common."""
     family = [panel.shown for panel in panels]
     replaced = {str(handle.get_label()) for each in family for handle in each.looks}
-    replaced |= {*names_of(family[:-1], NAME)} if family[:-1] else set()
+    replaced |= {*_names_in(panels[:-1])} if panels[:-1] else set()
     page.joins = True
     page.replaced = replaced | {str(entry.get_label()) for entry in entries}
     page.explain(entries)

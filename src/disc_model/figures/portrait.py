@@ -6,9 +6,10 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures.canvas import Wishes, page_for
+from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.case_lines import Lines, Style, limits_of_motion
 from disc_model.figures.drawing import BLACK, COLUMN, PHASE_COLOURS, halo, mark, sample, wide
+from disc_model.figures.growing_runs import growth_entries, growth_note
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, name_of_case
 from disc_model.figures.runs import sampled, window_of
@@ -47,15 +48,17 @@ def plot_phase_portrait(
     name, labels = name_of_case(labels)
     with page_for(Wishes(ax, legend, labels, title), COLUMN, 2.9, title=stated(case)) as page:
         page.show(Quantities(*(sampled(each, samples)[0] for each in (x, y))))
-        overlaid = Case("portrait", told_apart(case, name, window=f"window {window}"), stated(case))
+        apart = told_apart(case, name, window=f"window {window}")
+        overlaid = Case("portrait", apart, stated(case), ending=growth_note(case, [samples]))
         panels = [_lines(case, samples, x, y)]
-        draw_case(
-            page,
-            overlaid,
-            panels,
-            lambda: page.explain(draw_portrait(page.ax, case, samples, x, y)),
-        )
+        draw_case(page, overlaid, panels, lambda: _draw_alone(page, case, samples, x, y))
     return page.ax
+
+
+def _draw_alone(page: Page, case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> None:
+    """Draw a portrait of one run, coloured by phase, with its legend."""
+    phases = draw_portrait(page.ax, case, samples, x, y)
+    page.explain([*phases, *growth_entries(case, [samples])])
 
 
 def _lines(case: xr.DataTree, samples: xr.Dataset, x: str, y: str) -> Lines:

@@ -27,6 +27,7 @@ from disc_model.figures.drawing import (
     say_beside,
     wide,
 )
+from disc_model.figures.growing_parts import growing_part
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.kinds.motions import SlidingModes
 from disc_model.figures.left_out import parts_shown, titles_of_panels
@@ -193,8 +194,7 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
         grows = np.nan_to_num(line.rate) > ROUNDING
         for ax, values in ((top, line.frequency), (bottom, line.rate)):
             ax.plot(along, values, ".-", **_look(GREY, DECAYS))
-            growing = np.where(grows, values, np.nan)
-            ax.plot(along, growing, ".-", zorder=ABOVE, **_look(BLACK, GROWS))
+            _draw_growing(ax, along, line.rate, values)
         thick.append(np.column_stack([along, line.rate])[grows])
         for start, after in stretches(grows[:-1] & grows[1:]):
             shown = slice(start, after + 1)
@@ -216,6 +216,14 @@ def _draw_lines(top: Axes, bottom: Axes, study: xr.Dataset) -> None:
     for _, place, name, offsets in sorted(named, key=lambda each: (each[0], -each[1][1])):
         names.add(name, place, offsets, fontsize=large(7), path_effects=halo())
     bottom.axhline(0, color=BLACK, linewidth=wide(0.5))
+
+
+def _draw_growing(ax: Axes, along: Array, rate: Array, values: Array) -> None:
+    """Draw the line of a mode where it grows, with dots at the computed values."""
+    look = _look(BLACK, GROWS)
+    ax.plot(*growing_part(along, rate, values), "-", zorder=ABOVE, **look)
+    grows = np.nan_to_num(rate) > ROUNDING
+    ax.plot(along, np.where(grows, values, np.nan), ".", zorder=ABOVE, **look)
 
 
 def _look(colour: str, width: float) -> dict[str, Any]:

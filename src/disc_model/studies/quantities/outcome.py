@@ -55,8 +55,8 @@ class HorizonOutcome(Start, Quantity):
             "1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON
         ),
         "first_separation": SCALARS["first_separation"],
-        "settling_time": Variable(
-            "s", "time at which the motion was left because it had settled, nan if it was not"
+        "left_at": Variable(
+            "s", "time at which the motion was left, as its outcome was known, nan if it was not"
         ),
         "time_reached": SCALARS["time_reached"],
         "cycle_distance": Variable(
@@ -111,7 +111,7 @@ class HorizonOutcome(Start, Quantity):
         if reached.outcome is Outcome.SEPARATION and result is not None:
             values["time_reached"] = result.final_state.time
         elif reached.outcome is not None and reached.time < self.horizon:
-            values["settling_time"] = reached.time
+            values["left_at"] = reached.time
         if late is not None:
             values.update(asdict(late))
         message = "" if last.status.complete else last.message
