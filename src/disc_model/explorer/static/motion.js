@@ -36,11 +36,18 @@ function fateOf(study, place) {
   return stable && value(study, stable, place) ? stable.look.label : "unstable";
 }
 
+/** The word of what becomes of a cycle: that of its lack, or of its stability. */
+function wordOfCycle(study, place) {
+  const rate = study.variables.find(growth);
+  const gap = rate && gapAt(study, rate, place);
+  return gap ? gap.word : fateOf(study, place);
+}
+
 /** What a stored motion is, as a sentence: that of its outcome or kind or of its cycle's stability, as far as the quantity has one. */
 function saidOfMotion(study, motion) {
   const place = { ...view.place, ...motionPlaces(study, motion) };
   const outcome = wordsOfFate(study);
-  const word = outcome ? outcome.flags[value(study, outcome, place)] : fateOf(study, place);
+  const word = outcome ? outcome.flags[value(study, outcome, place)] : wordOfCycle(study, place);
   return study.motions.text_by[word] ?? study.motions.text;
 }
 
