@@ -3,8 +3,8 @@
 from typing import Any
 
 import pytest
-import disc_model as dm
 
+import disc_model as dm
 from disc_model.explorer import Stated
 from disc_model.explorer import study_contents as contents_of
 from disc_model.studies.motions import run_motions
@@ -58,3 +58,12 @@ def test_a_point_of_unstable_sliding_has_its_motion(opened: Open) -> None:
         note = shown.text("motion-note")
         assert note.startswith("At this point. The motion from the static start")
         assert "unstable" in note
+
+
+def test_phases_of_a_motion_are_told_apart_without_colours(opened: Open) -> None:
+    """Stick and separation have nearly the same grey."""
+    with opened([contents()]) as shown:
+        hatches = shown.page.run(
+            "return ['stick', 'slip', 'separation'].map((word) => lookOfPhase(word).hatch)"
+        )
+    assert [bool(hatch) for hatch in hatches] == [True, False, False]

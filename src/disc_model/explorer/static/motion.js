@@ -204,15 +204,21 @@ function rangeOf(numbers, size = 0) {
   return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
 }
 
+/** The look of a phase of a motion: stick has a pattern, as in grey print its colour is that of separation. */
+const lookOfPhase = (word) =>
+  ({ face: contents.phases[word] ?? style("--empty"), hatch: word === "stick" ? "////" : "", ink: "#ffffff" });
+
 function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
   const seen = [];
   motion.phase.forEach(([begin, code], n) => {
     const end = n + 1 < motion.phase.length ? motion.phase[n + 1][0] : last;
     const word = motions.phases[code];
-    const colour = contents.phases[word] ?? style("--empty");
-    seen[code] = [colour, word]; // the legend has the order of the figures
-    ink.fillStyle = colour;
-    ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
+    const look = lookOfPhase(word);
+    seen[code] = [swatchOf(look), word]; // the legend has the order of the figures
+    for (const fill of fillsOf(ink, look)) {
+      ink.fillStyle = fill;
+      ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
+    }
   });
   element("phases").replaceChildren(...seen.filter(Boolean).map(legendEntry));
 }
