@@ -633,9 +633,7 @@ def _tables_of(raw: Any, folder: Path) -> dict[str, str]:
     named = {**_varied_discs(content), **mapping(content.get("discs"))}
     named[""] = mapping(content.get("base")).get("disc")
     return {
-        name: _table_path(folder / table)
-        for name, table in named.items()
-        if isinstance(table, str)
+        name: _table_path(folder / table) for name, table in named.items() if isinstance(table, str)
     }
 
 

@@ -16,7 +16,6 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import CycleTolerance
 
-
 FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
 SLIDING_BY = {
     "steady_sliding": "The motion from the static start, near which steady sliding is stable.",
