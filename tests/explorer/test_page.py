@@ -219,7 +219,7 @@ def test_points_without_a_number_have_the_class_that_figures_show() -> None:
     for place, word in ((FAILED, "nearby_only"), (WITHOUT_CYCLE, "no_cycle")):
         look = gaps["looks"][codes[tuple(place.values())] - 1]
         expected = LOOKS[word]
-        assert look == {**expected._asdict(), "ink": expected.ink}
+        assert look == {"word": word, **expected._asdict(), "ink": expected.ink}
     assert np.count_nonzero(codes) == 2, "all other points have a rate"
     assert variables["releases"]["gaps"] is None
     unknown = contents()[1]["variables"][0]["gaps"]

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.variables import attributes
+from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.kinds.base import key_of, unknown
 from disc_model.figures.render import render
@@ -131,3 +132,36 @@ def test_names_of_values_that_there_are_not_are_faults(value: int, faults: int) 
 def test_names_that_are_no_mapping_are_refused(three_loads: xr.Dataset) -> None:
     with refusal("names"):
         drawn(three_loads, names=3)
+
+
+def rows_of_gaps(count: int) -> tuple[list[str], int, set[str]]:
+    """Of so many lines, each of which ends earlier than the one before: the words above their panel, the
+    number of rows there, and the dashes of the lines."""
+    data = study(*np.linspace(300.0, 400.0, count))
+    rates = data["growth_rate"].values
+    status = data["status"].values.copy()
+    for i in range(count):
+        status[len(SPEEDS) - 1 - i % 3 :, i] = "no_cycle"
+    gone = status != "ok"
+    data = data.assign(
+        growth_rate=(PLANE, np.where(gone, np.nan, rates), data["growth_rate"].attrs),
+        status=(PLANE, status.astype(str)),
+    )
+    ax = drawn(data).axes[0]
+    found = rows_above(ax)
+    lines = [line for line in ax.lines if len(line.get_xdata()) >= len(SPEEDS)]
+    words = [each.reason for each in found]
+    rows = sum(len(each.rows) for each in found)
+    return words, rows, {str(line.get_linestyle()) for line in lines}
+
+
+def test_many_lines_have_one_row_for_their_gaps_and_say_of_how_many_they_are() -> None:
+    """Ten rows lay on each other, and the last colours were nearly one."""
+    words, rows, dashes = rows_of_gaps(10)
+    assert words == ["no cycle found: 3 to 10 of 10 lines"]
+    assert rows == 1
+    assert dashes == {"-", "--"}
+    words, rows, dashes = rows_of_gaps(6)
+    assert words == ["no cycle found"]
+    assert rows == 6
+    assert dashes == {"-"}

@@ -170,7 +170,7 @@ def test_curves_of_several_cases_are_told_apart() -> None:
         ax = curves.plot(ax=ax)
     texts = legend_texts(ax)  # type: ignore[arg-type]
     assert texts[:2] == ["N = 385 N", "N = 380 N"]
-    assert "cycle loses stability" in texts
+    assert "solid: cycle loses stability" in texts, "grey ones were those of a case in grey print"
     assert {"#000000", "#009e73"} <= {to_hex(line.get_color()) for line in ax.lines}  # type: ignore[attr-defined]
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model import floquet
-from disc_model.data.variables import flag_names
+from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -137,3 +137,19 @@ def test_a_motion_sampled_at_events_begins_after_its_whole_transient() -> None:
     motion = run_motions(text).isel(point=0)
     assert "separation" in flag_names(motion["phase"])
     assert float(motion["P"].min()) == 0.0
+
+
+@pytest.mark.compiled
+def test_where_no_cycle_is_found_the_motion_from_the_static_start_is_kept() -> None:
+    """No motion was shown of a study most of whose points slide."""
+    (text,) = texts("floquet", base={"c_p": 20}, axes={"N": [200], "Omega": [14.0]}).values()
+    motion = run_motions(text).isel(point=0)
+    assert int(motion["status"]) == 0
+    assert set(flag_names(motion["phase"]).tolist()) <= {"stick", "slip"}
+    start = static_start(Parameters(N=200, Omega=14.0, c_p=20.0))
+    assert float(motion["u"][0]) == pytest.approx(start.u)
+
+
+def test_every_status_of_a_search_for_cycles_says_what_motion_is_kept() -> None:
+    told = quantity_of("floquet").motion_by
+    assert {status.value for status in CycleStatus} <= {*told}

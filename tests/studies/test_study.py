@@ -288,3 +288,21 @@ def test_a_value_at_which_two_blocks_of_an_axis_meet_is_taken_once() -> None:
     grid = parse_study(over_speeds(blocks)).grid
     assert grid is not None
     assert grid.values["Omega"] == ((10.0,), (12.0,), (14.0,))
+
+
+def test_tables_of_discs_are_named_without_steps_back(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A call had the path "studies/../discs/brake.csv"."""
+    monkeypatch.chdir(tmp_path)
+    Path("discs").mkdir()
+    Path("studies").mkdir()
+    table = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n2,1200,0.5\n"
+    Path("discs/brake.csv").write_text(table)
+    base = {"N": 200, "r_0": 0.1, "Omega": 15, "disc": "../discs/brake.csv"}
+    path = Path("studies/mine.yaml")
+    path.write_text(yaml.safe_dump(GRID | {"base": base, "figures": {}}))
+    assert load_study(path).tables == {"": "discs/brake.csv"}
+    assert load_study(path.resolve()).tables == {"": "discs/brake.csv"}
+    monkeypatch.chdir("studies")
+    assert load_study("mine.yaml").tables == {"": "../discs/brake.csv"}

@@ -469,7 +469,7 @@ def _gaps(study: xr.Dataset, variable: xr.DataArray) -> dict[str, Any] | None:
     looks |= looks_without_time(study, str(variable.name))
     return {
         "dims": list(variable.dims),
-        "looks": [_look(looks[word]) for word in classes],
+        "looks": [{"word": word, **_look(looks[word])} for word in classes],
         "data": packed(codes, "u1"),
     }
 

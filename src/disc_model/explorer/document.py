@@ -24,6 +24,7 @@ SCRIPTS = (
     "drawing",
     "lines",
     "samples",
+    "empty",
     "modes",
     "map",
     "point",

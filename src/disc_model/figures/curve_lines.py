@@ -11,6 +11,7 @@ from disc_model.figures.curve_looks import (
     CROWDED,
     PLAIN,
     around_former,
+    dashes_among,
     dashes_of,
     draw_dots,
     few_marks,
@@ -81,7 +82,8 @@ def draw_lines(  # noqa: PLR0913
     drawn = []
     for part in parts:
         title = titles.get(part.name)
-        look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": line}
+        dashes = dashes_among(parts, part.name, line)
+        look = {**open_look(), **looks.of(part.name), "label": title or None, "linestyle": dashes}
         heights = draw_at_bound(ax, along, part.data.values, bounds[part.name], look)
         pieces = pieces_of(along, heights, steps.get(part.name))
         if heights.size > CROWDED:

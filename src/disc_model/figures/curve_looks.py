@@ -103,6 +103,9 @@ def _colours(parts: Sequence[Part[Any]], marks: Mapping[str, str], single: Look)
 
 PLAIN = Look(BLACK)
 """Look of a single line."""
+MOST_WHOLE = 6  # lines of one sweep that their colours tell apart
+LONG_DASHES = (0, (9, 2.5))
+"""Dashes of every other one of more lines, which those of sweeps do not have."""
 CROWDED = 30  # points of a line beyond which a mark for each would be a band of rings
 DOT = 1.5  # points, size of a mark of one of them
 MARKED = 12  # points of such a line that have a mark, about
@@ -111,6 +114,15 @@ MARKED = 12  # points of such a line that have a mark, about
 def dashes_of(look: Look) -> Any:
     """The dashes of a look; a line without gaps if it has none."""
     return look.line(THIN).get("linestyle", "-")
+
+
+def dashes_among(parts: Sequence[Part[Any]], name: str, dashes: Any) -> Any:
+    """The dashes of one of several whole lines: of many, every other one has long dashes, as their
+    colours are nearly those of the ones before and after."""
+    place = [part.name for part in parts].index(name)
+    if dashes == "-" and len(parts) > MOST_WHOLE and place % 2:
+        return LONG_DASHES
+    return dashes
 
 
 def few_marks(heights: np.ndarray, *, joined: bool, alone: bool) -> dict[str, Any]:

@@ -30,6 +30,7 @@ from disc_model.figures.types import Array, Axes, Mask
 from disc_model.figures.words import KINDS, NO_VALUE, WORDS, Measured, measured
 
 ARROW = 7.0  # points, size of an arrow below a point, and its distance
+MOST_ROWS = 6  # lines that have a row each for their gaps: more of them have one together
 FILLED = 1.9  # order of filled marks, just below that of lines
 MARGIN = 0.03  # share of the panel beside values
 MARGIN_OF_LARGE = 0.06  # above and below marks of more than this size
@@ -112,16 +113,37 @@ def mark_gaps(
     named: Collection[str] = (),
 ) -> None:
     """Mark points without a value, by their reasons, above the panel: a row for each line and each
-    reason, in the looks of the lines, but for lines that the legend names with their reason."""
+    reason, in the looks of the lines, but for lines that the legend names with their reason; many lines
+    have one row together."""
     by = remaining(array, [x])
     across = measured_along(array[x]).values
     placed = array[x].notnull()
     for reason, gone in reasons.items():
-        for part in parts_along(gone & placed, by):
+        parts = parts_along(gone & placed, by)
+        shown = [part for part in parts if part.data.values.any() and part.name not in named]
+        if len(parts) > MOST_ROWS:
+            masks = [part.data.values for part in shown]
+            row = {"sweep": looks.sweep, "dashes": looks.dashes, "marker": "o", **open_look()}
+            _mark_together(ax, reason, across, masks, len(parts), **row)
+            continue
+        for part in shown:
             mask = part.data.values
-            if mask.any() and part.name not in named:
-                look = {**looks.of(part.name), **open_look()}
-                add_row(ax, reason, across[mask], looks.sweep, looks.dashes, **look)
+            look = {**looks.of(part.name), **open_look()}
+            add_row(ax, reason, across[mask], looks.sweep, looks.dashes, **look)
+
+
+def _mark_together(
+    ax: Axes, reason: str, across: Array, masks: Sequence[Mask], count: int, **look: Any
+) -> None:
+    """Mark points at which any of many lines has a gap in one row above the panel, and say of how many
+    of them."""
+    if not masks:
+        return
+    lines_at = np.sum(masks, axis=0)
+    here = lines_at > 0
+    least, most = lines_at[here].min(), lines_at[here].max()
+    number = f"{most}" if least == most else f"{least} to {most}"
+    add_row(ax, f"{reason}: {number} of {count} lines", across[here], color=GREY, **look)
 
 
 def reasons_of_gaps(study: xr.Dataset, array: xr.DataArray) -> dict[str, xr.DataArray]:
@@ -193,7 +215,13 @@ def mark_open_steps(
     middle = 0.5 * (along[:-1] + along[1:])
     if ax.get_xscale() == "log":
         middle = np.sqrt(along[:-1] * along[1:])
+    shape: dict[str, Any] = {"marker": "|", "markersize": mark(5)}
+    if len(steps) > MOST_ROWS:
+        masks = [is_gap for is_gap in steps.values() if is_gap.any()]
+        row = {"sweep": looks.sweep, "dashes": looks.dashes, **shape}
+        _mark_together(ax, reason, middle, masks, len(steps), **row)
+        return
     for name, is_gap in steps.items():
         if is_gap.any():
-            look = {"marker": "|", "markersize": mark(5), "color": looks.colours[name]}
+            look = {**shape, "color": looks.colours[name]}
             add_row(ax, reason, middle[is_gap], looks.sweep, looks.dashes, **look)

@@ -4,6 +4,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, Rectangle
 
 from disc_model.figures.kept import Kept
+from disc_model.figures.legend_samples import in_order
 from disc_model.figures.pages import Page
 from disc_model.figures.types import Artist, Axes
 
@@ -16,7 +17,7 @@ def keep_entries(page: Page) -> None:
     """Have what a legend would say at the axes of a picture, as labels that legends of matplotlib read."""
     _remove_replaced(page)
     known = {words for ax in page.axes for words in ax.get_legend_handles_labels()[1]}
-    for handle in page.handles:
+    for handle in in_order(page.handles):
         if str(handle.get_label()) not in known:
             _keep(page.ax, handle)
 

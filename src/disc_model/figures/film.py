@@ -16,6 +16,10 @@ from disc_model.figures.types import Array, Axes, Figure
 from disc_model.parameters import Parameters
 from disc_model.units import is_number
 
+LEVELS = (-2 / 3, -1 / 3, 1 / 3, 2 / 3)
+"""Deflections that lines on the disc are at, over the greatest; grey print does not show their sign, which
+dashes do."""
+
 
 def film(figure: Figure, motion: Motion, time: Array, force: Array) -> FuncAnimation:
     """Make the film of disc, circle under the slider, and contact force (N) over the time (s) of
@@ -24,12 +28,13 @@ def film(figure: Figure, motion: Motion, time: Array, force: Array) -> FuncAnima
     circle = figure.add_axes((0.48, 0.62, 0.5, 0.29))
     trace = figure.add_axes((0.48, 0.13, 0.5, 0.29))
     scale = scale_of(motion)
+    levels = [share * (scale.vmax or 0.0) for share in LEVELS]
     begin = motion.time[0]
 
     def draw(i: int) -> list[Axes]:
         for ax in (disc, circle, trace):
             ax.cla()
-        draw_disc(disc, motion, i, scale)
+        draw_disc(disc, motion, i, scale, levels)
 
         draw_circle(circle, motion, i, 6)
         circle.set_ylim(scale.vmin, scale.vmax)

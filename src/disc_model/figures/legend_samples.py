@@ -4,15 +4,21 @@ from collections.abc import Sequence
 from typing import Any
 
 from matplotlib import rcParams
+from matplotlib.collections import PathCollection
 from matplotlib.colors import to_hex
 from matplotlib.font_manager import FontProperties
 from matplotlib.legend_handler import HandlerLine2D
 from matplotlib.lines import Line2D
 from matplotlib.offsetbox import DrawingArea
 
+from disc_model.figures.classes import FILLED_MARK
 from disc_model.figures.types import Legend
 
 MARK_PAD = 0.3  # distance of marks at the ends of a sample from these, over the size of the text
+NO_MARKS = ("", " ", "None", None)
+"""Marks that are not seen."""
+FILLED = FILLED_MARK.partition("{")[0]
+"""Begins the words for marks that are filled where all others are open."""
 NOTE = "disc_model_note"
 """Begins the group ids of entries of legends that are only words, and of no line."""
 
@@ -20,6 +26,8 @@ NOTE = "disc_model_note"
 def draw_legend(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
     """Draw a legend of axes or of a figure, whose samples are so long that dashes show between marks
     where they alone tell lines apart."""
+    if "labels" not in look:  # which are in the order of the handles
+        handles = in_order(handles)
     dashed = [handle for handle in handles if _is_dashed_with_marks(handle)]
     if dashed and _share_marks(handles):
         usual = FontProperties(size=look.get("fontsize") or rcParams["legend.fontsize"])
@@ -34,6 +42,23 @@ def draw_legend(parent: Any, handles: Sequence[Any], **look: Any) -> Legend:
     if handles and all(map(_is_note, handles)) and "frameon" not in look:
         legend.set_frame_on(False)
     return legend
+
+
+def in_order(handles: Sequence[Any]) -> list[Any]:
+    """Entries of a legend in the order in which they are read: lines and areas, marks of points, what
+    filled ones say, and words alone."""
+    return sorted(handles, key=_rank)
+
+
+def _rank(handle: Any) -> int:
+    """The place of an entry of a legend among others, which is that of all of its kind."""
+    if str(handle.get_label()).startswith(FILLED):
+        return 2
+    if isinstance(handle, PathCollection):
+        return 1
+    if not isinstance(handle, Line2D) or handle.get_linestyle() != "None":
+        return 0
+    return 1 if handle.get_marker() not in NO_MARKS else 3
 
 
 def write_notes(legend: Legend, handles: Sequence[Any]) -> None:
@@ -59,7 +84,7 @@ def _joins_marks(handle: Any) -> bool:
     """Whether an entry of a legend is a line with marks."""
     if not isinstance(handle, Line2D):
         return False
-    has_marks = handle.get_marker() not in ("", "None", None)
+    has_marks = handle.get_marker() not in NO_MARKS
     return has_marks and handle.get_linestyle() != "None"
 
 

@@ -23,6 +23,7 @@ NARROWEST = 12  # characters to which a name is broken at most
 EDGE = 0.04  # inch, kept free beside a legend above a panel
 BESIDE = 0.15  # inch, left free on both sides of a legend below a panel, together
 LEFT = 0.02  # inch, least distance of such a legend from the left edge of the figure
+SPREAD = 0.04  # share of its width by which it may be wider in other resolutions
 HALF_GAP = 0.03  # inch, and from the middle between its axes and those beside them
 PLACES = (
     "upper right",
@@ -284,15 +285,16 @@ class Anchor:
 
 
 def move_to_page(ax: Axes, bars: Sequence[Axes] = ()) -> None:
-    """Move the legend below axes to the right or left until it is on the page, and clear of what stands
-    beside the axes if it can."""
-    page: Any = ax.get_figure(root=True)
+    """Move the legend below axes to their middle, or as near to it as it is on the page, and clear of
+    what stands beside the axes if it can."""
     legend: Legend = ax.get_legend()
     anchor: Anchor = getattr(legend, ANCHOR)
     free = _free_below(ax, bars)
     box = legend.get_window_extent()
-    anchor.across += max(LEFT * page.dpi - box.x0, 0.0)
-    anchor.across -= max(min(box.x1 - free.right, box.x0 - free.left), 0.0)
+    frame = Bbox.union([ax.bbox, *(bar.bbox for bar in bars)])
+    middle = 0.5 * (frame.x0 + frame.x1)
+    left = min(middle - 0.5 * box.width, free.right - (1 + SPREAD) * box.width)
+    anchor.across += max(left, free.left) - box.x0
     legend.set_bbox_to_anchor((anchor.across / ax.bbox.width, 0), anchor.transform)
 
 

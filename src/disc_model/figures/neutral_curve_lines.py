@@ -70,7 +70,8 @@ def kinds_beside() -> list[Artist]:
     handles = []
     for kind, (_, text) in KINDS.items():
         look = Look(GREY, DASHES[kind])
-        handles.append(sample(label=text, **look.line(STABLE)))
+        how = "dashed" if DASHES[kind] else "solid"
+        handles.append(sample(label=f"{how}: {text}", **look.line(STABLE)))
     return [*handles, sample(color=GREY, linewidth=wide(THIN), label=UNSTABLE_BESIDE)]
 
 

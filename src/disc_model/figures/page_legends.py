@@ -8,7 +8,7 @@ from disc_model.errors import Fault, ParameterError
 from disc_model.figures.covered import twins_of
 from disc_model.figures.entries import keep_entries
 from disc_model.figures.labels import is_square
-from disc_model.figures.legend_samples import write_notes
+from disc_model.figures.legend_samples import in_order, write_notes
 from disc_model.figures.legends import (
     figure_legend,
     keep_share,
@@ -99,8 +99,9 @@ def write_legend(page: Page, wishes: Wishes) -> None:
     if isinstance(wishes.legend, Mapping):
         look |= _checked_look(page, wishes.legend)
     if any(name in look for name in PLACING):
-        placed = page.ax.legend(handles=list(page.handles), **look)
-        write_notes(placed, page.handles)
+        handles = in_order(page.handles)
+        placed = page.ax.legend(handles=handles, **look)
+        write_notes(placed, handles)
     elif page.figure.get_gid() == OWN:
         size = {}
         if page.is_small or len(page.handles) > MANY:

@@ -62,7 +62,8 @@ def plot_sweep(  # noqa: PLR0913
         numbers, or the one with more values if the other has three or fewer. Over a dimension beside paired samples,
         each of these has a line: up to six are named, and more are thin
     lines : a second dimension that gives a line for each of its values, where two dimensions of numbers would be a map;
-        False for a map of them also where one has few values, which `cmap` asks for as well
+        False for a map of them also where one has few values, which `cmap` asks for as well. Of
+        `basin_fraction_by_energy`, `lines="energy"` draws the share of each energy that separates
     points : whether all values at each place along the axis are points that no line joins, as in a bifurcation diagram
         of the turns that a function of your own returns
     log : whether the scale of the variable is logarithmic: on both sides of zero if some values are negative or zero,

@@ -8,7 +8,9 @@ import xarray as xr
 
 from disc_model.data.swept_branches import is_of_sweep, selected_text
 from disc_model.errors import Fault, ParameterError, require, rule_of_choice, suggestion
+from disc_model.figures.separating_share import SHARE
 from disc_model.figures.settled_motions import without_zeros
+from disc_model.figures.shares_by_energy import OF_LINES, asks_for_lines, with_separating_shares
 from disc_model.figures.sweep_dimensions import (
     columns_along,
     dims_without_coordinates,
@@ -98,6 +100,8 @@ def choose_drawn(
     _refuse_branches(study)
     study = without_zeros(without_stacks(study))
     study = with_own_coordinates(study)
+    if asks_for_lines(study, variables[0], lines):
+        study, variables = with_separating_shares(study), [SHARE]
     if not variables[0]:
         study = with_first_values(study)
     whole = without_single_values(with_words(study))
@@ -269,6 +273,8 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     if len(dims) > 2:
         selection = selection_for(study, variable, x)
         many = f"must vary along at most two: select values of the others, as by {selection}"
+        if variable == SHARES[0]:
+            many = f"{many}, {OF_LINES}"
         raise ParameterError(Fault.of(("study",), ", ".join(dims), many))
     known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
     require((across in known, "x", across, _rule_of_axis(study, across, known)))

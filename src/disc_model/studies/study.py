@@ -5,6 +5,7 @@ right.
 """
 
 import json
+import os
 from collections import ChainMap
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, reduce
@@ -631,7 +632,17 @@ def _tables_of(raw: Any, folder: Path) -> dict[str, str]:
     content = mapping(raw)
     named = {**_varied_discs(content), **mapping(content.get("discs"))}
     named[""] = mapping(content.get("base")).get("disc")
-    return {name: _shown(folder / table) for name, table in named.items() if isinstance(table, str)}
+    return {
+        name: _table_path(folder / table) for name, table in named.items() if isinstance(table, str)
+    }
+
+
+def _table_path(path: Path) -> str:
+    """The path of a table without steps back into folders that it names; as short as it can be."""
+    resolved = path.resolve()
+    if path.is_absolute():
+        return _shown(resolved)
+    return os.path.relpath(resolved)
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:

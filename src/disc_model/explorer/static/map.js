@@ -57,11 +57,14 @@ function drawMap() {
   const marked = (place) => Boolean(chosen) && chosen.holds(place);
   const over = curve ? [] : marksOver(variable, x, y);
   const patterns = patternsOf(ink, over);
+  const lack = curve ? lackOfCurve(cells, numbers) : "";
+  element("map-lack").textContent = lack;
+  element("map-lack").hidden = !lack;
   // a curve has a gap where none of its points has a number
   const valued = new Set(cells.filter((cell) => !gapAt(study, variable, cell.place)).map((cell) => cell.i));
   const seen = {
     flags: new Set(), gaps: new Set(), marks: new Set(), doubts: new Set(), statuses: new Set(),
-    hatched: false, open: false, intervals: false, lines: new Map(), samples: new Map(), modes: new Map(), kinds,
+    hatched: false, open: false, intervals: false, chosen: !curve, lines: new Map(), samples: new Map(), modes: new Map(), kinds,
   };
   const lastAcross = xs.at.length - 1;
   cells.forEach(({ i, j, place }, n) => {
@@ -74,7 +77,7 @@ function drawMap() {
       ink.fillStyle = look;
       ink.fillRect(x0, y0, x1 - x0, y1 - y0);
     };
-    const gap = parameter || (curve && valued.has(i)) ? null : gapAt(study, variable, place);
+    const gap = parameter || lack || (curve && valued.has(i)) ? null : gapAt(study, variable, place);
     if (!curve && variable.flags) seen.flags.add(numbers[n]);
     const look = gap ?? (!curve && variable.flags ? variable.looks[numbers[n]] : null);
     if (gap) seen.gaps.add(gap);
@@ -84,7 +87,7 @@ function drawMap() {
       seen.marks.add(mark);
       if (mark.look.hatch) fill(patterns.get(mark)[inkOn(look?.face ?? colours.colour(numbers[n]))]);
     }
-    if (isFiller(study, variable, place)) {
+    if (!lack && isFiller(study, variable, place)) {
       seen.hatched = true;
       seen.statuses.add(shown(study, study.status, place));
       fill(hatch);
@@ -96,7 +99,9 @@ function drawMap() {
   yAxis(ink, box, ys.ticks(), vertical, upward);
   if (colours) colourBar(ink, { left, right, top: height - 44, bottom: height - 32 }, colours, named);
   drawn = { box, horizontal, vertical, xs, ys, heights: curve ? numbers.map((one) => vertical(ys.to(one))) : [] };
-  if (parameter) {
+  if (lack) {
+    drawEmpty(ink, box);
+  } else if (parameter) {
     const height = (one) => vertical(ys.to(one));
     drawn.points = cells.map(({ place }, n) => ({ x: horizontal(values[n]), y: height(numbers[n]), place }));
     ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
@@ -238,7 +243,7 @@ function legend(seen, chosen) {
   if (seen.hatched) entries.push(["hatched", `no result: ${[...seen.statuses].join(", ")}`]);
   entries.push(...entriesOfLines(seen.lines), ...entriesOfSamples(seen.samples, seen.kinds));
   entries.push(...entriesOfModes(seen.modes));
-  if (chosen && !seen.lines.size) entries.push([classSwatch(chosen), chosen.title]);
+  if (chosen && !seen.lines.size && seen.chosen) entries.push([classSwatch(chosen), chosen.title]);
   element("legend").replaceChildren(...entries.map(legendEntry));
 }
 
@@ -322,6 +327,7 @@ function curveOf(cells, numbers, intervals, marked, seen) {
     const ends = (intervals[n] ?? []).filter(Number.isFinite).map(height);
     for (const doubt of doubts) seen.doubts.add(doubt);
     if (ends.length) seen.intervals = true;
+    if (marked(place) && Number.isFinite(numbers[n])) seen.chosen = true;
     return { place, x: horizontal(xs.at[i]), y: height(numbers[n]), ends, doubts, marked: marked(place) };
   });
 }
@@ -402,10 +408,20 @@ function markCurve(ink, points, open, chosen) {
   });
 }
 
+/** A dashed line at the chosen point of a curve; returns where it is. */
+function lineAtChosen(ink, box) {
+  const at = drawn.horizontal(drawn.xs.at[view.place[view.x]]);
+  ink.strokeStyle = style("--text");
+  ink.setLineDash([4, 3]);
+  line(ink, at, box.top, at, box.bottom);
+  ink.setLineDash([]);
+  return at;
+}
+
 /** The curve in its frame, with its marks, and a line at the chosen point, which has a ring among others; returns the looks of
  * samples, by their names. */
 function drawCurve(ink, points, open, chosen) {
-  const { box, horizontal, xs } = drawn;
+  const { box } = drawn;
   ink.strokeStyle = style("--line");
   ink.strokeRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
   const zero = drawn.vertical(0);
@@ -417,11 +433,7 @@ function drawCurve(ink, points, open, chosen) {
   ink.strokeStyle = ink.fillStyle = style("--accent");
   if (!areSampled()) polyline(ink, points.map(({ x, y }) => [x, y]), isJoined(), opens);
   markCurve(ink, points, open, chosen);
-  ink.strokeStyle = style("--text");
-  ink.setLineDash([4, 3]);
-  const at = horizontal(xs.at[view.place[view.x]]);
-  line(ink, at, box.top, at, box.bottom);
-  ink.setLineDash([]);
+  const at = lineAtChosen(ink, box);
   const height = drawn.vertical(drawn.ys.to(value(view.study, view.variable, view.place)));
   if (view.spread === NONE || !Number.isFinite(height)) return samples;
   ink.beginPath();

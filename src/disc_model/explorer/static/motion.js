@@ -36,11 +36,18 @@ function fateOf(study, place) {
   return stable && value(study, stable, place) ? stable.look.label : "unstable";
 }
 
+/** The word of what becomes of a cycle: that of its lack, or of its stability. */
+function wordOfCycle(study, place) {
+  const rate = study.variables.find(growth);
+  const gap = rate && gapAt(study, rate, place);
+  return gap ? gap.word : fateOf(study, place);
+}
+
 /** What a stored motion is, as a sentence: that of its outcome or kind or of its cycle's stability, as far as the quantity has one. */
 function saidOfMotion(study, motion) {
   const place = { ...view.place, ...motionPlaces(study, motion) };
   const outcome = wordsOfFate(study);
-  const word = outcome ? outcome.flags[value(study, outcome, place)] : fateOf(study, place);
+  const word = outcome ? outcome.flags[value(study, outcome, place)] : wordOfCycle(study, place);
   return study.motions.text_by[word] ?? study.motions.text;
 }
 
@@ -197,15 +204,21 @@ function rangeOf(numbers, size = 0) {
   return { least, greatest, power, ticks: steps.map((x) => [x, number(x / 10 ** power, digits)]) };
 }
 
+/** The look of a phase of a motion: stick has a pattern, as in grey print its colour is that of separation. */
+const lookOfPhase = (word) =>
+  ({ face: contents.phases[word] ?? style("--empty"), hatch: word === "stick" ? "////" : "", ink: "#ffffff" });
+
 function phaseBand(ink, motions, motion, horizontal, last, top, bottom) {
   const seen = [];
   motion.phase.forEach(([begin, code], n) => {
     const end = n + 1 < motion.phase.length ? motion.phase[n + 1][0] : last;
     const word = motions.phases[code];
-    const colour = contents.phases[word] ?? style("--empty");
-    seen[code] = [colour, word]; // the legend has the order of the figures
-    ink.fillStyle = colour;
-    ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
+    const look = lookOfPhase(word);
+    seen[code] = [swatchOf(look), word]; // the legend has the order of the figures
+    for (const fill of fillsOf(ink, look)) {
+      ink.fillStyle = fill;
+      ink.fillRect(horizontal(begin), top, horizontal(end) - horizontal(begin), bottom - top);
+    }
   });
   element("phases").replaceChildren(...seen.filter(Boolean).map(legendEntry));
 }

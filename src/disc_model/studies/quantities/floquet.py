@@ -16,6 +16,13 @@ from disc_model.studies.quantity import (
 )
 from disc_model.units import CycleTolerance
 
+FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
+SLIDING_BY = {
+    "steady_sliding": "The motion from the static start, near which steady sliding is stable.",
+    "unstable_sliding": "The motion from the static start: the steady sliding near it is unstable.",
+}
+"""What is shown where sliding goes on, by its stability."""
+
 
 class Floquet(Quantity):
     """The stick-slip cycle at each point and its growth rate, by Floquet multipliers."""
@@ -25,6 +32,8 @@ class Floquet(Quantity):
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     motion_by: ClassVar = {
+        **dict.fromkeys(CYCLE_STATUSES, FROM_START),
+        **SLIDING_BY,
         "stable": "The stick-slip cycle itself, which is stable.",
         "unstable": "The stick-slip cycle itself, which is unstable: the motion leaves it.",
     }
@@ -61,8 +70,8 @@ class Floquet(Quantity):
         return values, "" if found else with_advice(cycle.message, cycle.status)
 
     def state_at(self, point: Point) -> State:
+        from disc_model.simulation.states import static_start
         from disc_model.stability.cycle import find_cycle
 
-        state = find_cycle(point.parameters, self.tol).raise_for_status().state
-        assert state is not None
-        return state
+        found = find_cycle(point.parameters, self.tol)
+        return static_start(point.parameters) if found.state is None else found.state
