@@ -145,6 +145,21 @@ def leave_to_first(column: Sequence[Axes], first: Sequence[Axes]) -> None:
             ax.tick_params(labelleft=False)
 
 
+def leave_to_last(column: Sequence[Axes]) -> None:
+    """Leave the name and the numbers of the time to the last of the axes above each other."""
+    for ax in column:
+        if _stands_above(ax, column[-1]):
+            ax.set_xlabel("")
+            ax.tick_params(labelbottom=False)
+
+
+def _stands_above(ax: Axes, other: Axes) -> bool:
+    """Whether axes stand above others, whose numbers then are those of both."""
+    place = ax.get_position(original=True)
+    below = other.get_position(original=True)
+    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
+
+
 # ---- Ticks
 
 FEW_DECADES = 2.0  # up to which 2 and 5 are ticks of a logarithmic axis too

@@ -1,6 +1,5 @@
 """Histories: variables against time, over stick and separation."""
 
-import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -10,7 +9,7 @@ import xarray as xr
 from disc_model.errors import require
 from disc_model.figures.canvas import Page, Wishes, page_for
 from disc_model.figures.case_lines import Lines, Style, limits_of_motion
-from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, sample
+from disc_model.figures.drawing import COLUMN, PAGE, leave_to_first, leave_to_last, sample
 from disc_model.figures.growing_runs import growth_entries, growth_note
 from disc_model.figures.named_axes import Quantities
 from disc_model.figures.overlay import Case, draw_case, is_beside, name_of_case
@@ -76,7 +75,7 @@ def plot_run(
         for column in grid.T:
             leave_to_first(column, grid[:, 0])
             if not alone:
-                _leave_to_last(column)
+                leave_to_last(column)
     return grid.squeeze()[()]
 
 
@@ -113,21 +112,6 @@ def _number_times(ax: Axes) -> None:
     """Have few and whole numbers along the time."""
     ax.locator_params(axis="x", nbins=6)
     ax.ticklabel_format(axis="x", useOffset=False)
-
-
-def _leave_to_last(column: Sequence[Axes]) -> None:
-    """Leave the name and the numbers of the time to the last of the axes above each other."""
-    for ax in column:
-        if _stands_above(ax, column[-1]):
-            ax.set_xlabel("")
-            ax.tick_params(labelbottom=False)
-
-
-def _stands_above(ax: Axes, other: Axes) -> bool:
-    """Whether axes stand above others, whose numbers then are those of both."""
-    place = ax.get_position(original=True)
-    below = other.get_position(original=True)
-    return math.isclose(place.x0, below.x0) and place.y0 >= below.y1
 
 
 def _share_heights(grid: Any) -> None:
@@ -185,6 +169,6 @@ def draw_history(
     for ax, name in zip(axes, variables, strict=True):
         show(ax, case, window, name, named=marked and ax is axes[0])
         _number_times(ax)
-    _leave_to_last(axes)
+    leave_to_last(axes)
 
     return shade_phases(axes if marked else [], spans_in(case, window))
