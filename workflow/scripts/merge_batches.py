@@ -18,6 +18,7 @@ def main(output: str, failed: str, remarked: str, folder: str) -> None:
     plan = MergePlan.model_validate_json(sys.stdin.read())
     batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
-    for path, lines in ((failed, failures(study)), (remarked, remarks(study))):
+    for path, listed in ((failed, failures), (remarked, remarks)):
+        lines = listed(study, plan.units)
         Path(path).write_text(point_list(lines), encoding="utf-8")
     save(xr.DataTree(study), output)

@@ -6,6 +6,7 @@ variables along it.
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,10 @@ from numpy.typing import NDArray
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.missing import explained
 from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, Variable, flag_names
-from disc_model.errors import DiscModelError, as_text
+from disc_model.errors import DiscModelError
 from disc_model.parameters import PLATE, RATIOS
 from disc_model.studies.batch import Batch, GridAxis
+from disc_model.studies.point_lists import point_text
 from disc_model.studies.quantity import Quantity
 from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import POINT, coordinates_of, describe, variables_of
@@ -144,36 +146,33 @@ def fixed_base(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity
     return {name: value for name, value in base.items() if name not in varied}
 
 
-def failures(study: xr.Dataset) -> Iterator[str]:
-    """Yield one line for each point without a result: its parameters, status and message."""
+def failures(study: xr.Dataset, units: Mapping[str, str] = MappingProxyType({})) -> Iterator[str]:
+    """Yield one line for each point without a result: its parameters, in units by their names or those of
+    SI, status and message."""
     status = flag_names(study["status"])
-    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED)):
+    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED), units):
         word = str(flag_names(point["status"]))
         yield f"{place}: {_status_text(word, str(point['message'].item()))}"
 
 
-def remarks(study: xr.Dataset) -> Iterator[str]:
-    """Yield one line for each point with a result and a message: its parameters and the message."""
+def remarks(study: xr.Dataset, units: Mapping[str, str] = MappingProxyType({})) -> Iterator[str]:
+    """Yield one line for each point with a result and a message: its parameters, in units as of
+    `failures`, and the message."""
     status = flag_names(study["status"])
-    for place, point in _points_at(study, (status == "ok") & (study["message"].values != "")):
+    remarked = (status == "ok") & (study["message"].values != "")
+    for place, point in _points_at(study, remarked, units):
         yield f"{place}: {point['message'].item()}"
 
 
-def _points_at(study: xr.Dataset, mask: np.ndarray) -> Iterator[tuple[str, xr.Dataset]]:
+def _points_at(
+    study: xr.Dataset, mask: np.ndarray, units: Mapping[str, str]
+) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield some points of a study, each with its parameters as a text."""
     dims = study["status"].dims
     varied = [str(name) for name in study.coords if {*study[name].dims} <= {*dims}]
     for index in np.argwhere(mask):
         point = study.isel(dict(zip(dims, index, strict=True)))
-        yield _point_text({name: point[name].item() for name in varied}), point
-
-
-def _point_text(values: Mapping[str, Any]) -> str:
-    """Return the values of a point in a line."""
-    parts = []
-    for name, value in values.items():
-        parts.append(f"{name} = {value if isinstance(value, str) else as_text(value)}")
-    return ", ".join(parts)
+        yield point_text({name: point[name].item() for name in varied}, units), point
 
 
 def _status_text(word: str, message: str) -> str:

@@ -1,7 +1,12 @@
 """Lists of the points of a study of which there is something to say, in files beside its dataset."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
+from typing import Any
+
+from disc_model.data.variables import attributes, unit_of_parameter
+from disc_model.parameters import RATIOS, Parameters
+from disc_model.units import in_si, is_number
 
 NONE = "no point"
 """The line of a file that lists none."""
@@ -16,3 +21,30 @@ def listed_in(file: Path) -> list[str]:
     """The lines of the points that a file lists."""
     lines = file.read_text(encoding="utf-8").splitlines()
     return [] if lines == [NONE] else lines
+
+
+def point_text(values: Mapping[str, Any], units: Mapping[str, str]) -> str:
+    """The values of a point, by their names, in a line: numbers in units by parameter, and in those of
+    SI without one."""
+    parts = [f"{name} = {_value_text(name, value, units)}" for name, value in values.items()]
+    return ", ".join(parts)
+
+
+def _value_text(name: str, value: Any, units: Mapping[str, str]) -> str:
+    """A value of a point with its unit; a word as it is."""
+    if not is_number(value):
+        return str(value)
+    unit = _si_unit(name)
+    number = value
+    if name in units:
+        number = value / in_si(f"1 {units[name]}", unit, [], ())
+        unit = units[name]
+    return f"{number:.9g} {unit}".strip()
+
+
+def _si_unit(name: str) -> str:
+    """The unit of SI of what varies at the points of a study, as it is written; "" without one."""
+    if name in (*Parameters.model_fields, *RATIOS):
+        return unit_of_parameter(name)
+    unit = str(attributes(name).get("units", ""))
+    return "" if unit == "1" else unit.replace(" s-1", "/s")
