@@ -165,3 +165,12 @@ def test_a_cell_with_points_and_commas_is_named_once(tmp_path: Path) -> None:
         "must have commas or points for decimals, and nothing for thousands: not 1.210,5$"
     ):
         table(tmp_path, heads, "2;1.210,5;0,54")
+
+
+def test_the_report_says_which_columns_were_passed_over(tmp_path: Path) -> None:
+    """It said nothing of a column Mode, though it says how each column was understood."""
+    heads = "Mode;diameters;frequency_Hz;amplitude_per_sqrt_kg;Remarks"
+    disc = table(tmp_path, heads, "1;2;1210;0.5;loud", "2;3;1900;0.4;")
+    assert disc.report is not None
+    assert disc.report.notes[-2:] == ("'Mode' passed over", "'Remarks' passed over")
+    assert "read: 'Mode' passed over" in str(disc.report)

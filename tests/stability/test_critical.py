@@ -208,8 +208,11 @@ def test_a_peak_of_growth_between_two_values_is_looked_for(monkeypatch: pytest.M
 
     def sliding(case: Parameters) -> SimpleNamespace:
         rate = 0.01 - (case.c - 0.4321) ** 2
-        growing = np.zeros(int(rate > 0))
-        return SimpleNamespace(status=SlidingStatus.OK, growth_rate=rate, growing=growing)
+        values = np.array([rate + 1j])
+        growing = values[values.real > 0]
+        return SimpleNamespace(
+            status=SlidingStatus.OK, growth_rate=rate, growing=growing, eigenvalues=values
+        )
 
     monkeypatch.setattr(parameter_scan, "steady_sliding", sliding)
     case = Parameters(N=1, Omega=1)
@@ -526,6 +529,34 @@ def test_neutral_sliding_is_not_said_to_be_stable() -> None:
     block = Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
     found = critical.critical(block, "Omega", (5, 20), points=4, kind="sliding")
     assert found.message.startswith("steady sliding has no growing mode at any of the ")
+
+
+def test_a_neutral_mode_does_not_hide_a_stretch_where_another_mode_grows() -> None:
+    """Between values with a growth rate of 0, the search followed rounding errors."""
+
+    def mode(x: float) -> Any:
+        other = 0.1 - abs(x - 1.4)
+        values = np.array([1e4j, -1e4j, other + 2e4j, other - 2e4j])
+        growing = values[values.real > 0]
+        rate = max(0.0, other)
+        return SimpleNamespace(
+            status=SlidingStatus.OK, eigenvalues=values, growing=growing, growth_rate=rate
+        )
+
+    scan = parameter_scan.SlidingScan(Parameters(N=1, Omega=1), "c", 1e-12)
+    scan.motion_of = lambda case: mode(case.c)  # type: ignore[method-assign]
+    for value in (0.0, 1.0, 2.0, 3.0):
+        scan.is_stable(value)
+    scan.refine(1e-3, Bar(0))
+    assert any(not scan.is_stable(value) for value in scan.motions)
+
+
+def test_sliding_that_is_neutral_throughout_takes_no_further_values() -> None:
+    """Each third of the values was examined for an extreme of rounding errors."""
+    block = Parameters(n_diameters=-1, N=100, Omega=10, c_p=0, mu_s=0.4, mu_k=0.4)
+    found = critical.critical(block, "Omega", (5, 20), points=9, kind="sliding")
+    assert found.values.size == 9
+    np.testing.assert_array_equal(found.growth_rate, np.zeros(9))
 
 
 def made_up(crossings: list[float], unstable_above: list[bool]) -> critical.Critical:

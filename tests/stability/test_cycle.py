@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from disc_model import Parameters, floquet, simulate, sweep
+from disc_model import Parameters, floquet, simulate, steady_sliding, sweep
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.engine import transitions
 from disc_model.errors import DiscModelError
@@ -370,3 +370,13 @@ def test_the_message_says_how_far_a_motion_was_followed(monkeypatch: pytest.Monk
     assert "as guess" in found.message
     monkeypatch.setattr("disc_model.stability.cycle.NEAR_REPEAT", 0.0)
     assert "or 60 releases later" in floquet(SLOW).message
+
+
+@pytest.mark.compiled
+def test_a_cycle_has_the_growth_rate_of_sliding_by_the_name_that_sweeps_give_it() -> None:
+    """A sweep of floquet has sliding_growth_rate; its result had none."""
+    case = Parameters(N=385, Omega=15)
+    cycle = floquet(case)
+    assert cycle.sliding_growth_rate == steady_sliding(case).growth_rate
+    swept = sweep(floquet, case, Omega=[15])
+    assert swept["sliding_growth_rate"].item() == cycle.sliding_growth_rate

@@ -1,16 +1,22 @@
 """Steady sliding: an equilibrium with the flow's eigenvalues, or why there is none."""
 
 import math
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from disc_model import Disc, Parameters, plate_modes, steady_sliding
+from disc_model import Disc, Parameters, plate_modes, steady_sliding, sweep
 from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine import transitions
 from disc_model.simulation.states import State
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, height_of_slider, split_rows
+from disc_model.stability.sliding import (
+    SlidingStatus,
+    SteadySliding,
+    described,
+    height_of_slider,
+    linearised,
+    split_rows,
+)
 from disc_model.stability.sliding_modes import follow_modes, sliding_modes
 from tests.contact_laws import ALL_LAWS, COMPILES
 from tests.engine.full_system import Full
@@ -222,6 +228,49 @@ def test_neutral_sliding_is_not_called_stable_by_rounding():
     assert steady_sliding(undamped.replace(c_p=1.0)).stable
 
 
+BRAKE = Parameters(
+    N=4000,
+    Omega=10,
+    E=210e9,
+    rho=7850,
+    nu=0.3,
+    a=0.05,
+    b=0.15,
+    r_0=0.12,
+    h=0.008,
+    m=0.3,
+    k=5e5,
+    k_p=5e5,
+    mu_s=0.45,
+    mu_k=0.35,
+    damping_ratio=5e-4,
+    normalization="orthonormal",
+    friction_offset="surface",
+    contact_arc=0.4,
+    n_diameters=6,
+)
+"""A steel disc, damped, under a pad without a damper in the plane, whose sliding is neutral."""
+
+
+def test_the_growth_rate_of_neutral_sliding_is_exactly_0():
+    """Half of the points of a sweep over the speed grew, by 4e-13/s."""
+    speeds = np.linspace(10, 40, 7)
+    swept = sweep(steady_sliding, BRAKE, Omega=speeds)
+    np.testing.assert_array_equal(swept["growth_rate"], np.zeros(7))
+    cases = [BRAKE.replace(Omega=speed) for speed in speeds]
+    largest = [steady_sliding(case).eigenvalues[0].real for case in cases]
+    assert np.any(largest)  # eigenvalues are as computed
+    for case in cases:
+        found = steady_sliding(case)
+        assert found.neutral.size == 1
+        rates = sliding_modes(case).growth_rate
+        assert np.count_nonzero(rates == 0) == 1
+        assert rates.max() == 0
+        ratios = sliding_modes(case).damping_ratio
+        np.testing.assert_array_equal(ratios[rates == 0], [0.0])
+        assert not np.signbit(ratios[rates == 0]).any()
+
+
 # ------------------------------------------------------------------------ modes
 def test_modes_are_the_eigenvalues_of_steady_sliding():
     """With what brake engineers read from them: frequency in Hz, damping ratio, number of unstable
@@ -382,8 +431,10 @@ def test_the_force_of_sliding_has_the_symbol_of_its_direction(force, symbol):
 
 def test_a_growth_rate_that_is_rounding_is_written_as_0() -> None:
     """It was 2e-13 1/s of sliding that is neutral."""
-    values = np.array([2e-13 + 1e4j, 2e-13 - 1e4j, -5.0 + 2e4j, -5.0 - 2e4j])
-    sliding = replace(steady_sliding(P), eigenvalues=values, growth_rate=2e-13)
+    values = np.array([-5.0 + 2e4j, 2e-13 + 1e4j, 2e-13 - 1e4j, -5.0 - 2e4j])
+    sliding = described(P, linearised(P), values)
+    assert sliding.growth_rate == 0
+    assert sliding.eigenvalues[0] == 2e-13 + 1e4j
     assert not sliding.stable
     assert not sliding.growing.size
     assert "growth rate 0 1/s" in repr(sliding)

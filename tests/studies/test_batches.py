@@ -18,7 +18,8 @@ from disc_model.simulation.case import Start
 from disc_model.studies import grid as parts_of
 from disc_model.studies import run
 from disc_model.studies.grid import GridStudy
-from disc_model.studies.merge import failures, merge_batches
+from disc_model.studies.merge import merge_batches
+from disc_model.studies.point_lists import failures
 from disc_model.studies.quantity import WORK, Point
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import parse_study

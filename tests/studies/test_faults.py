@@ -57,6 +57,44 @@ def test_the_faults_of_a_study_come_in_one_error() -> None:
         assert_named(faults, words)
 
 
+TYPO_OF_AN_AXIS = {
+    "study": "q",
+    "quantity": "floquet",
+    "base": {"damping_ratio": 0.001},
+    "axes": {"Omega": {"strat": 20, "stop": 30, "count": 3}, "N": [200, 300]},
+}
+
+
+def test_a_typo_in_an_axis_adds_no_fault_of_what_was_never_written() -> None:
+    """The third fault was of a D_star, which stood for the start."""
+    faults = faults_of(parse_study, TYPO_OF_AN_AXIS)
+    assert [fault.split(":")[0] for fault in faults] == ["axes.Omega.start", "axes.Omega.strat=20"]
+
+
+@pytest.mark.parametrize("part", ["start", "stop"])
+def test_without_a_part_of_an_axis_the_rest_is_still_checked(part: str) -> None:
+    axis = {"start": 20, "stop": 30, "count": 3}
+    del axis[part]
+    changes = {"axes": {"Omega": axis, "N": [200], "k": [4e4]}, "base": {"k": 5e4}}
+    faults = faults_of(parse_study, TYPO_OF_AN_AXIS | changes)
+    assert [fault.split(":")[0] for fault in faults] == [f"axes.Omega.{part}", "axes.k"]
+
+
+def test_a_typo_of_the_step_of_an_axis_is_one_fault() -> None:
+    axes = {"Omega": {"start": 20, "stop": 30, "setp": 5}, "N": [200]}
+    [fault] = faults_of(parse_study, TYPO_OF_AN_AXIS | {"axes": axes})
+    assert fault.startswith("axes.Omega.setp=5: unknown key")
+
+
+@pytest.mark.parametrize("record", ["every second", {"windows": "late"}])
+def test_a_figure_of_a_window_is_not_at_fault_where_the_record_is(record: Any) -> None:
+    case = {"t_end": 3, "parameters": {"N": 300, "Omega": 10}}
+    figure = {"kind": "history", "case": "A", "window": "late"}
+    raw = {"study": "q", "cases": {"A": case}, "figures": {"f": figure}, "record": record}
+    [fault] = faults_of(parse_study, raw)
+    assert fault.startswith("record")
+
+
 MANY = """
 study: many
 quantity: floquet

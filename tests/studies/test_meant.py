@@ -191,3 +191,46 @@ def test_an_argument_of_a_sweep_has_the_name_of_an_option(
 def test_one_mode_is_counted_as_one() -> None:
     case = dm.Parameters(N=300, Omega=12, r_0=0.1, disc=dm.Disc(**DISC))
     assert "1 mode<" in case._repr_html_()
+
+
+# ---- Figures of a study with one axis more
+
+
+OF_SLIDING: dict[str, Any] = {
+    "study": "s",
+    "quantity": "sliding",
+    "base": {"N": 200},
+    "axes": {"mu_k": [0.1, 0.2]},
+    "options": {"scan": {"start": 10, "stop": 20, "count": 2}},
+}
+
+
+@pytest.mark.parametrize("kind", ["sliding_modes", "root_locus"])
+def test_the_key_that_names_a_further_axis_is_told(kind: str) -> None:
+    """The message said that the figure cannot show it."""
+    figures = {"f": {"kind": kind}}
+    [fault] = faults_of(lambda: parse_study({**OF_SLIDING, "figures": figures}).grids())
+    assert fault.endswith("to show each value of mu_k, write by: mu_k")
+    figures["f"]["by"] = "mu_k"
+    assert parse_study({**OF_SLIDING, "figures": figures}).grids()
+
+
+def test_a_campbell_diagram_tells_the_key_beside_a_single_normalization() -> None:
+    axes = {"Omega": [10, 20], "mu_k": [0.1, 0.2], "normalization": ["as_published", "orthonormal"]}
+    raw = {"study": "s", "quantity": "campbell", "base": {"N": 200}, "axes": axes}
+    several = raw | {"figures": {"f": {"kind": "campbell"}}}
+    [fault] = faults_of(lambda: parse_study(several).grids())
+    assert "by: mu_k" not in fault
+    one = raw | {"figures": {"f": {"kind": "campbell", "normalization": "orthonormal"}}}
+    [fault] = faults_of(lambda: parse_study(one).grids())
+    assert fault.endswith("write by: mu_k")
+
+
+def test_a_figure_with_lines_for_another_axis_tells_the_key() -> None:
+    starts = {"perturbation_u": [1e-4, 2e-4], "mu_k": [0.1, 0.2]}
+    raw = {**GRID, "base": {"N": 200, "Omega": 12}, "axes": starts}
+    figures = {"f": {"kind": "escape"}}
+    [fault] = faults_of(lambda: parse_study({**raw, "figures": figures}).grids())
+    assert fault.endswith("needs the dimension N; to show each value of mu_k, write by: mu_k")
+    figures["f"]["by"] = "mu_k"
+    assert parse_study({**raw, "figures": figures}).grids()

@@ -9,8 +9,8 @@ import xarray as xr
 from disc_model.data.dataset import load_result, save
 from disc_model.errors import script
 from disc_model.studies.batch import MergePlan
-from disc_model.studies.merge import failures, merge_batches, remarks
-from disc_model.studies.point_lists import point_list
+from disc_model.studies.merge import merge_batches
+from disc_model.studies.point_lists import failures, point_list, remarks
 
 
 @script
@@ -18,6 +18,7 @@ def main(output: str, failed: str, remarked: str, folder: str) -> None:
     plan = MergePlan.model_validate_json(sys.stdin.read())
     batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
-    for path, lines in ((failed, failures(study)), (remarked, remarks(study))):
+    for path, listed in ((failed, failures), (remarked, remarks)):
+        lines = listed(study, plan.units)
         Path(path).write_text(point_list(lines), encoding="utf-8")
     save(xr.DataTree(study), output)

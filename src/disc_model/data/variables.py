@@ -313,6 +313,11 @@ def unit_of_parameter(name: str) -> str:
     return "" if unit == "1" else unit
 
 
+def value_with_unit(name: str, value: float) -> str:
+    """A value of a parameter with its name and its unit of SI, in a message."""
+    return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()
+
+
 def attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)

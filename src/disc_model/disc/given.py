@@ -72,7 +72,8 @@ class DiscReport(Summarised):
     source : name of the file
     modes : a `ModeOrigin` for each mode of the disc, in its order
     left_out : number of datasets or modes that were not used, by the reason
-    notes : how the file was understood: axis, centre, circle of nodes, units; of a table each column
+    notes : how the file was understood: axis, centre, circle of nodes, units; of a table each column, also those
+        that were passed over
     doubts : what a reader should check; each was also given as a warning
 
     Examples

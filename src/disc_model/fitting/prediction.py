@@ -82,13 +82,12 @@ class Prediction:
 
     @cached_property
     def sliding(self) -> complex:
-        """Leading eigenvalue of steady sliding, 1/s, with an imaginary part >= 0. Raises
-        `Unpredicted` without steady sliding."""
+        """Leading eigenvalue of steady sliding, 1/s, with an imaginary part >= 0; its real part is 0
+        where it is nothing but rounding. Raises `Unpredicted` without steady sliding."""
         found = steady_sliding(self.case)
         if not found.eigenvalues.size:
             raise Unpredicted(found.message.removeprefix(f"{found.status.value}: "))
-        leading = complex(found.eigenvalues[0])
-        return complex(leading.real, abs(leading.imag))
+        return complex(found.growth_rate, abs(found.eigenvalues[0].imag))
 
     def frequency(self, diameters: int, circles: int) -> float:
         """Natural frequency of a mode of the disc, Hz."""

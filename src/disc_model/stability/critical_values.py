@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from disc_model.arrays import Array, EqualByValue, Mask
-from disc_model.data.variables import unit_of_parameter
+from disc_model.data.variables import unit_of_parameter, value_with_unit
 from disc_model.display import Drawn, counted, html_table
 from disc_model.parameters import Parameters
-from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.cycle import STICK_SLIP
 from disc_model.stability.parameter_scan import SLIDING
 
@@ -133,7 +132,7 @@ class Critical(Drawn, EqualByValue):
         places = self.values[self.sliding_growth_rate > 0]
         if self.kind == SLIDING or not places.size:
             return ""
-        lowest, highest = (value_text(self.name, each) for each in (places[0], places[-1]))
+        lowest, highest = (value_with_unit(self.name, each) for each in (places[0], places[-1]))
         said = "no cycle exists, and steady sliding is unstable"
         if places.size == 1:
             return f"at {lowest} {said}"
@@ -191,7 +190,7 @@ class Critical(Drawn, EqualByValue):
             return f"{message}; steady sliding is asked for by kind='sliding'"
         if not self.at_lower_bound:
             return ""
-        return f"already unstable at the lower bound, {value_text(self.name, self.value)}"
+        return f"already unstable at the lower bound, {value_with_unit(self.name, self.value)}"
 
     @property
     def _range_searched(self) -> str:

@@ -72,7 +72,8 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     releases, backward_releases, reversals, separations, sticks : numbers of these events in a period
     residual : residual of the return map, relative to the norm of the static deflection
     kind : "stick_slip", or "slipping" for a cycle that slips all the time
-    sliding : steady sliding of the same case
+    sliding, sliding_growth_rate : steady sliding of the same case, and its growth rate, 1/s, nan without it; computed
+        where they are asked for
     """
 
     _picture = "plot_multipliers"
@@ -126,6 +127,11 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     def sliding(self) -> SteadySliding:
         """Steady sliding of the same case."""
         return steady_sliding(self.parameters)
+
+    @property
+    def sliding_growth_rate(self) -> float:
+        """The growth rate of steady sliding of the same case, 1/s; nan without it."""
+        return self.sliding.growth_rate
 
     @property
     def stable(self) -> bool:

@@ -14,7 +14,7 @@ from disc_model.display import Bar
 from disc_model.parameters import Parameters
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
+from disc_model.stability.sliding import SlidingStatus, SteadySliding, growth_rates, steady_sliding
 
 SLIDING = "sliding"
 # times that places of suspected instability are predicted anew, from the cycles beside them
@@ -118,16 +118,22 @@ class SlidingScan(Scan):
                 continue
             sign = -1.0 if stable == {True} else 1.0
             ends = sign * np.array([self._rate(x) for x in (low, middle, high)])
-            if ends[1] <= min(ends[0], ends[2]):
+            is_flat = ends[0] == ends[1] == ends[2]  # neutral at all three: there is no extreme
+            if ends[1] <= min(ends[0], ends[2]) and not is_flat:
                 search = partial(self._signed_rate, sign)
                 minimize_scalar(
                     search, bounds=(low, high), method="bounded", options={"xatol": narrowest}
                 )
 
     def _rate(self, x: float) -> float:
-        """The growth rate at a value, 1/s, which is known then."""
+        """The growth rate at a value, 1/s, of modes that are not neutral, which hide what happens to
+        others; 0 if all are, nan without steady sliding."""
         self.is_stable(x)
-        return float(self.motions[x].growth_rate)
+        sliding = self.motions[x]
+        rates = growth_rates(sliding.eigenvalues)
+        if not rates.any():
+            return float(sliding.growth_rate)
+        return float(rates[rates != 0].max())
 
     def _signed_rate(self, sign: float, x: float) -> float:
         return sign * self._rate(float(x))

@@ -67,7 +67,7 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
     a, b, alpha, beta : shape (n_modes,), rows of `plate_modes`
     eigenvalues : 1/s, complex, largest real part first; (4 per pair of modes + 2 per axisymmetric mode + 2,),
         plus 2 on a compliant contact
-    growth_rate : 1/s, largest real part of the eigenvalues
+    growth_rate : 1/s, largest real part of the eigenvalues, and exactly 0 where that is nothing but rounding
     jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
         u, u' on a compliant contact
     parameters : as given to `steady_sliding`
@@ -107,28 +107,27 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
 
     @property
     def rate_text(self) -> str:
-        """The growth rate with its unit; 0 if it is nothing but rounding, "" if there is none."""
-        is_rounding = abs(self.growth_rate) <= _rounding(self.eigenvalues)
-        return number_text(0.0 if is_rounding else self.growth_rate, "1/s")
+        """The growth rate with its unit; "" if there is none."""
+        return number_text(self.growth_rate, "1/s")
 
     @property
     def stable(self) -> bool:
         """Whether the growth rate is negative by more than rounding, so that small disturbances
         decay; False if neutral, as with an undamped slider (c_p = 0) when no mode grows."""
-        return self.growth_rate < -_rounding(self.eigenvalues)
+        return self.growth_rate < 0
 
     @property
     def growing(self) -> ComplexArray:
         """Eigenvalues of modes that grow by more than rounding, 1/s, (n,); of a conjugate pair the
         upper one."""
-        grows = self.eigenvalues.real > _rounding(self.eigenvalues)
+        grows = growth_rates(self.eigenvalues) > 0
         return self.eigenvalues[grows & (self.eigenvalues.imag >= 0)]
 
     @property
     def neutral(self) -> ComplexArray:
         """Eigenvalues of modes that neither grow nor decay by more than rounding, 1/s, (n,); of a
         conjugate pair the upper one."""
-        rests = np.abs(self.eigenvalues.real) <= _rounding(self.eigenvalues)
+        rests = growth_rates(self.eigenvalues) == 0
         return self.eigenvalues[rests & (self.eigenvalues.imag >= 0)]
 
 
@@ -136,6 +135,13 @@ def _rounding(eigenvalues: ComplexArray) -> float:
     """Error of eigenvalues, 1/s: a solver rounds relative to the largest, once for each of n
     rows."""
     return float(np.finfo(float).eps * np.abs(eigenvalues).max(initial=0) * eigenvalues.size)
+
+
+def growth_rates(eigenvalues: ComplexArray) -> Array:
+    """The real parts of all eigenvalues of a matrix, 1/s, and exactly 0 where they are nothing but
+    rounding, so that their signs tell growth from decay."""
+    rates = np.asarray(eigenvalues.real, dtype=float)
+    return np.where(np.abs(rates) <= _rounding(eigenvalues), 0.0, rates)
 
 
 def steady_sliding(case: Parameters) -> SteadySliding:
@@ -255,22 +261,22 @@ def described(case: Parameters, found: Linearised, values: np.ndarray) -> Steady
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
     symbol = "R" if case.contact_force == "normal" else "P"
     force = f"{symbol} = {found.contact_force:.6g} N"
+    growth_rate = float(growth_rates(eigenvalues)[0])
     return SteadySliding(
         status=SlidingStatus.OK,
-        message=f"steady sliding with {force}, {_verdict(eigenvalues)}",
+        message=f"steady sliding with {force}, {_verdict(growth_rate)}",
         eigenvalues=eigenvalues,
-        growth_rate=float(eigenvalues[0].real),
+        growth_rate=growth_rate,
         parameters=case,
         **found._asdict(),
     )
 
 
-def _verdict(eigenvalues: ComplexArray) -> str:
-    """The stability of an equilibrium in a word, from its eigenvalues, largest real part first."""
-    growth = float(eigenvalues[0].real)
-    if abs(growth) <= _rounding(eigenvalues):
+def _verdict(growth_rate: float) -> str:
+    """The stability of an equilibrium in a word, from its growth rate."""
+    if growth_rate == 0:
         return "neutral"
-    return "stable" if growth < 0 else "not stable"
+    return "stable" if growth_rate < 0 else "not stable"
 
 
 def absent(p: Parameters, status: SlidingStatus) -> SteadySliding:

@@ -16,6 +16,7 @@ from disc_model.stability.sliding import (
     SteadySliding,
     absent,
     described,
+    growth_rates,
     join_rows,
     linearised,
     split_rows,
@@ -28,8 +29,9 @@ class SlidingModes:
 
     Attributes
     ----------
-    frequency, growth_rate : Hz, 1/s, shape (n,), in the slider's frame
-    damping_ratio : (n,), negative for a mode that grows
+    frequency, growth_rate : Hz, 1/s, shape (n,), in the slider's frame; a growth rate is exactly 0 where it is
+        nothing but rounding
+    damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
     diameters : (n,), nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
     forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
     shapes : (rows of `SteadySliding.jacobian`, n)
@@ -65,6 +67,7 @@ def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
 def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:
     """The modes of eigenvalues, (n,), and eigenvectors, (n, n), by ascending frequency."""
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
+    growth_rate = growth_rates(values)[order]
     values = values[order]
     vectors = np.asarray(vectors[:, order], dtype=complex)
     if not order:
@@ -91,8 +94,8 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
     return SlidingModes(
         frequency=values.imag / (2 * math.pi),
-        growth_rate=np.asarray(values.real, dtype=float),
-        damping_ratio=np.asarray(-values.real / np.abs(values), dtype=float),
+        growth_rate=growth_rate,
+        damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
         diameters=np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
         forward=forward,
         shapes=vectors,

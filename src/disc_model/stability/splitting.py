@@ -23,7 +23,7 @@ import numpy as np
 
 from disc_model.arrays import EqualByValue, Indices
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.plate import Modes, mode_arrays
+from disc_model.disc.plate import Modes, modal_damping, mode_arrays
 from disc_model.display import Summarised
 from disc_model.errors import (
     Fault,
@@ -35,7 +35,7 @@ from disc_model.errors import (
 )
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.stability.return_map import Array
-from disc_model.stability.sliding import SlidingStatus, split_rows, steady_sliding
+from disc_model.stability.sliding import SlidingStatus, growth_rates, split_rows, steady_sliding
 from disc_model.units import in_si, is_number
 
 if TYPE_CHECKING:
@@ -49,7 +49,8 @@ LARGE = 1e100  # size of a propagator that is scaled down
 NOTICED = 0.1  # relative change of the growth rate that matters,
 ZERO = 1e-9  # 1/s, growth rate that is 0 but for rounding,
 ROUNDING = 1e-12  # and over the largest one
-LEAST = 1e-6  # 1/s, if it is more than this, which changes a motion by a tenth in a day
+LEAST = 1e-6  # 1/s, if it is more than this, which changes a motion by a tenth in a day,
+OF_DAMPING = 0.01  # and than this share of the pairs' damping, which no test finds more accurately
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -65,12 +66,14 @@ class SplitGrowth(Summarised, EqualByValue):
     apart : 1/s, with each half by itself, which large splits approach
     pairs : DataFrame with a row for each pair: diameters, circles, frequency_Hz, split, and growth
         rates together and apart of the modes of steady sliding in which this pair moves most
+    damping_rate : 1/s, the least rate at which a pair with a split decays without contact; 0 without damping
     """
 
     together: float
     growth_rate: float
     apart: float
     pairs: "pd.DataFrame"
+    damping_rate: float = 0.0
 
     def __repr__(self) -> str:
         together, growth_rate, apart = self._texts()
@@ -85,10 +88,12 @@ class SplitGrowth(Summarised, EqualByValue):
     @property
     def matters(self) -> bool:
         """Whether the splits change the growth rate by more than a tenth, or its sign, and by more
-        than 1e-6/s: without dampers it may be zero to rounding."""
+        than can be told: a hundredth of `damping_rate`, and 1e-6/s, since without dampers it may be zero
+        to rounding."""
         changes_sign = (self.together > 0) != (self.growth_rate > 0)
         change = abs(self.growth_rate - self.together)
-        return change > LEAST and (changes_sign or change > NOTICED * abs(self.together))
+        least = max(LEAST, OF_DAMPING * self.damping_rate)
+        return change > least and (changes_sign or change > NOTICED * abs(self.together))
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         together, growth_rate, apart = self._texts()
@@ -164,7 +169,14 @@ def split_growth(case: Parameters, split: float | Iterable[float] | None = None)
     if any(splits[pair.mode] > 0 for pair in pairs):
         growth_rate = _floquet_growth(case, modes, pairs, splits, sliding.jacobian)
     apart = max([*table["apart"], *others], default=sliding.growth_rate)
-    return SplitGrowth(sliding.growth_rate, growth_rate, float(apart), table)
+    damping_rate = _damping_rate(case, pairs, splits)
+    return SplitGrowth(sliding.growth_rate, growth_rate, float(apart), table, damping_rate)
+
+
+def _damping_rate(p: Parameters, pairs: list[Pair], splits: list[float]) -> float:
+    """The least rate, 1/s, at which a pair with a split decays without contact; 0 if none has one."""
+    rates = modal_damping(p) / 2
+    return min((float(rates[pair.mode]) for pair in pairs if splits[pair.mode] > 0), default=0.0)
 
 
 def _splits(p: Parameters, split: Any, modes: Modes) -> list[float]:
@@ -210,7 +222,7 @@ def _waves(
 
     values, vectors = np.linalg.eig(jacobian)
     upper = values.imag > 0
-    values = values[upper]
+    growth = growth_rates(values)[upper]
     energy = np.abs(vectors[:, upper].T) ** 2 * _weights(p, modes, pairs)
     share = energy / energy.sum(axis=1, keepdims=True)
     used: set[int] = set()
@@ -219,7 +231,7 @@ def _waves(
         of_pair = share[:, [pair.a, pair.alpha, pair.b, pair.beta]].sum(axis=1)
         both = np.argsort(of_pair)[::-1][:2]
         used |= set(both.tolist())
-        rates = values.real[both]
+        rates = growth[both]
         rows.append(
             {
                 "diameters": int(modes.diameters[pair.mode]),
@@ -230,7 +242,7 @@ def _waves(
                 "apart": float(rates.mean()),
             }
         )
-    others = [float(value.real) for i, value in enumerate(values) if i not in used]
+    others = [rate for i, rate in enumerate(growth.tolist()) if i not in used]
     columns = ["diameters", "circles", "frequency_Hz", "split", "together", "apart"]
     return pd.DataFrame(rows, columns=columns), others
 

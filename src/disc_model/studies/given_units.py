@@ -19,11 +19,18 @@ OF_OPTIONS = {
 def given_units(content: Mapping[str, Any]) -> dict[str, str]:
     """Units of the parameters of a study file, along its axes, zips and ranges of its options, and of those of
     its base: those in which all values of an axis are given, where figures have another one by themselves."""
+    stated = stated_units(content)
+    return {name: unit for name, unit in stated.items() if _is_another(name, unit)}
+
+
+def stated_units(content: Mapping[str, Any]) -> dict[str, str]:
+    """Units of these parameters, in which all values of an axis are given, whether figures have them by
+    themselves or not."""
     units = {}
     for name, values in _given(content):
         found = {unit_of_text(text) for text in _texts(values)}
         unit = found.pop() if len(found) == 1 else ""
-        if unit and _is_another(name, unit):
+        if unit and _size(name, unit):
             units[name] = unit
     return units
 
@@ -59,9 +66,14 @@ def _texts(values: Any) -> Iterator[str]:
 
 
 def _is_another(name: str, unit: str) -> bool:
-    """Whether a unit is of the kind of a parameter's, and another one than figures have for it."""
+    """Whether a unit of a parameter is another one than figures have for it."""
+    return abs(_size(name, unit) * SHOWN[name].factor - 1) > 1e-12
+
+
+def _size(name: str, unit: str) -> float:
+    """The size in SI of a unit of the kind of a parameter's; 0 of another kind."""
     if name not in SHOWN or si_unit(name) in ("", "1"):
-        return False
+        return 0.0
     wrong: list[Any] = []
     size = in_si(f"1 {unit}", si_unit(name), wrong, ())
-    return not wrong and abs(size * SHOWN[name].factor - 1) > 1e-12
+    return 0.0 if wrong else float(size)

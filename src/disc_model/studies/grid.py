@@ -429,7 +429,10 @@ class GridStudy:
     @property
     def merge_plan(self) -> MergePlan:
         """What merging the batches needs beside their files."""
-        return MergePlan(batches=tuple(sorted(self.batches)), grid=self.grid, attrs=self.attrs)
+        known = self.file.stated_units
+        units = {name: known[name] for name in self.varied if name in known}
+        batches = tuple(sorted(self.batches))
+        return MergePlan(batches=batches, grid=self.grid, attrs=self.attrs, units=units)
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:

@@ -16,7 +16,10 @@ ANY_NAMES = {"study": "study"}  # and required texts
 REQUIRED = "is required"  # what a value that was left out leaves behind,
 SAME_VALUES = ("name", "parameter", "count", "exponents")
 """Options that take what arguments of another name do."""
-EMPTY = "must not be empty"  # and what the only one does
+OF_WHAT_IS_LEFT = ("must not be empty", "must give either")
+"""Beginnings of rules that a mapping or list breaks for want of what was left out of it."""
+NOT_RECORDED = "is not recorded"
+"""What a figure's rule says of a window that was left out."""
 
 
 def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], object]) -> list[str]:
@@ -37,6 +40,8 @@ def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], obje
         for fault in latest:
             mended |= _mend(rest, fault, left_out)
         if not mended:
+            mended = _leave_out_axes(rest, latest, left_out)
+        if not mended:
             break
         try:
             check(rest)
@@ -54,9 +59,11 @@ def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> b
     by its name; returns whether it was found in the content."""
     *outer, last = fault.path or ("",)
     if REQUIRED in fault.rule:  # some number stands for one that is wrong or missing
-        if last not in left_out and fault.path[:1] == ("axes",):
-            left_out[last] = ("base", last)
-        return _fill(content, left_out.get(last, ()))
+        place = left_out.get(last, ())
+        if tuple(outer) == ("axes",):  # and not a part of an axis, such as its start
+            place = ("base", last)
+            left_out.setdefault(last, place)
+        return _fill(content, place)
     parent = _within(content, outer)
     if _entry(parent, last) is None:
         return False
@@ -66,6 +73,21 @@ def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> b
         del parent[last]
         left_out[last] = fault.path
     return True
+
+
+def _leave_out_axes(
+    content: Any, faults: Sequence[Fault], left_out: dict[str, tuple[str, ...]]
+) -> bool:
+    """Leave out axes without a required part, such as their start; returns whether there are any."""
+    axes = _entry(content, "axes")
+    found = False
+    for fault in faults:
+        part, *inner = fault.path or ("",)
+        if part == "axes" and len(inner) > 1 and _entry(axes, inner[0]) is not None:
+            del axes[inner[0]]
+            left_out[inner[0]] = (part, inner[0])
+            found = True
+    return found
 
 
 def _mend_value(parent: dict[str, Any], name: str, fault: Fault) -> bool:
@@ -153,8 +175,11 @@ def _is_further(fault: Fault, left_out: Mapping[str, Sequence[str]]) -> bool:
     without_axis = any(path[0] in ("axes", "zip") for path in left_out.values())
     if without_axis and fault.path[:1] == ("figures",):
         return False
-    emptied = [path[:-1] for path in left_out.values()]
-    if fault.rule == EMPTY and fault.path in emptied:
+    shortened = [path[:-1] for path in left_out.values()]
+    if fault.path in shortened and fault.rule.startswith(OF_WHAT_IS_LEFT):
+        return False
+    without_records = any("record" in path for path in left_out.values())
+    if without_records and fault.path[:1] == ("figures",) and NOT_RECORDED in fault.rule:
         return False
     without_cases = ("cases",) in left_out.values()
     if without_cases and fault.path[:1] == ("figures",) and fault.path[-1:] == ("case",):

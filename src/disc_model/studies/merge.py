@@ -5,7 +5,7 @@ variables along it.
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
 from disc_model.data.missing import explained
-from disc_model.data.variables import EXCLUDED, WITHOUT_CYCLE, Variable, flag_names
-from disc_model.errors import DiscModelError, as_text
+from disc_model.data.variables import EXCLUDED, Variable
+from disc_model.errors import DiscModelError
 from disc_model.parameters import PLATE, RATIOS
 from disc_model.studies.batch import Batch, GridAxis
 from disc_model.studies.quantity import Quantity
@@ -142,44 +142,6 @@ def fixed_base(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity
     if "disc" in names or base.get("disc") is not None:
         varied.update((*PLATE, "damping_ratio"))
     return {name: value for name, value in base.items() if name not in varied}
-
-
-def failures(study: xr.Dataset) -> Iterator[str]:
-    """Yield one line for each point without a result: its parameters, status and message."""
-    status = flag_names(study["status"])
-    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED)):
-        word = str(flag_names(point["status"]))
-        yield f"{place}: {_status_text(word, str(point['message'].item()))}"
-
-
-def remarks(study: xr.Dataset) -> Iterator[str]:
-    """Yield one line for each point with a result and a message: its parameters and the message."""
-    status = flag_names(study["status"])
-    for place, point in _points_at(study, (status == "ok") & (study["message"].values != "")):
-        yield f"{place}: {point['message'].item()}"
-
-
-def _points_at(study: xr.Dataset, mask: np.ndarray) -> Iterator[tuple[str, xr.Dataset]]:
-    """Yield some points of a study, each with its parameters as a text."""
-    dims = study["status"].dims
-    varied = [str(name) for name in study.coords if {*study[name].dims} <= {*dims}]
-    for index in np.argwhere(mask):
-        point = study.isel(dict(zip(dims, index, strict=True)))
-        yield _point_text({name: point[name].item() for name in varied}), point
-
-
-def _point_text(values: Mapping[str, Any]) -> str:
-    """Return the values of a point in a line."""
-    parts = []
-    for name, value in values.items():
-        parts.append(f"{name} = {value if isinstance(value, str) else as_text(value)}")
-    return ", ".join(parts)
-
-
-def _status_text(word: str, message: str) -> str:
-    """Return a status and a message in a line, the status once."""
-    what = WITHOUT_CYCLE.get(word, word)
-    return message if message.startswith(what) else f"{what}: {message}"
 
 
 def _excluded(variable: xr.DataArray) -> tuple[Any, dict[str, Any]]:

@@ -41,7 +41,7 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.given_units import given_units
+from disc_model.studies.given_units import given_units, stated_units
 from disc_model.studies.grid import (
     GRID_KEYS,
     STATIC,
@@ -359,6 +359,7 @@ class Study(Strict):
     )  # of values in these files, by the name of the study
     _tables: dict[str, str] = PrivateAttr(default_factory=dict)
     _axis_units: dict[str, str] = PrivateAttr(default_factory=dict)
+    _stated_units: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -393,6 +394,11 @@ class Study(Strict):
     def axis_units(self) -> Mapping[str, str]:
         """The units in which the file gives its base and what varies, by parameter."""
         return self._axis_units
+
+    @property
+    def stated_units(self) -> Mapping[str, str]:
+        """The units that the file states for its base and what varies, by parameter."""
+        return self._stated_units
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -558,6 +564,7 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
         faults = all_faults(content, error.faults, _validated)
         raise StudyError(*faults, source=source) from None
     study._axis_units = given_units(mapping(raw))
+    study._stated_units = stated_units(mapping(raw))
     if folder is not None:
         study._tables = _tables_of(raw, folder)
     return study

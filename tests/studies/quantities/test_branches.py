@@ -164,7 +164,7 @@ def test_what_a_sweep_finds_is_stored_by_its_direction_and_value(
     monkeypatch.setattr(cycle, "find_cycle", lambda p: none)
     options = Branches.model_validate(OPTIONS)
     found, message = options.compute_point(Point(case))
-    assert message == "Omega=15: no steps"
+    assert message == "Omega = 15 rad/s: no steps"
     assert found["status"] == "failed"
     assert found["sweep_range"][0, 2] == 0.003
     assert found["sweep_separation_rate"][0, 2] == 40.0

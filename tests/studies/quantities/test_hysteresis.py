@@ -122,7 +122,7 @@ def test_there_is_no_offset_where_the_sweep_fails_before_separation_ends(
     options = Hysteresis(scan={"start": 10, "stop": 13, "step": 1}, dwell=9, evaluation_time=1)
     values, message = options.compute_point(Point(Parameters(N=200, Omega=0)))
     assert "offset_speed" not in values
-    assert message == "Omega=11: lost"
+    assert message == "Omega = 11 rad/s: lost"
 
 
 def test_on_ramps_the_offset_is_that_of_the_last_separation_unless_it_goes_on(
@@ -179,4 +179,4 @@ def test_a_sweep_that_ends_says_at_which_speed(monkeypatch: pytest.MonkeyPatch) 
     monkeypatch.setattr(attractors, "sweep", lambda *how: [((0, 3), lost, None, arrival)])
     options = Hysteresis.model_validate({"scan": SCAN, "dwell": 60})
     table = compute(options, [Point(Parameters(N=200, Omega=0))])
-    assert table.messages == ["Omega=13.5: no steps"]
+    assert table.messages == ["Omega = 13.5 rad/s: no steps"]

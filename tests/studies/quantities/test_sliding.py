@@ -55,7 +55,7 @@ def test_columns_are_those_of_steady_sliding_at_each_value() -> None:
 def test_where_there_is_no_sliding_the_message_says_at_which_value() -> None:
     scan = {"start": 0, "stop": 20, "count": 3}
     values, message = Sliding(scan=scan).compute_point(Point(FALLING))
-    assert message.startswith("Omega=0: The disc is not driven")
+    assert message.startswith("Omega = 0 rad/s: The disc is not driven")
     assert np.isnan(values["largest_growth_rate"][0])
     assert np.isfinite(values["largest_growth_rate"][1:]).all()
 

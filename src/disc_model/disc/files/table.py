@@ -128,7 +128,8 @@ def table_text(disc: Disc) -> str:
 def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
     """The disc of the lines of a table."""
     static = stated_compliance(lines)
-    columns = _columns(rows_of([line for line in lines if not line.lstrip().startswith("#")]))
+    rows = rows_of([line for line in lines if not line.lstrip().startswith("#")])
+    columns = _columns(rows)
     values = _values(columns)
     splits = _stated_splits(values, columns)
     values["static_compliance"] = static
@@ -147,7 +148,7 @@ def _disc(lines: list[str], pairs: Pairs, source: str) -> Disc:
         raise ParameterError(*faults) from None
     check_compliance(disc)
     origins = origins_of(halves, values, splits, pairs)
-    notes = [*_notes(columns, disc)]
+    notes = [*_notes(columns, disc), *_passed_over(rows)]
     if any(len(group) > 1 for group in halves):
         notes.append(JOINED[pairs])
     doubts = (*stated_doubts(lines), *doubts_of_halves(origins, OF_A_TEST))
@@ -186,6 +187,15 @@ def _notes(columns: list[Column], disc: Disc) -> Iterator[str]:
             yield f"{head.text!r} as {_range(disc, field)}"
     if not any(disc.damping_ratio):
         yield "no damping"
+
+
+def _passed_over(rows: list[list[str]]) -> Iterator[str]:
+    """Yield of each column of a table that is for readers that it was passed over."""
+    names = rows[0]
+    kept = _without_remarks(_without_labels(rows))[0]
+    for name in names:
+        if name not in kept:
+            yield f"{name!r} passed over"
 
 
 def _range(disc: Disc, field: str) -> str:

@@ -212,14 +212,25 @@ class Plot(Kind):
         """
         missing = [name for name in self.dims if name not in values]
         further = [name for name in values if values[name] and name not in self.allowed]
+        hint = self._hint_of_by(values, missing, further)
         if missing:
-            yield Fault.of(("kind",), self.kind, f"needs the dimension {' and '.join(missing)}")
+            rule = f"needs the dimension {' and '.join(missing)}{hint}"
+            yield Fault.of(("kind",), self.kind, rule)
         elif further:
             shown = ", ".join(self.allowed)
-            rule = f"can show {shown}, but not {', '.join(further)} as well"
+            rule = f"can show {shown}, but not {', '.join(further)} as well{hint}"
             yield Fault.of(("kind",), self.kind, rule)
         elif not self.several and NORM not in self.dims and len(values.get(NORM, ())) > 1:
             yield Fault.of(("kind",), self.kind, f"can show one {NORM} only")
+
+    def _hint_of_by(self, values: Values, missing: Sequence[str], further: Sequence[str]) -> str:
+        """What to write for a single further dimension, where the key `by` may name it: it names one
+        that the study lacks, or normalizations of which there are not several."""
+        by = getattr(self, "by", None)
+        is_unused = by == NORM and not missing and len(values.get(NORM, ())) <= 1
+        if len(further) != 1 or not (is_unused or missing == [by]):
+            return ""
+        return f"; to show each value of {further[0]}, write by: {further[0]}"
 
 
 class Compared(Plot):

@@ -10,6 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from disc_model.data.variables import value_with_unit
 from disc_model.stability.continuation import ends, special
 from disc_model.stability.continuation.curve import (
     CurvePoint,
@@ -25,7 +26,7 @@ from disc_model.stability.continuation.doubling import (
     locate_doubling,
 )
 from disc_model.stability.continuation.ends import End
-from disc_model.stability.continuation.problem import CycleProblem, value_text
+from disc_model.stability.continuation.problem import CycleProblem
 from disc_model.stability.continuation.special import Located, Unlocated
 from disc_model.stability.continuation.tracing import PEAK, BranchTracer, parameter_row
 from disc_model.stability.cycle import FloquetResult
@@ -172,7 +173,9 @@ class Search:
         """The end of the branch at a bound, in words."""
         value = self.span[0] if bound == self.low else self.span[1]
         verb = "passed" if self.steps.beyond else "reached"
-        return End(ends.BOUND, f"the bound {value_text(self.problem.names[0], value)} was {verb}")
+        return End(
+            ends.BOUND, f"the bound {value_with_unit(self.problem.names[0], value)} was {verb}"
+        )
 
     def point_at(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
         """The first point between two neighbours at which the scaled parameter has a value; None if

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from disc_model.data.variables import GIVE_A_GUESS, unit_of_parameter
+from disc_model.data.variables import GIVE_A_GUESS, value_with_unit
 from disc_model.errors import Fault, ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, RESIDUAL, Parameters
 from disc_model.stability.continuation.compliance import CompliantPlate
@@ -91,11 +91,6 @@ def has_own_vibration(p: Parameters) -> bool:
     return p.contact_compliance not in (0, RESIDUAL)
 
 
-def value_text(name: str, value: float) -> str:
-    """A value of a parameter with its name and unit."""
-    return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()
-
-
 class CycleProblem:
     """F of the cycles of a case, in the free parameters `names`.
 
@@ -146,7 +141,7 @@ class CycleProblem:
     def words(self, point: CurvePoint) -> str:
         """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
         values = point.z[self.n :] * self.scales
-        return ", ".join(map(value_text, self.names, values.tolist()))
+        return ", ".join(map(value_with_unit, self.names, values.tolist()))
 
     def map_at(self, z: Array) -> SectionMap:
         """The return map of the case at a point."""

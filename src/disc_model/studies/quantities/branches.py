@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import Field
 
 from disc_model.analysis.classify import ANSWER
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Variable, value_with_unit
 from disc_model.display import counted
 from disc_model.studies.quantity import (
     DIRECTION,
@@ -140,7 +140,7 @@ class Branches(Quantity):
             point.parameters, self.parameter, values, *how
         ):
             if late is None:
-                message = f"{self.parameter}={values[i]:g}: {result.message}"
+                message = f"{value_with_unit(self.parameter, values[i])}: {result.message}"
                 break
             swept["sweep_range"][way, i] = late.range
             swept["sweep_separation_rate"][way, i] = late.separation_rate

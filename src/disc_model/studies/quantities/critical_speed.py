@@ -10,7 +10,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Variable, value_with_unit
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import (
     START_OUTCOME,
@@ -130,7 +130,10 @@ class CriticalSpeed(Quantity):
         known = _first_separations(motions)
         crossings = [_crossings(known, horizon, self._speed) for horizon in self.horizons]
         values.update(listed(crossings))
-        remarks = [f"Omega={self._speed(i):g}: {each.message}" for i, each in failed.items()]
+        remarks = []
+        for i, each in failed.items():
+            place = value_with_unit("Omega", self._speed(i))
+            remarks.append(f"{place}: {each.message}")
         return values, "; ".join(remarks)
 
     def _follow(self, p: Parameters, scanned: Sequence[int]) -> dict[int, OutcomeResult]:

@@ -9,7 +9,7 @@ import numpy as np
 from pydantic import PrivateAttr
 
 from disc_model.analysis.classify import ANSWER
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Variable, value_with_unit
 from disc_model.studies.quantity import (
     DIRECTION,
     STATUS,
@@ -130,7 +130,7 @@ class Hysteresis(Quantity):
         for index, result, late, reached in steps:
             if late is None:
                 status = result.status.value
-                message = f"{self._parameter}={speeds[index[1]]:g}: {result.message}"
+                message = f"{value_with_unit(self._parameter, speeds[index[1]])}: {result.message}"
             values["sweep_status"][index] = STATUSES.index(status)
             values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
             values["stay"][index] = reached.stay

@@ -75,7 +75,7 @@ class Ramps(Quantity):
             row: dict[str, Any] = {"rate_status": "ok", **run}
             if failed is not None:
                 status = failed.status.value
-                message = f"rate={rate:g}: {failed.message}"
+                message = f"rate = {rate:g} rad/s²: {failed.message}"
                 row["rate_status"] = status
             rows.append(row)
         return {**listed(rows), "status": status}, message

@@ -5,7 +5,7 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import Variable, value_with_unit
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import (
     STATUS,
@@ -116,5 +116,7 @@ class Sliding(Quantity):
             of_value["largest_growth_rate"] = sliding.growth_rate
             rows.append(of_value)
             if sliding.status is not SlidingStatus.OK:
-                message = message or f"{self.parameter}={values[i]:g}: {sliding.message}"
+                message = (
+                    message or f"{value_with_unit(self.parameter, values[i])}: {sliding.message}"
+                )
         return {**columns, **listed(rows), "n_modes": n_modes, "status": "ok"}, message
