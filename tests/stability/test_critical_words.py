@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.stability.continuation.problem import value_text
+from disc_model.data.variables import value_with_unit
 from disc_model.stability.critical_values import Critical
 
 CASE = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
@@ -34,8 +34,8 @@ def test_a_branch_has_units() -> None:
 
 
 def test_the_frequency_of_a_mode_has_its_unit() -> None:
-    assert value_text("omega_1_0", 3141.59) == "omega_1_0 = 3141.59 rad/s"
-    assert value_text("damping_ratio_1_0", 0.01) == "damping_ratio_1_0 = 0.01"
+    assert value_with_unit("omega_1_0", 3141.59) == "omega_1_0 = 3141.59 rad/s"
+    assert value_with_unit("damping_ratio_1_0", 0.01) == "damping_ratio_1_0 = 0.01"
 
 
 def test_message_says_that_steady_sliding_is_unstable(damped: Critical) -> None:

@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, Window, continue_cycle, floquet, simulate
-from disc_model.data.variables import CycleStatus
+from disc_model.data.variables import CycleStatus, value_with_unit
 from disc_model.errors import ParameterError
 from disc_model.simulation.states import State
 from disc_model.stability.continuation import Branch, StepControl
-from disc_model.stability.continuation.problem import value_text
 from disc_model.stability.return_map import ReturnMap
 from tests.blocks import RIG
 from tests.refusals import refusal
@@ -624,7 +623,7 @@ def test_a_branch_reaches_the_least_value_of_its_parameter(name: str, value: flo
     """It ended above 0, where a difference of orbits on both sides needs a value below it."""
     case = Parameters(N=385, Omega=14.9, n_diameters=1, **{name: value})
     branch = continue_cycle(case, name, (0, 1.5 * value), values=[0], direction=-1)
-    assert f"the bound {value_text(name, 0.0)} was reached" in branch.ended
+    assert f"the bound {value_with_unit(name, 0.0)} was reached" in branch.ended
     [last] = branch.at(0)
     there = floquet(case.replace(**{name: 0}))
     assert branch.period[last] == pytest.approx(there.period, rel=1e-9)

@@ -56,7 +56,7 @@ def test_a_speed_that_failed_hides_those_above_it(
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
     found = compute(options, [Point(Parameters(N=200, Omega=1))])
     np.testing.assert_array_equal(found.arrays["critical_speed"], [[lowest]])
-    assert found.messages == [f"Omega={lost:g}: lost"]
+    assert found.messages == [f"Omega = {lost:g} rad/s: lost"]
 
 
 INF = np.inf
