@@ -7,6 +7,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.drawing import sample
+from disc_model.figures.legend_samples import NOTE
 from disc_model.figures.stated_case import ramps_of
 from disc_model.figures.types import Array, Artist
 
@@ -21,7 +22,7 @@ LATER = 1.1  # if that of the two before has risen by this ratio as well
 def growth_entries(case: xr.DataTree, windows: Sequence[xr.Dataset]) -> list[Artist]:
     """The entry of a legend that says that a run still grows at the end of its windows; none otherwise."""
     note = growth_note(case, windows)
-    return [sample(label=note, linestyle="")] if note else []
+    return [sample(label=note, linestyle="", gid=NOTE)] if note else []
 
 
 def growth_note(case: xr.DataTree, windows: Sequence[xr.Dataset]) -> str:

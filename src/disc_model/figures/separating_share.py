@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.path import Path
+from matplotlib.transforms import ScaledTranslation
 
 from disc_model.data.variables import stated_in
 from disc_model.display import counted
@@ -23,7 +24,8 @@ INTERVAL = Path(CORNERS, 3 * [Path.MOVETO, Path.LINETO])
 """Mark of an interval in a legend: a line between two short ones,"""
 BAR = Path([(0, -1), (0, 1)], [Path.MOVETO, Path.LINETO])
 """and a line alone, as at points of lines."""
-FAINT = 0.6  # opacity of intervals there, so that those of other lines show
+FAINT = 0.6  # opacity of intervals there, so that those of other lines show,
+APART = 2.0  # and points by which those of each further line stand to the right of its points
 
 
 def share_of_starts(study: xr.Dataset, variable: str) -> str:
@@ -92,11 +94,17 @@ def draw_intervals_of_lines(
     by = remaining(array, [x])
     along = array[x].values * label_of(array[x])[1]
     lows, highs = (parts_along(study[end], by) for end in ends)
-    for low, high in zip(lows, highs, strict=True):
+    page: Any = ax.get_figure(root=True)
+    for number, (low, high) in enumerate(zip(lows, highs, strict=True)):
+        aside = ScaledTranslation(number * mark(APART) / 72, 0, page.dpi_scale_trans)
         look: dict[str, Any] = {"linewidth": wide(0.6), "alpha": FAINT, "label": "_nolegend_"}
         between = np.full(along.size, np.nan)  # the bars are one line with gaps
         heights = np.column_stack([low.data.values, high.data.values, between])
-        ax.plot(np.repeat(along, 3), heights.ravel(), color=colours[low.name], **look)
+        look |= {"color": colours[low.name], "transform": ax.transData + aside}
+        ax.plot(np.repeat(along, 3), heights.ravel(), **look)
+        for end in (low, high):  # lines that stand aside do not count by themselves
+            ax.update_datalim(np.column_stack([along, end.data.values]))
+    ax.autoscale_view()
     name = _name_of_interval(study)
     if name not in ax.get_legend_handles_labels()[1]:
         bar: dict[str, Any] = {"markersize": mark(8), "markeredgewidth": wide(0.6)}
