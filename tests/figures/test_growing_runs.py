@@ -21,11 +21,13 @@ def growing_run() -> dm.Result:
     return dm.simulate(CASE, 8, {"late": dm.Window(last=0.05, rate=1e4)})
 
 
-def noted(sizes: np.ndarray, end: float = 10.0) -> str:
-    """What is said of a run of some sizes at its events in a window that ends at a time."""
+def noted(sizes: np.ndarray, end: float = 10.0, separation: float = np.nan) -> str:
+    """What is said of a run of some sizes at its events in a window that ends at a time, which has first
+    separated at another."""
     heights = sizes * (-1.0) ** np.arange(sizes.size)
     events = xr.Dataset({"u": ("event", heights), "time": ("event", TIMES)})
-    case = xr.DataTree.from_dict({"/": xr.Dataset(), "/events": events})
+    numbers = xr.Dataset({"first_separation": separation})
+    case = xr.DataTree.from_dict({"/": numbers, "/events": events})
     return growth_note(case, [xr.Dataset(coords={"time": [end - 0.1, end]})])
 
 
@@ -48,6 +50,15 @@ def test_the_motion_is_judged_at_the_end_of_the_window() -> None:
     sizes = np.minimum(np.exp(TIMES), np.exp(5.0))
     assert noted(sizes, end=5.0) == NOTE
     assert noted(sizes) == ""
+
+
+def test_the_motion_after_the_first_separation_is_judged_by_itself() -> None:
+    """Its events are at other heights: the change looked like growth."""
+    sizes = np.where(TIMES < 9, 1.0, 1.6)
+    assert noted(sizes) == NOTE
+    assert noted(sizes, separation=9.0) == ""
+    later = np.exp(0.5 * TIMES)
+    assert noted(later, separation=4.0) == NOTE
 
 
 def test_few_events_say_nothing() -> None:

@@ -29,21 +29,24 @@ def growth_note(case: xr.DataTree, windows: Sequence[xr.Dataset]) -> str:
     """What legends say of a run that still grows at the end of its windows; "" otherwise, and where it is
     not known."""
     ends = [window["time"].values[-1] for window in windows if window.sizes["time"]]
-    if not ends or "events" not in case.children or ramps_of(case):
+    is_known = "events" in case.children and "first_separation" in case
+    if not ends or not is_known or ramps_of(case):
         return ""
     events = case["events"].to_dataset()
     if not {"time", "u"} <= {*events.variables} or "kept_from" in events.attrs:
         return ""
-    spreads = _spreads(events["time"].values, events["u"].values, float(max(ends)))
+    end = float(max(ends))
+    # after the first separation the motion has further events, at other heights
+    separation = float(case["first_separation"])
+    start = separation if separation < end else 0.0  # nan: contact is kept
+    spreads = _spreads(events["time"].values, events["u"].values, start, end)
     return STILL_GROWING if _grow(spreads) else ""
 
 
-def _spreads(times: Array, heights: Array, end: float) -> Array:
-    """Standard deviations of the slider's positions at events in the last four parts of the time up to an
-    end, s; nan of a part with few events."""
-    if not times.size:
-        return np.full(4, np.nan)
-    borders = np.linspace(times[0], end, PARTS + 1)[-5:]
+def _spreads(times: Array, heights: Array, start: float, end: float) -> Array:
+    """Standard deviations of the slider's positions at events in the last four parts of the time from a start
+    to an end, s; nan of a part with few events."""
+    borders = np.linspace(start, end, PARTS + 1)[-5:]
     spreads = []
     for start, stop in pairwise(borders):
         inside = heights[(times > start) & (times <= stop)]
