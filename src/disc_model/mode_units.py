@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 from disc_model.errors import Fault, raise_faults
-from disc_model.units import NUMBER, in_si, number
+from disc_model.units import NUMBER, number, size_of_unit
 
 UNCERTAIN = ("omega", "amplitude", "damping_ratio", "tangential")  # columns of numbers of modes
 POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
@@ -92,11 +92,7 @@ def _share(unit: str, quantity: str) -> float:
 
 def _converted(unit: str, target: str) -> float:
     """One of a unit in another one; nan if it is not of its kind."""
-    faults: list[Fault] = []
-    value = in_si(f"1 {unit}", target, faults, ())
-    if faults or not isinstance(value, float):
-        return math.nan
-    return value
+    return size_of_unit(unit, target) or math.nan
 
 
 # ---- Numbers

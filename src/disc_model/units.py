@@ -183,6 +183,19 @@ def unit_of_text(text: str) -> str:
     return match[2].strip() if match else ""
 
 
+def one_unit_of(texts: Iterable[str]) -> str:
+    """The one unit of the numbers in all texts; "" without one, or if they have several."""
+    found = {unit_of_text(text) for text in texts}
+    return found.pop() if len(found) == 1 else ""
+
+
+def size_of_unit(unit: str, target: str) -> float:
+    """One of a unit in another one; 0 if it is not of its kind."""
+    faults: list[Fault] = []
+    size = in_si(f"1 {unit}", target, faults, ())
+    return size if isinstance(size, float) and not faults else 0.0
+
+
 def si_unit_of(value: Any) -> str:
     """The SI unit of the kind of a text with a unit or of a quantity of pint, Hz where it is
     written in these; "" where there is none that is known."""
@@ -353,8 +366,7 @@ def _unit_of_range(value: Mapping[Any, Any]) -> str:
     is_range = "start" in value and "stop" in value and ("count" in value or "step" in value)
     if not is_range:
         return ""
-    found = {unit_of_text(value[key]) for key in ENDS if isinstance(value.get(key), str)}
-    return found.pop() if len(found) == 1 else ""
+    return one_unit_of(value[key] for key in ENDS if isinstance(value.get(key), str))
 
 
 def listed_in_si(values: Any, unit: str, name: str) -> Any:

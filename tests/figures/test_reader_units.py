@@ -6,7 +6,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 
 from disc_model.data.variables import attributes
-from disc_model.figures.reader_units import unit_key
+from disc_model.figures.words import unit_key
 from tests.explorer.left_out import ruled
 from tests.figures.reading import draw
 from tests.refusals import refusal

@@ -25,12 +25,18 @@ def study_of(name: str, low: float, high: float, unit: str) -> xr.Dataset:
     return xr.Dataset({name: (PLANE, plane, {"units": unit})}, {"Omega": SPEEDS, "N": LOADS})
 
 
-def bar_of(study: xr.Dataset, name: str, height: float, **wishes: Any) -> Any:
-    """The bar of a map in a column of a page, about as high as asked for, in mm."""
+def axes_of(study: xr.Dataset, variable: str, height: float, **options: Any) -> Any:
+    """The axes of a drawn picture in a column of a page, about as high as asked for, in mm."""
     size = (COLUMN, (height + AROUND) / INCH)
     figure, ax = pyplot.subplots(figsize=size, layout="constrained")
-    dm.plot_sweep(study, name, ax=ax, legend=False, **wishes)
+    dm.plot_sweep(study, variable, ax=ax, **options)
     figure.draw_without_rendering()
+    return ax
+
+
+def bar_of(study: xr.Dataset, name: str, height: float, **wishes: Any) -> Any:
+    """The bar of a map, about as high as asked for."""
+    figure = axes_of(study, name, height, legend=False, **wishes).figure
     bar = figure.axes[1]
     assert bar.bbox.height == pytest.approx(height / INCH * figure.dpi, rel=0.2)
     return bar
@@ -102,10 +108,7 @@ def test_a_logarithmic_axis_within_a_decade_has_numbers_near_its_ends(
 ) -> None:
     """Of an axis from 0.58 to 4.1, the lowest third had none."""
     study = study_of("wear", *ends, unit="").isel(N=2)
-    size = (COLUMN, (height + AROUND) / INCH)
-    figure, ax = pyplot.subplots(figsize=size, layout="constrained")
-    dm.plot_sweep(study, "wear", ax=ax, log=True)
-    figure.draw_without_rendering()
+    ax = axes_of(study, "wear", height, log=True)
     numbers = np.array([float(text) for text in numbers_beside(ax)])
     low, high = np.log(ax.get_ylim())
     places = (np.log(numbers) - low) / (high - low)
@@ -118,10 +121,7 @@ def test_a_logarithmic_axis_within_a_decade_has_numbers_near_its_ends(
 def test_a_logarithmic_part_of_an_axis_has_two_numbers(height: float, greatest: float) -> None:
     """The numbers near its ends were hidden first where they would meet."""
     study = study_of("growth_rate", -greatest, greatest, unit="1/s").isel(N=2)
-    size = (COLUMN, (height + AROUND) / INCH)
-    figure, ax = pyplot.subplots(figsize=size, layout="constrained")
-    dm.plot_sweep(study, "growth_rate", ax=ax)
-    figure.draw_without_rendering()
+    ax = axes_of(study, "growth_rate", height)
     assert ax.get_yscale() == "symlog"
     numbers = [float(text.replace(MINUS, "-")) for text in numbers_beside(ax)]
     assert len([number for number in numbers if number >= 0.1]) >= 2
@@ -138,10 +138,7 @@ def test_an_axis_of_rates_has_three_numbers_of_which_one_is_near_its_end(
 ) -> None:
     """Rates up to 0.45 had numbers up to 0.2, and those up to 5 up to 1."""
     study = study_of("growth_rate", *ends, unit="1/s").isel(N=2)
-    size = (COLUMN, (height + AROUND) / INCH)
-    figure, ax = pyplot.subplots(figsize=size, layout="constrained")
-    dm.plot_sweep(study, "growth_rate", ax=ax)
-    figure.draw_without_rendering()
+    ax = axes_of(study, "growth_rate", height)
     numbers = [float(text.replace(MINUS, "-")) for text in numbers_beside(ax)]
     assert len(numbers) >= 3
     assert numbers[-1] > 0.75 * ax.get_ylim()[1]

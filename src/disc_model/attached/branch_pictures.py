@@ -55,19 +55,11 @@ def plot_branches(
     >>> dm.plot_branches(swept, "period").get_ylabel()
     'Period of the cycle (ms)'
     """
-    from disc_model.figures.drawn_units import (
-        checked_units,
-        drawn_in,
-        units_of_coordinates,
-        with_coordinates_in_si,
-    )
+    from disc_model.figures.drawn_units import drawn_in
 
     _refuse_others(swept)
-    units = {**units_of_coordinates(swept), **checked_units(units)}
-    with drawn_in(units):
-        return _plot(
-            with_coordinates_in_si(swept), y, ax, labels, legend=legend, title=title, looks=looks
-        )
+    with drawn_in(swept, units) as shown:
+        return _plot(shown, y, ax, labels, legend=legend, title=title, looks=looks)
 
 
 def _plot(

@@ -313,6 +313,19 @@ def unit_of_parameter(name: str) -> str:
     return "" if unit == "1" else unit
 
 
+def message_of(result: Any) -> str:
+    """The message of a result, "" without one, with the advice of its status where it is not complete. One of
+    this package whose own status is "ok" only says its numbers again: that is ""."""
+    status = getattr(result, "status", None)
+    message = getattr(result, "message", "")
+    if not isinstance(status, StatusBase):
+        return message
+    if status == "ok":
+        return ""
+    is_complete = getattr(status, "complete", False)
+    return message if is_complete else with_advice(message, status)
+
+
 def value_with_unit(name: str, value: float) -> str:
     """A value of a parameter with its name and its unit of SI, in a message."""
     return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()

@@ -24,7 +24,6 @@ from disc_model.figures.curve_marks import reason_of_open_steps
 from disc_model.figures.durations import with_duration
 from disc_model.figures.growth import MAP_LOOKS, NEGATIVE, NEUTRAL, classes_without_rate
 from disc_model.figures.missing_texts import missing_text
-from disc_model.figures.reader_units import unit_key
 from disc_model.figures.selection import classes_of_gaps, statuses
 from disc_model.figures.truths import as_classes
 from disc_model.figures.value_texts import BY_SIZE, value_text
@@ -36,6 +35,7 @@ from disc_model.figures.words import (
     known_name,
     lowered,
     named,
+    unit_key,
     unit_text,
 )
 from disc_model.parameters import RATIOS, Parameters
@@ -60,15 +60,12 @@ IN_A_SENTENCE: Mapping[tuple[str, str], str] = {
 """Words of parameters that do not say by themselves what they are of."""
 
 
+OF_SIMULATED_TIME = (
+    "It is the time that was simulated to know the outcome, and not that of the motion, which a call has as "
+    "time_reached: departures that were extrapolated are left out, and what was simulated twice counts twice."
+)
 REMARKS: Mapping[tuple[str, str], str] = MappingProxyType(
-    {
-        (
-            "regions",
-            "simulated_time",
-        ): "It is the time that was simulated to know the outcome, and not "
-        "that of the motion, which a call has as time_reached: departures that were extrapolated are "
-        "left out, and what was simulated twice counts twice."
-    }
+    {("regions", "simulated_time"): OF_SIMULATED_TIME}
 )
 """What the page says of variables that are easily taken for others."""
 

@@ -71,8 +71,7 @@ def draw_lines(  # noqa: PLR0913
     parts = parts_along(array, by)
     line = dashes_of(single) if joined and not names else ""
     looks = looks_of(parts, marks, single)._replace(sweep=sweep, dashes=line)
-    if along.dtype.kind not in "UO" and array.dtype.kind not in "UO":
-        looks = around_former(ax, parts, along, looks)
+    looks = around_former(ax, parts, along, looks)
     gapless = joined and not (names or rates or array.isnull().any())
     steps = open_steps(study, array, by, log) if joined else {}
     bounds = at_bound_by_line(study, array, by)

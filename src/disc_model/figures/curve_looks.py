@@ -66,7 +66,10 @@ def around_former(
     ax: Axes, parts: Sequence[Part[xr.DataArray]], along: Array, looks: Looks
 ) -> Looks:
     """Looks whose open marks are larger where lines that a panel has already have equal points, so that
-    their marks show inside."""
+    their marks show inside; words are no points."""
+    kinds = [along.dtype.kind, *(part.data.dtype.kind for part in parts)]
+    if not {"U", "O"}.isdisjoint(kinds):
+        return looks
     sizes = {}
     for part in parts:
         points = set(_rounded(along, part.data.values))

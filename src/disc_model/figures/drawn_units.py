@@ -12,7 +12,7 @@ from disc_model.data.variables import SHOWN, attributes_of_number
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.figures.kinds.base import known_units, si_unit
 from disc_model.figures.words import DRAWN_IN, UNITS, factors_of, label_of, parameter_along
-from disc_model.units import in_si
+from disc_model.units import size_of_unit
 
 OF_CAMPBELL = ("Omega", "crossing_Omega", "crossing_step")
 """Speeds of a Campbell diagram, and steps of them."""
@@ -24,25 +24,26 @@ def in_readers_units(picture: Callable[..., Any]) -> Callable[..., Any]:
 
     @wraps(picture)
     def drawn(data: Any, *inputs: Any, units: Any = None, **options: Any) -> Any:
-        asked = checked_units(units)
-        own: dict[str, str] = {}
-        if isinstance(data, xr.Dataset):
-            own = units_of_coordinates(data)
-            data = with_coordinates_in_si(data)
-        with drawn_in({**own, **asked}):
-            return picture(data, *inputs, **options)
+        with drawn_in(data, units) as shown:
+            return picture(shown, *inputs, **options)
 
     return drawn
 
 
 @contextmanager
-def drawn_in(units: Mapping[str, str]) -> Iterator[None]:
-    """Draw and say values in units, by the names of their parameters or sampled variables."""
-    factors = factors_of(units)
+def drawn_in(data: Any, units: Any) -> Iterator[Any]:
+    """Draw and say values of data in units that a reader asks for, and coordinates with a unit of their own
+    in it; yields the data with these coordinates in SI. Raises `ParameterError`."""
+    asked = checked_units(units)
+    own: dict[str, str] = {}
+    if isinstance(data, xr.Dataset):
+        own = units_of_coordinates(data)
+        data = with_coordinates_in_si(data)
+    factors = factors_of({**own, **asked})
     said = UNITS.set({**UNITS.get(), **factors})
     shown = DRAWN_IN.set({**DRAWN_IN.get(), **factors})
     try:
-        yield
+        yield data
     finally:
         DRAWN_IN.reset(shown)
         UNITS.reset(said)
@@ -104,10 +105,7 @@ def _size_of_unit(coordinate: xr.DataArray, name: str) -> float:
     is_plain = coordinate.dtype.kind in "iuf" and not _is_within_index(coordinate)
     if not isinstance(unit, str) or unit == usual or not is_plain or name not in SHOWN:
         return 0.0
-    faults: list[Any] = []
-    size = in_si(f"1 {unit}", si_unit(name), faults, ())
-    is_number = not faults and isinstance(size, float)
-    return size if is_number else 0.0
+    return size_of_unit(unit, si_unit(name))
 
 
 def _is_within_index(coordinate: xr.DataArray) -> bool:

@@ -7,8 +7,7 @@ import xarray as xr
 
 from disc_model.data.variables import SHOWN
 from disc_model.figures.kinds.general import General
-from disc_model.figures.words import UNITS, label_in
-from disc_model.figures.words import unit_key as unit_key
+from disc_model.figures.words import UNITS, label_in, unit_key
 
 
 def key_by_label(plot: object, study: xr.Dataset) -> dict[str, str]:

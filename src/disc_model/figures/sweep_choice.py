@@ -271,17 +271,22 @@ def _chosen_axes(study: xr.Dataset, variable: str, x: str) -> Drawn:
     numbers = [dim for dim in dims if dim in drawn_dims(study)]
     across = x or next((dim for dim in numbers if not only_counts(study, dim)), numbers[0])
     if len(dims) > 2:
-        selection = selection_for(study, variable, x)
-        many = f"must vary along at most two: select values of the others, as by {selection}"
-        if variable == SHARES[0]:
-            many = f"{many}, {OF_LINES}"
-        raise ParameterError(Fault.of(("study",), ", ".join(dims), many))
+        raise ParameterError(
+            Fault.of(("study",), ", ".join(dims), _rule_of_many(study, variable, x))
+        )
     known = [*numbers, *(dim for dim in dims if dim in study.coords and dim not in numbers)]
     require((across in known, "x", across, _rule_of_axis(study, across, known)))
     second = next((dim for dim in dims if dim != across), None)
     counted = second is not None and only_counts(study, second)
     drawn = Drawn(variable, across, second, mapped=False, counted=counted)
     return replace(drawn, mapped=not counted and _are_plane(study, drawn))
+
+
+def _rule_of_many(study: xr.Dataset, variable: str, x: str) -> str:
+    """The rule that a variable breaks which varies along more dimensions than a picture has."""
+    selection = selection_for(study, variable, x)
+    rule = f"must vary along at most two: select values of the others, as by {selection}"
+    return f"{rule}, {OF_LINES}" if variable == SHARES[0] else rule
 
 
 def _rule_of_axis(study: xr.Dataset, x: str, known: Sequence[str]) -> str:

@@ -25,6 +25,12 @@ AT_ZERO = {
     "friction_offset": "friction in the middle plane",
 }
 """What parameters mean that are zero: they name themselves."""
+OF_SIZE = {
+    "contact_compliance": "compliance {:.3g} µm/N",
+    "contact_arc": "a pad over {:g} rad",
+    "friction_offset": "friction {:g} mm above the middle plane",
+}
+"""What these parameters mean otherwise, by their sizes in the units that are shown."""
 BY_SIZE = {"exponent_number": "exponent {}"}
 """Names of the values along a dimension of descending numbers, but for the first, the largest."""
 ROUNDING = 1e-9  # relative, of a number in another unit
@@ -43,20 +49,23 @@ def value_text(data: xr.DataArray | xr.Dataset, by: str, *, short: bool = False)
         return words.get(value, value)
     if isinstance(value, float) and np.isnan(value):
         return MISSING
-    is_usual = known_name(data[by]) == by
     if by in AT_ZERO and not value:
         return AT_ZERO[by]
     if by in BY_SIZE:
         return BY_SIZE[by].format(value + 1) if value else f"largest {by.partition('_')[0]}"
-    if by == "contact_compliance" and is_usual:
-        return f"compliance {value * SHOWN[by].factor:.3g} µm/N"
-    if by == "contact_arc" and is_usual:
-        return f"a pad over {value:g} rad"
-    if by == "friction_offset" and is_usual:
-        return f"friction {value * SHOWN[by].factor:g} mm above the middle plane"
-    _, unit, factor = named(data[by])
+    return _number_text(data[by], value, short=short)
+
+
+def _number_text(along: xr.DataArray, value: float, *, short: bool) -> str:
+    """A number along a dimension with its unit, or what it means as the size of a parameter that names
+    itself."""
+    name = str(along.name)
+    is_usual = known_name(along) == name
+    if is_usual and name in OF_SIZE:
+        return OF_SIZE[name].format(value * SHOWN[name].factor)
+    _, unit, factor = named(along)
     if is_usual:
-        unit, factor = UNITS.get().get(by, (unit, factor))
+        unit, factor = UNITS.get().get(name, (unit, factor))
     number = _short_number(value * factor) if short else f"{value * factor:g}"
     return f"{number} {unit}".strip()
 

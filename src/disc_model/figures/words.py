@@ -26,7 +26,7 @@ from disc_model.figures.durations import with_duration
 from disc_model.figures.kinds.base import si_unit
 from disc_model.figures.sections import with_section
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.units import in_si
+from disc_model.units import size_of_unit
 
 MODES = {
     "as_published": "modes as published",
@@ -344,9 +344,7 @@ def unit_text(units: str) -> str:
 
 def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
     """Units of the reader, as `UNITS` has them: with the factors from SI to them."""
-    return {
-        name: (unit, 1 / in_si(f"1 {unit}", si_unit(name), [], ())) for name, unit in units.items()
-    }
+    return {name: (unit, 1 / size_of_unit(unit, si_unit(name))) for name, unit in units.items()}
 
 
 def measured(variable: xr.DataArray) -> Measured:

@@ -28,7 +28,12 @@ from disc_model.display import Drawn, Summarised, number_text
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.few_modes import Growth, check_few_modes, doubt_of_modes
+from disc_model.stability.few_modes import (
+    Growth,
+    check_few_modes,
+    doubt_of_modes,
+    may_have_few_modes,
+)
 from disc_model.stability.python_laws import LAWS
 
 _MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
@@ -178,7 +183,8 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     if isinstance(found, SlidingStatus):
         return absent(case, found)
     sliding = described(case, found, np.linalg.eigvals(found.jacobian))
-    check_few_modes(case, _growth_of, _growth(sliding))
+    if may_have_few_modes(case):  # few cases may: the growth of others is not looked at
+        check_few_modes(case, _growth_of, _growth(sliding))
     return sliding
 
 

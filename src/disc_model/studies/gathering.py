@@ -12,8 +12,7 @@ import xarray as xr
 
 from disc_model.data.missing import reason_of, with_reason
 from disc_model.data.swept_branches import variables_of_branch
-from disc_model.data.variables import CycleStatus, with_advice
-from disc_model.errors import StatusBase
+from disc_model.data.variables import CycleStatus, message_of
 from disc_model.simulation.result import Result
 from disc_model.stability.critical_values import Critical
 from disc_model.studies.result_attributes import attributes_of
@@ -60,19 +59,6 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
                 (along or f"{name}_index",)[: array.ndim], array, attributes
             )
     return variables
-
-
-def message_of(result: Any) -> str:
-    """The message of a result, "" without one, with the advice of its status where it is not complete. One of
-    this package whose own status is "ok" only says its numbers again: that is ""."""
-    status = getattr(result, "status", None)
-    message = getattr(result, "message", "")
-    if not isinstance(status, StatusBase):
-        return message
-    if status == "ok":
-        return ""
-    is_complete = getattr(status, "complete", False)
-    return message if is_complete else with_advice(message, status)
 
 
 def _is_whole_dataset(result: Any) -> bool:

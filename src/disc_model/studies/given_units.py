@@ -5,7 +5,7 @@ from typing import Any
 
 from disc_model.data.variables import SHOWN
 from disc_model.figures.kinds.base import si_unit
-from disc_model.units import PARTS_OF_AXES, in_si, unit_of_text
+from disc_model.units import PARTS_OF_AXES, size_of_unit, unit_of_text
 
 OF_OPTIONS = {
     "scan": ("parameter", "Omega"),
@@ -74,6 +74,4 @@ def _size(name: str, unit: str) -> float:
     """The size in SI of a unit of the kind of a parameter's; 0 of another kind."""
     if name not in SHOWN or si_unit(name) in ("", "1"):
         return 0.0
-    wrong: list[Any] = []
-    size = in_si(f"1 {unit}", si_unit(name), wrong, ())
-    return 0.0 if wrong else float(size)
+    return size_of_unit(unit, si_unit(name))

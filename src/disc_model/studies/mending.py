@@ -36,12 +36,7 @@ def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], obje
     rest = copy.deepcopy(content)
     left_out: dict[str, tuple[str, ...]] = {}
     for _ in range(ROUNDS):
-        mended = False
-        for fault in latest:
-            mended |= _mend(rest, fault, left_out)
-        if not mended:
-            mended = _leave_out_axes(rest, latest, left_out)
-        if not mended:
+        if not (_mend_any(rest, latest, left_out) or _leave_out_axes(rest, latest, left_out)):
             break
         try:
             check(rest)
@@ -52,6 +47,12 @@ def all_faults(content: Any, first: Sequence[Fault], check: Callable[[Any], obje
         new = [fault for fault in latest if fault.path not in told]
         faults += [fault for fault in new if _is_further(fault, left_out)]
     return list(dict.fromkeys(faults))
+
+
+def _mend_any(content: Any, faults: Sequence[Fault], left_out: dict[str, tuple[str, ...]]) -> bool:
+    """Mend a content at each fault; returns whether any was found in it."""
+    found = [_mend(content, fault, left_out) for fault in faults]
+    return any(found)
 
 
 def _mend(content: Any, fault: Fault, left_out: dict[str, tuple[str, ...]]) -> bool:

@@ -16,7 +16,7 @@ from disc_model.data.variables import (
     unit_of_parameter,
 )
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.units import in_si, is_number
+from disc_model.units import is_number, size_of_unit
 
 NONE = "no point"
 """The line of a file that lists none."""
@@ -82,7 +82,7 @@ def _value_text(name: str, value: Any, units: Mapping[str, str]) -> str:
     unit = _si_unit(name)
     number = value
     if name in units:
-        number = value / in_si(f"1 {units[name]}", unit, [], ())
+        number = value / size_of_unit(units[name], unit)
         unit = units[name]
     return f"{number:.9g} {unit}".strip()
 

@@ -11,14 +11,14 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data.variables import WITHOUT_EFFECT, attributes_of_mode
+from disc_model.data.variables import WITHOUT_EFFECT, attributes_of_mode, message_of
 from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
 from disc_model.stability.sliding import check_modes
 from disc_model.studies.calls import Call, are_recorded, checked_call
-from disc_model.studies.gathering import message_of, variables_of_result
+from disc_model.studies.gathering import variables_of_result
 from disc_model.studies.quantity import NUMERICAL
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe

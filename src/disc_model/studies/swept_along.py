@@ -15,7 +15,7 @@ from disc_model.figures.words import within_words
 from disc_model.parameters import RATIOS, foreign_case
 from disc_model.simulation.states import mode_arrays
 from disc_model.stability.continuation.arguments import free_faults, values_in_si
-from disc_model.units import GIVEN_IN, mixed_units, unit_of_text
+from disc_model.units import GIVEN_IN, mixed_units, one_unit_of
 
 
 def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
@@ -43,10 +43,8 @@ def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
 
 def _given_in(bounds: Any, step: Any, unit: str) -> tuple[str, str] | None:
     """The one unit of texts of a range and that of SI; None if they have none, or that of SI."""
-    units = {unit_of_text(text) for text in (*bounds, step) if isinstance(text, str)}
-    if len(units) > 1 or units <= {"", unit}:
-        return None
-    return units.pop(), unit
+    given = one_unit_of(text for text in (*bounds, step) if isinstance(text, str))
+    return None if given in ("", unit) else (given, unit)
 
 
 def unit_along(name: str) -> str:

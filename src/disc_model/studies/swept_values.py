@@ -34,10 +34,7 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     checked: list[Any] = []
     impossible: list[list[Fault]] = []
     if column_of(name):
-        for row, value in enumerate(raw):
-            of_unit: list[Fault] = []
-            raw[row] = mode_number_in_si(name, value, of_unit)
-            faults += [_at_row(each, (*within, name), row, several=several) for each in of_unit]
+        faults += _convert_mode_numbers(raw, (*within, name), several=several)
     for row, value in enumerate(raw):
         try:
             checked.append(getattr(model(**{name: value}), name))
@@ -54,6 +51,16 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     if len(faults) == known:
         faults += mixed
     return checked
+
+
+def _convert_mode_numbers(raw: list[Any], path: tuple[str, ...], *, several: bool) -> list[Fault]:
+    """Set the values of a number of a mode in SI units; returns what is wrong with their units."""
+    faults = []
+    for row, value in enumerate(raw):
+        of_unit: list[Fault] = []
+        raw[row] = mode_number_in_si(path[-1], value, of_unit)
+        faults += [_at_row(each, path, row, several=several) for each in of_unit]
+    return faults
 
 
 def as_list(values: Any) -> list[Any]:

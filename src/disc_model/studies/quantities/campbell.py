@@ -18,7 +18,7 @@ from pydantic import Field
 
 from disc_model.arrays import Array, Mask
 from disc_model.data.frequency_jumps import frequency_jumps
-from disc_model.data.variables import EXCLUDED, CycleStatus, Variable, flag_names, with_advice
+from disc_model.data.variables import EXCLUDED, Variable, flag_names, message_of
 from disc_model.studies.quantity import (
     BESIDE_MOTION,
     CYCLE_STATUSES,
@@ -161,8 +161,7 @@ class Campbell(Quantity):
             "cycle_frequency": frequency, "cycle_growth_rate": growth_rate, "mac": mac,
             **beside_motion_columns(cycle),
         }  # fmt: skip
-        found = cycle.status is CycleStatus.OK
-        return values, "" if found else with_advice(cycle.message, cycle.status)
+        return values, message_of(cycle)
 
     def summarise(self, cell: Dataset) -> dict[str, Any]:
         # where a rule of the grid leaves some speeds out, an axis ends

@@ -4,7 +4,7 @@ simulation."""
 import math
 from typing import Any, ClassVar
 
-from disc_model.data.variables import CycleStatus, Variable, with_advice
+from disc_model.data.variables import CycleStatus, Variable, message_of
 from disc_model.studies.quantity import (
     BESIDE_MOTION,
     CYCLE_STATUSES,
@@ -66,8 +66,7 @@ class Floquet(Quantity):
             "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,
             "sliding_growth_rate": cycle.sliding.growth_rate, **beside_motion_columns(cycle),
         }  # fmt: skip
-        found = cycle.status is CycleStatus.OK
-        return values, "" if found else with_advice(cycle.message, cycle.status)
+        return values, message_of(cycle)
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.states import static_start
