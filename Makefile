@@ -65,7 +65,7 @@ measurements: env
 
 # The small pictures of docs/ and of the README, from finished figures.
 gallery: env
-	$(BIN)/python docs/make_gallery.py
+	$(BIN)/python -m docs.make_gallery
 
 $(VENV)/.docs: requirements-docs.lock $(STAMP)
 	$(INSTALL) --require-hashes -r requirements-docs.lock
@@ -82,7 +82,7 @@ linkcheck: $(VENV)/.docs
 
 # The pictures that docs/ draws by itself.
 drawings: env
-	for script in docs/drawings/*.py; do $(BIN)/python $$script || exit 1; done
+	for script in docs/drawings/*.py; do PYTHONPATH=. $(BIN)/python $$script || exit 1; done
 
 # What editors check study files by, and the page of all options, from the models that check them.
 schema: env
@@ -134,13 +134,13 @@ lint: env
 	$(BIN)/mypy
 	$(BIN)/mypy --explicit-package-bases docs/collect_numbers.py docs/write_benchmark_pages.py
 	$(BIN)/lint-imports
-	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/snakefmt --check Snakefile workflow benchmarks
 	$(BIN)/snakemake --lint
 
 format: env
 	$(BIN)/ruff check --fix
 	$(BIN)/ruff format
-	$(BIN)/snakefmt Snakefile workflow
+	$(BIN)/snakefmt Snakefile workflow benchmarks
 
 $(VENV)/.bench: requirements-bench.lock $(STAMP)
 	$(INSTALL) --require-hashes -r requirements-bench.lock

@@ -18,8 +18,8 @@ from disc_model.data.dataset import load_cases, samples
 from disc_model.errors import script
 from disc_model.figures.film import film
 from disc_model.figures.style import styled
-from disc_model.paper.figures.motion_around import motion_of
 from disc_model.studies.study import load_study
+from workflow.paper.figures.motion_around import motion_of
 
 RESULTS = Path("results")
 DOCS = Path("docs")

@@ -17,8 +17,8 @@ from disc_model.figures.late_range import lost_contact
 from disc_model.figures.selection import common_points
 from disc_model.figures.sensitivity import probabilities
 from disc_model.figures.sliding_outcome import agreement
-from disc_model.paper import ledger, measures, survival
 from docs import brake_stress, plate_stiffening
+from workflow.paper import ledger, measures, survival
 
 THICKNESS = 0.012
 """Thickness of the ring of the brake-like disc, m."""

@@ -18,10 +18,10 @@ import pandas as pd
 import xarray as xr
 from docs.make_gallery import shrink
 
-from disc_model.benchmarks import work_precision
-from disc_model.benchmarks.answers import in_words
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.scenes import CONVERGED, JUDGED
+from benchmarks import work_precision
+from benchmarks.answers import in_words
+from benchmarks.methods import METHODS
+from benchmarks.scenes import CONVERGED, JUDGED
 from disc_model.data.dataset import load, markdown_table
 from disc_model.errors import DiscModelError, script
 
@@ -39,7 +39,7 @@ PARTS_OF_TIME = {
     "return_maps": "other return maps",
     "rest": "everything else",
 }
-"""Heads of a table by variables of `disc_model.benchmarks.shares`."""
+"""Heads of a table by variables of `benchmarks.shares`."""
 Rows = list[dict[str, Any]]
 Table = dict[str, dict[Any, Any]]
 """Cells by the names of line and column."""
@@ -185,7 +185,7 @@ def _cycle(found: pd.DataFrame) -> Rows:
 
 
 def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
-    """Return rows of `disc_model.benchmarks.scaling` by what varies and the quantity.
+    """Return rows of `benchmarks.scaling` by what varies and the quantity.
 
     Each has the time of a point, ms.
     """
@@ -198,7 +198,7 @@ def scaling_numbers(scaling: xr.Dataset) -> dict[str, dict[str, Rows]]:
 
 
 def share_numbers(shares: xr.Dataset) -> Rows:
-    """Return rows of `disc_model.benchmarks.shares`, each with percentages of its time."""
+    """Return rows of `benchmarks.shares`, each with percentages of its time."""
     rows = []
     for record in shares.to_dataframe().to_dict("records"):
         row = {str(name): value for name, value in record.items()}

@@ -19,7 +19,7 @@ sys.path.insert(0, str(ROOT))
 from docs.drawings.brake_energy import powers  # noqa: E402
 
 from disc_model import Parameters, simulate  # noqa: E402
-from disc_model.paper import energy  # noqa: E402
+from workflow.paper import energy  # noqa: E402
 
 FONT: Any = {
     "font.size": 9,

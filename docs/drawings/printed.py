@@ -14,12 +14,12 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from disc_model.disc.modes import coupled_natural_frequencies
-from disc_model.paper.measures import CaseView
-from disc_model.paper.model import read_texts
-from disc_model.paper.paper_tables import table_2
-from disc_model.paper.section2 import BASE, NORMALISED
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
+from workflow.paper.measures import CaseView
+from workflow.paper.model import read_texts
+from workflow.paper.paper_tables import table_2
+from workflow.paper.section2 import BASE, NORMALISED
 
 ROOT = Path(__file__).parents[2]
 FONT: Any = {

@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 
 from disc_model import Parameters
-from disc_model.paper.figures.schematic import sketch
+from workflow.paper.figures.schematic import sketch
 
 WIDTH = 518.740157 / 72  # inches: 183 mm
 FONT = {

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.benchmarks import answers, own_answers, scenes, work_precision
-from disc_model.benchmarks.figures.looks import LINES
-from disc_model.benchmarks.methods import METHODS, SCENES, Method
-from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
-from disc_model.benchmarks.questions import AnswerStatus, Replies, Reply
-from disc_model.benchmarks.scenes import answer
+from benchmarks import answers, own_answers, scenes, work_precision
+from benchmarks.figures.looks import LINES
+from benchmarks.methods import METHODS, SCENES, Method
+from benchmarks.methods.integrators import MethodResult, Problem, RunStatus
+from benchmarks.questions import AnswerStatus, Replies, Reply
+from benchmarks.scenes import answer
 
 SET_UP = 1e-4
 """s that every run of a `Known` method takes, however long the motion."""

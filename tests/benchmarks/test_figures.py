@@ -7,10 +7,10 @@ import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
 
-from disc_model.benchmarks import figures
-from disc_model.benchmarks.figures.looks import TEXTS
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.scenes import Verdict
+from benchmarks import figures
+from benchmarks.figures.looks import TEXTS
+from benchmarks.methods import METHODS
+from benchmarks.scenes import Verdict
 from disc_model.figures.classes import lightness
 from tests.figures.reading import labels
 

@@ -5,12 +5,12 @@ import math
 import numpy as np
 import pytest
 
+from benchmarks import scenes
+from benchmarks.methods import METHODS, by_scipy
+from benchmarks.methods.integrators import Problem, RunStatus
+from benchmarks.methods.kernels import Physics
+from benchmarks.scenes import answer, problem
 from disc_model import Parameters
-from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods import METHODS, by_scipy
-from disc_model.benchmarks.methods.integrators import Problem, RunStatus
-from disc_model.benchmarks.methods.kernels import Physics
-from disc_model.benchmarks.scenes import answer, problem
 from tests import needs
 from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively

@@ -5,18 +5,11 @@ import math
 import numpy as np
 import pytest
 
-from disc_model.benchmarks import answers, own_answers, replies
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.integrators import MethodResult, Problem, RunStatus
-from disc_model.benchmarks.questions import (
-    QUESTIONS,
-    AnswerStatus,
-    AnswerVerdict,
-    Reply,
-    reference,
-    verdict,
-)
-from disc_model.benchmarks.scenes import stored
+from benchmarks import answers, own_answers, replies
+from benchmarks.methods import METHODS
+from benchmarks.methods.integrators import MethodResult, Problem, RunStatus
+from benchmarks.questions import QUESTIONS, AnswerStatus, AnswerVerdict, Reply, reference, verdict
+from benchmarks.scenes import stored
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
 RIGHT, WRONG, SILENT = AnswerVerdict

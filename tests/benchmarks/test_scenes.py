@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks import scenes
+from benchmarks.methods.integrators import MethodResult, RunStatus
+from benchmarks.methods.kernels import Physics
+from benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model import Parameters
-from disc_model.benchmarks import scenes
-from disc_model.benchmarks.methods.integrators import MethodResult, RunStatus
-from disc_model.benchmarks.methods.kernels import Physics
-from disc_model.benchmarks.scenes import Verdict, answer, errors, problem
 from tests.references import stored
 
 P = Parameters(N=385.0, Omega=15.1)

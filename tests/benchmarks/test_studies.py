@@ -9,14 +9,14 @@ import pytest
 import xarray as xr
 from docs.write_benchmark_pages import headline
 
-from disc_model.benchmarks import answer_maps, answers, failure_maps, figures, study
-from disc_model.benchmarks.methods import METHODS, Method
-from disc_model.benchmarks.questions import AnswerStatus, AnswerVerdict, reference
-from disc_model.benchmarks.scaling import scaling
-from disc_model.benchmarks.scenes import Verdict
-from disc_model.benchmarks.shares import SAMPLES, shares
-from disc_model.benchmarks.truncation import contact_study
-from disc_model.benchmarks.work_precision import measured_points, table
+from benchmarks import answer_maps, answers, failure_maps, figures, study
+from benchmarks.methods import METHODS, Method
+from benchmarks.questions import AnswerStatus, AnswerVerdict, reference
+from benchmarks.scaling import scaling
+from benchmarks.scenes import Verdict
+from benchmarks.shares import SAMPLES, shares
+from benchmarks.truncation import contact_study
+from benchmarks.work_precision import measured_points, table
 from disc_model.data.variables import flag_names
 from disc_model.simulation.api import simulate
 from disc_model.studies.registry import QUANTITIES

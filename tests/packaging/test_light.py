@@ -46,7 +46,7 @@ except ImportError as error:
     assert str(error) == "there is no module matplotlib: pip install 'disc_model[plot]'"
 else:
     raise AssertionError("it was drawn")
-import disc_model.benchmarks.answers, disc_model.benchmarks.work_precision
+
 from disc_model.cli import main
 
 def code(*command):

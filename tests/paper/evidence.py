@@ -17,11 +17,11 @@ import yaml
 
 from disc_model.data.columns import series_dataset
 from disc_model.data.variables import EVENT_KINDS, PHASES
-from disc_model.paper.judging_tables import COMPLIANT, ENERGIES, GROWTHS, POWERS
-from disc_model.paper.measures import CaseView
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
+from workflow.paper.judging_tables import COMPLIANT, ENERGIES, GROWTHS, POWERS
+from workflow.paper.measures import CaseView
 
 ROOT = Path(__file__).parents[2]
 SPECS = load_study(ROOT / "config" / "paper.yaml").specs

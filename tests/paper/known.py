@@ -5,8 +5,8 @@ from typing import Any
 
 from disc_model.analysis.classify import Motion
 from disc_model.data.variables import Outcome
-from disc_model.paper.measures import Range
 from disc_model.parameters import Parameters
+from workflow.paper.measures import Range
 
 
 class Known(SimpleNamespace):

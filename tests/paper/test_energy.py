@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
-from disc_model.paper import energy
-from disc_model.paper.energy import (
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from workflow.paper import energy
+from workflow.paper.energy import (
     Powers,
     angles_round,
     at_range,
@@ -18,9 +20,7 @@ from disc_model.paper.energy import (
     power_history,
     powers,
 )
-from disc_model.paper.measures import Absent
-from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
+from workflow.paper.measures import Absent
 
 pytestmark = pytest.mark.compiled
 

@@ -14,12 +14,12 @@ from disc_model.figures.drawing import SEPARATED
 from disc_model.figures.kinds import CasePlot
 from disc_model.figures.render import render
 from disc_model.figures.sizes import COLUMN, PAGE
-from disc_model.paper.figures.motion_around import motion_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.figures.reading import assert_fit_for_print, labels
 from tests.figures.test_cases import RECORDED, said_in, simulated
 from tests.paper import evidence
+from workflow.paper.figures.motion_around import motion_of
 
 STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
 FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}

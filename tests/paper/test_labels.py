@@ -12,13 +12,13 @@ from disc_model.data.variables import flag_names
 from disc_model.disc.modes import plate_modes
 from disc_model.figures.kinds import kinds_in
 from disc_model.figures.render import render
-from disc_model.paper.figures.kinds import STRETCH
-from disc_model.paper.figures.motion_around import motion_of
 from disc_model.parameters import Parameters
 from tests.figures.measured import Shown, assert_shows, drawn_values
 from tests.figures.test_cases import simulated
 from tests.paper import evidence
 from tests.paper.test_figures import FIGURES, STUDY, drawn
+from workflow.paper.figures.kinds import STRETCH
+from workflow.paper.figures.motion_around import motion_of
 
 # s, of the window of the case
 ZOOM_START = 56.0

@@ -6,15 +6,15 @@ from typing import Any
 import pandas as pd
 import pytest
 
-from disc_model.paper import ledger
-from disc_model.paper.ledger import ROWS, check_claims, summary
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
-from disc_model.paper.section43 import PLACE
 from disc_model.parameters import Parameters
 from tests.paper.known import known
+from workflow.paper import ledger
+from workflow.paper.ledger import ROWS, check_claims, summary
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
+from workflow.paper.section43 import PLACE
 
 NUMBERS = " ".join(str(number) for number in range(1, 40))
-TEXTS = ledger.read_texts("paper/ledger.yaml")
+TEXTS = ledger.read_texts("ledger.yaml")
 
 
 @pytest.fixture(scope="module")

@@ -10,10 +10,10 @@ import xarray as xr
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import STATUSES
-from disc_model.paper import measures
-from disc_model.paper.measures import CaseView, Range, Signal
 from disc_model.parameters import Parameters
 from tests.paper.evidence import kept_events
+from workflow.paper import measures
+from workflow.paper.measures import CaseView, Range, Signal
 
 P = Parameters(N=385, Omega=20)
 

@@ -8,7 +8,8 @@ import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
-from disc_model.paper.model import (
+from tests.paper.known import known
+from workflow.paper.model import (
     PART,
     TRUE,
     Answer,
@@ -20,7 +21,6 @@ from disc_model.paper.model import (
     partly,
     required_case,
 )
-from tests.paper.known import known
 
 NAME = "F13"
 

@@ -9,10 +9,10 @@ import pytest
 
 from disc_model import Parameters
 from disc_model.data.texts import fill, write_page
-from disc_model.paper.ledger import COLUMNS, ROWS, summary
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Row
-from disc_model.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2
 from tests.paper import evidence
+from workflow.paper.ledger import COLUMNS, ROWS, summary
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Row
+from workflow.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2
 
 F_S = 67.6493
 """Releases per second at 385 N and 15.1 rad/s in the first ten seconds."""

@@ -7,10 +7,12 @@ import pytest
 import xarray as xr
 
 from disc_model.disc.modes import plate_modes
-from disc_model.paper import measures, section2
-from disc_model.paper.measures import Range
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
-from disc_model.paper.section2 import (
+from tests.paper.evidence import grid, sliding_growths
+from tests.paper.known import known
+from workflow.paper import measures, section2
+from workflow.paper.measures import Range
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE
+from workflow.paper.section2 import (
     BASE,
     additional,
     different,
@@ -21,8 +23,6 @@ from disc_model.paper.section2 import (
     survive,
     truncation,
 )
-from tests.paper.evidence import grid, sliding_growths
-from tests.paper.known import known
 
 
 def test_a_moving_load_is_critical_where_a_mode_stands_for_it() -> None:

@@ -9,11 +9,14 @@ import pytest
 import xarray as xr
 
 from disc_model.data.dataset import Missing
-from disc_model.paper import judging_tables, section41
-from disc_model.paper.measures import SEPARATION, Absent, Range
-from disc_model.paper.model import AMBIGUOUS, FALSE, PART, TRUE
-from disc_model.paper.section2 import BASE, moving_load_speed
-from disc_model.paper.section41 import (
+from disc_model.parameters import Parameters
+from tests.paper.evidence import grid
+from tests.paper.known import Known, known
+from workflow.paper import judging_tables, section41
+from workflow.paper.measures import SEPARATION, Absent, Range
+from workflow.paper.model import AMBIGUOUS, FALSE, PART, TRUE
+from workflow.paper.section2 import BASE, moving_load_speed
+from workflow.paper.section41 import (
     both_at_low_speed,
     bounded_by_separation,
     bracketed,
@@ -30,9 +33,6 @@ from disc_model.paper.section41 import (
     smaller_range,
     upward,
 )
-from disc_model.parameters import Parameters
-from tests.paper.evidence import grid
-from tests.paper.known import Known, known
 
 NAN = math.nan
 

@@ -12,10 +12,13 @@ from disc_model.analysis.classify import Motion
 from disc_model.analysis.spectra import Line
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import PHASES, Outcome
-from disc_model.paper import growth
-from disc_model.paper.measures import Range
-from disc_model.paper.model import AMBIGUOUS, FALSE, NOT_TESTED, PART, TRUE, Answer
-from disc_model.paper.section43 import (
+from disc_model.parameters import Parameters
+from tests.paper.evidence import grid
+from tests.paper.known import Known, known
+from workflow.paper import growth
+from workflow.paper.measures import Range
+from workflow.paper.model import AMBIGUOUS, FALSE, NOT_TESTED, PART, TRUE, Answer
+from workflow.paper.section43 import (
     LOADS,
     SPEEDS,
     _mostly,
@@ -40,9 +43,6 @@ from disc_model.paper.section43 import (
     undamped_separates_lower,
     wanders,
 )
-from disc_model.parameters import Parameters
-from tests.paper.evidence import grid
-from tests.paper.known import Known, known
 
 NAN = math.nan
 

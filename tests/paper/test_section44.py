@@ -12,10 +12,13 @@ from disc_model.analysis.classify import Motion
 from disc_model.analysis.spectra import Line
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome
-from disc_model.paper import paper_tables, section44
-from disc_model.paper.measures import Range
-from disc_model.paper.model import FALSE, NOT_TESTED, PART, TRUE
-from disc_model.paper.section44 import (
+from disc_model.parameters import Parameters
+from tests.paper.evidence import grid
+from tests.paper.known import Known, known
+from workflow.paper import paper_tables, section44
+from workflow.paper.measures import Range
+from workflow.paper.model import FALSE, NOT_TESTED, PART, TRUE
+from workflow.paper.section44 import (
     caused_by_friction,
     close_to_natural,
     constant_by_separation,
@@ -33,9 +36,6 @@ from disc_model.paper.section44 import (
     soft_enough,
     when_it_separates,
 )
-from disc_model.parameters import Parameters
-from tests.paper.evidence import grid
-from tests.paper.known import Known, known
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ import pytest
 import xarray as xr
 
 from disc_model.data.variables import PHASES
-from disc_model.paper.figures.separations import after, first_complete, separations
+from workflow.paper.figures.separations import after, first_complete, separations
 
 FLAGS = {"flag_meanings": " ".join(PHASES), "flag_values": [*range(len(PHASES))]}
 

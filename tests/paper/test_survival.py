@@ -13,13 +13,13 @@ import yaml
 
 from disc_model import Parameters, residual_flexibility
 from disc_model.data.variables import STATUSES
-from disc_model.paper import SURVIVAL_GRIDS, section2, survival
-from disc_model.paper.measures import CaseView
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge
-from disc_model.paper.survival import CHANGED, CONCLUSIONS, MODELS, by_model, evidence_of, page_of
 from disc_model.studies.study import load_study
 from tests.analysis.test_classify import logistic
 from tests.paper.evidence import grid, kept_events
+from workflow.paper import SURVIVAL_GRIDS, section2, survival
+from workflow.paper.measures import CaseView
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, judge
+from workflow.paper.survival import CHANGED, CONCLUSIONS, MODELS, by_model, evidence_of, page_of
 
 BY_TITLE = {row.id: row for row in CONCLUSIONS}
 CONFIG = Path(__file__).parents[2] / "config"

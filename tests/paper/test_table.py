@@ -12,7 +12,10 @@ import pytest
 
 from disc_model import Parameters, simulate, steady_sliding
 from disc_model.analysis.spectra import Line
-from disc_model.paper import (
+from disc_model.studies.study import load_study
+from tests.paper import evidence
+from tests.paper.known import known
+from workflow.paper import (
     JUDGING_TABLES,
     SCANS,
     SURVIVAL_GRIDS,
@@ -23,13 +26,10 @@ from disc_model.paper import (
     section41,
     survival,
 )
-from disc_model.paper.energy import Powers
-from disc_model.paper.ledger import COLUMNS, MODULES, ROWS, check_claims, tables_of
-from disc_model.paper.measures import Absent, CaseView
-from disc_model.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
-from disc_model.studies.study import load_study
-from tests.paper import evidence
-from tests.paper.known import known
+from workflow.paper.energy import Powers
+from workflow.paper.ledger import COLUMNS, MODULES, ROWS, check_claims, tables_of
+from workflow.paper.measures import Absent, CaseView
+from workflow.paper.model import FALSE, NOT_COMPUTED, TRUE, VERDICTS, Answer, Row
 
 ROOT = Path(__file__).parents[2]
 STUDY = load_study(ROOT / "config" / "paper.yaml")

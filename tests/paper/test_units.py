@@ -13,12 +13,12 @@ import pytest
 import xarray as xr
 
 from disc_model.data.texts import fill
-from disc_model.paper import TABLE_CASES, measures, section41, section43
-from disc_model.paper.judging_tables import COMPLIANT, ENERGIES, POWERS
-from disc_model.paper.ledger import ROWS
-from disc_model.paper.measures import Range
-from disc_model.paper.paper_tables import impact_law
 from tests.figures.measured import UREG
+from workflow.paper import TABLE_CASES, measures, section41, section43
+from workflow.paper.judging_tables import COMPLIANT, ENERGIES, POWERS
+from workflow.paper.ledger import ROWS
+from workflow.paper.measures import Range
+from workflow.paper.paper_tables import impact_law
 
 BY_NAME = {row.id: row for row in ROWS}
 NUMBER = r"(-?\d+(?:\.\d+)?)"

@@ -14,11 +14,11 @@ import xarray as xr
 
 from disc_model import Parameters
 from disc_model.disc.modes import plate_modes
-from disc_model.paper import growth, ledger, section2, section44
-from disc_model.paper.measures import CaseView, views
-from disc_model.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer
 from tests.damages import DAMAGES, damaged
 from tests.paper import evidence
+from workflow.paper import growth, ledger, section2, section44
+from workflow.paper.measures import CaseView, views
+from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, VERDICTS, Answer
 
 pytestmark = pytest.mark.compiled
 BY_NAME = {row.id: row for row in ledger.ROWS if row.check}

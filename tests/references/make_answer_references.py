@@ -2,7 +2,7 @@
 
 Run from the repository's root::
 
-    python -m tests.references.make_answer_references src/disc_model/benchmarks/data/answers.json
+    python -m tests.references.make_answer_references benchmarks/data/answers.json
 
 Each is found without the engine: by the long-double Taylor reference of tests/references, or by
 heyoka in double precision, and once more at another tolerance; what the two differ by is stored
@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from disc_model.benchmarks import own_answers, replies
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.integrators import Problem
-from disc_model.benchmarks.questions import Replies, Reply
-from disc_model.benchmarks.scenes import read_state, stored
+from benchmarks import own_answers, replies
+from benchmarks.methods import METHODS
+from benchmarks.methods.integrators import Problem
+from benchmarks.questions import Replies, Reply
+from benchmarks.scenes import read_state, stored
 from disc_model.errors import script
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate

@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from disc_model import benchmarks
-from disc_model.benchmarks.scenes import problem, stated
+import benchmarks
+from benchmarks.scenes import problem, stated
 from disc_model.errors import script
 from tests.contact_laws import LAWS
 from tests.references import stored

@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from benchmarks.methods import kernels
+from benchmarks.methods.kernels import Physics
 from disc_model import Window, deflection, floquet
-from disc_model.benchmarks.methods import kernels
-from disc_model.benchmarks.methods.kernels import Physics
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters

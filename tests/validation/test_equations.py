@@ -7,8 +7,8 @@ with them.
 import numpy as np
 import pytest
 
+from benchmarks import scenes
 from disc_model import Execution, Window, simulate
-from disc_model.benchmarks import scenes
 from disc_model.engine import transitions
 from disc_model.engine.model import build_state
 from disc_model.engine.state import scalars_of

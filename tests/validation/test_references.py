@@ -12,16 +12,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.methods import METHODS
+from benchmarks.methods.integrators import Problem
 from disc_model import Parameters, plate_modes, simulate
 from disc_model.analysis.classify import CLOSES, shortest_period
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.integrators import Problem
-from disc_model.paper.model import paper_cases
-from disc_model.paper.paper_tables import motion_to
 from tests.contact_laws import LAWS
 from tests.references import stored, taylor
 from tests.references.literal import from_slider_frame
 from tests.references.printed import MOTIONS, P, Printed, lively
+from workflow.paper.model import paper_cases
+from workflow.paper.paper_tables import motion_to
 
 #: Largest event-time error over the stored second divided by tol, s: 0.2 to 2 at all tolerances that tell.
 ERROR_PER_TOL = 3.0

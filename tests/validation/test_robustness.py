@@ -9,9 +9,9 @@ import yaml
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from benchmarks.methods import METHODS
+from benchmarks.methods.integrators import Problem
 from disc_model import Execution, Parameters, Result, State, Status, Window, plate_modes, simulate
-from disc_model.benchmarks.methods import METHODS
-from disc_model.benchmarks.methods.integrators import Problem
 from disc_model.simulation.states import static_start
 
 # phase left -> (kind, phase entered): the table of switches

@@ -110,7 +110,7 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
     disc_model(tmp_path, "init", "own")
     own_path = tmp_path / "own"
     assert re.search(r"^compute_batch +1$", snakemake(own_path, "-n"), re.M)
-    phrase = snakemake(tmp_path, "-n", "-s", SNAKEFILE, "results/paper/figures/fig13.pdf")
+    phrase = snakemake(tmp_path, "-n", "-s", ROOT / "Snakefile", "results/paper/figures/fig13.pdf")
     assert re.search(r"^simulate_case +2$", phrase, re.M), (
         "the two cases of the paper's figure, if no study is given"
     )

@@ -29,7 +29,7 @@ def test_one_and_two_cores(project: Project, finished: Project) -> None:
 CASES = """
 import sys
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.benchmarks.scenes import problem
+from benchmarks.scenes import problem
 from disc_model.data.dataset import save
 from disc_model.simulation.named_case import run_case
 from disc_model.simulation.case import CaseSpec

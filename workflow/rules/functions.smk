@@ -28,7 +28,7 @@ def files_of(wildcards):
 def drawing_of(wildcards):
     """Sources of a figure: those of the package, and those of the part that its kind belongs to."""
     part = figure_of(wildcards).plot.kind.rpartition(".")[0]
-    return ["figures", "data", *([f"{part}/figures"] if part else [])]
+    return ["figures", "data", *([WORKFLOW / part / "figures"] if part else [])]
 
 
 def motions_of(study):
@@ -91,3 +91,12 @@ def stated_of(grid):
         "at": places,
         "tables": dict(grid.file.tables),
     }
+
+
+def all_products():
+    """What `all` makes, with what the root's Snakefile adds in a clone: verdicts on the paper's claims."""
+    if STUDY.claims and not hasattr(rules, "check_claims"):
+        raise WorkflowError(
+            f"{STUDY.name}: claims are judged by the Snakefile of a clone of the repository, not by `disc-model study`"
+        )
+    return PRODUCTS

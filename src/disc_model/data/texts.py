@@ -36,7 +36,6 @@ def _cell(value: object) -> str:
 
 
 _TEMPLATES = jinja2.Environment(
-    loader=jinja2.FileSystemLoader(Path(__file__).parents[1]),
     autoescape=jinja2.select_autoescape(["html"], default_for_string=False),
     undefined=jinja2.StrictUndefined,
     finalize=_listed,
@@ -59,12 +58,13 @@ def fill(template: str, **values: Any) -> str:
 
 
 def write_page(
-    path: str | Path, title: str, *sections: Section, template: str = "data/texts"
+    path: str | Path, title: str, *sections: Section, template: Path = Path(__file__)
 ) -> None:
-    """Write a page as Markdown or as self-contained HTML, by the ending of the file; template:
-    without this ending."""
+    """Write a page as Markdown or as self-contained HTML, by the ending of the file; template: its
+    path, whatever its ending."""
     path = Path(path)
-    page = _TEMPLATES.get_template(f"{template}{path.suffix}").render(
+    templates = _TEMPLATES.overlay(loader=jinja2.FileSystemLoader(template.parent))
+    page = templates.get_template(f"{template.stem}{path.suffix}").render(
         title=title, sections=sections
     )
     path.write_text(page.rstrip() + "\n", encoding="utf-8")

@@ -73,17 +73,17 @@ KINDS: dict[str, type[Kind]] = {
 
 
 def table_of(part: str, module: str, name: str) -> Any:
-    """A table of a part of the package that has figures of its own, such as ``paper``.
+    """A table of a part of the workflow that has figures of its own, such as ``paper``.
 
-    Such a part is above this layer, and may be absent: only a file that asks for a kind such as
+    Such a part lies beside the package, and may be absent: only a file that asks for a kind such as
     ``paper.light_slider`` brings it in. Its module ``figures.kinds`` lists kinds as `KINDS`, and
     ``figures.drawings`` what draws them as `DRAWINGS`. Raises `ModuleNotFoundError` without it.
     """
-    return getattr(import_module(f"disc_model.{part}.figures.{module}"), name)
+    return getattr(import_module(f"workflow.{part}.figures.{module}"), name)
 
 
 def kinds_in(part: str) -> dict[str, type[Kind]]:
-    """All kinds by their names: those of a part of the package such as ``paper``, or of this one,
+    """All kinds by their names: those of a part of the workflow such as ``paper``, or of this package,
     whose name is ""."""
     kinds: dict[str, type[Kind]] = table_of(part, "kinds", "KINDS") if part else KINDS
     return kinds

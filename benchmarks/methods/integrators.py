@@ -1,0 +1,214 @@
+"""The contract of methods that integrate: what they are given, what they return, and their meter.
+
+A method is a function ``(problem, value, budget, *arguments)`` that advances a `Problem`, with its
+one setting equal to ``value``, for at most about ``budget`` seconds, and returns a `MethodResult`,
+also if it failed on the way. `solvers` lists them.
+"""
+
+from __future__ import annotations
+
+import enum
+import math
+import time as clock
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.interpolate import CubicHermiteSpline
+
+from benchmarks.methods.kernels import Array, Physics
+from disc_model.parameters import Parameters
+from disc_model.simulation.states import State
+
+CHECKED_CALLS = 63
+"""Calls of a right-hand side between two looks at the clock, as a mask of bits."""
+
+
+class RunStatus(enum.StrEnum):
+    """How the run of a method ended."""
+
+    FINISHED = "finished"
+    """It reached t_end."""
+    NON_FINITE = "non_finite"
+    """The numbers overflowed."""
+    STALLED = "stalled"
+    """There were switches without the clock moving, over and over."""
+    TOO_SLOW = "too_slow"
+    """The budget of seconds was used up."""
+    FAILED = "failed"
+    """The integrator itself gave up, or the model has no solution."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """An initial-value problem: start and end of a motion.
+
+    Attributes
+    ----------
+    parameters : the case
+    start : state at the start
+    t_end : end, s, absolute and greater than ``start.time``
+    stop : whether to end at the first separation
+    watched : whether the range of the disc is wanted, which costs some methods time
+    max_step : longest step in s of methods that would miss events with longer ones
+    """
+
+    parameters: Parameters
+    start: State
+    t_end: float
+    stop: bool = False
+    watched: bool = False
+    max_step: float = math.inf
+
+    @property
+    def span(self) -> float:
+        """Simulated time, s."""
+        return self.t_end - self.start.time
+
+
+@dataclass(frozen=True, eq=False)
+class MethodResult:
+    """What a method found.
+
+    Attributes
+    ----------
+    times : of events, s, (n_events,)
+    kinds : of events, words of `disc_model.data.variables.EVENT_KINDS`
+    final : state at t_end, or where the method stopped
+    seconds : processor time of the integration
+    work : number of right-hand sides, or of steps for methods that work with series
+    outcome : how the run ended
+    message : the reason, if it failed
+    longest_step : s, nan if it is not known
+    heights : least and greatest w under the slider, m, nan if it was not watched
+    glue : seconds spent in Python between compiled phases, nan where that was not measured
+    """
+
+    times: Array
+    kinds: tuple[str, ...]
+    final: State
+    seconds: float
+    work: int
+    outcome: RunStatus
+    message: str = ""
+    longest_step: float = math.nan
+    heights: tuple[float, float] = (math.nan, math.nan)
+    glue: float = math.nan
+
+
+class GaveUp(Exception):
+    """A run cannot go on; the arguments are its status and the reason."""
+
+
+class Meter:
+    """The constants of a run, and what it comes to.
+
+    Attributes
+    ----------
+    problem, physics : what is integrated, and its constants
+    budget : seconds
+    work : number of right-hand sides, or of steps
+    longest_step : s
+    low, high : least and greatest w under the slider, m
+    outcome, message : how the run ended, and the reason
+    began, seconds, wall : begin of the integration, and its processor and wall time, s
+    """
+
+    def __init__(self, problem: Problem, budget: float) -> None:
+        self.problem = problem
+        self.physics = Physics(problem.parameters)
+        self.budget = budget
+        self.work = 0
+        self.longest_step = math.nan
+        self.low = math.nan
+        self.high = math.nan
+        self.outcome = RunStatus.FINISHED
+        self.message = ""
+        self.began = 0.0
+        self.seconds = 0.0
+        self.wall = 0.0
+
+    @contextmanager
+    def running(self) -> Iterator[None]:
+        """Time the integration; everything before was preparation."""
+        wall = clock.perf_counter()
+        self.began = clock.thread_time()
+        try:
+            yield
+        except GaveUp as reason:
+            self.outcome, self.message = reason.args
+        self.seconds = clock.thread_time() - self.began
+        self.wall = clock.perf_counter() - wall
+
+    def result(
+        self, times: Sequence[float] | Array, kinds: Sequence[str], final: State
+    ) -> MethodResult:
+        """Return the result of a method with the meter's counts.
+
+        Parameters
+        ----------
+        times : of events, s from the start on
+        kinds : of events
+        final : the last state
+        """
+        return MethodResult(
+            times=self.problem.start.time + np.array(times),
+            kinds=tuple(kinds),
+            final=final,
+            seconds=self.seconds,
+            work=self.work,
+            outcome=self.outcome,
+            message=self.message,
+            longest_step=self.longest_step,
+            heights=(self.low, self.high),
+        )
+
+    def steps(self, times: Array, states: Array) -> None:
+        """Record the steps of one phase, and the range of w over them if it is wanted.
+
+        Parameters
+        ----------
+        times : s, shape (k,)
+        states : vectors at these times, shape (k, size)
+        """
+        if len(times) > 1:
+            longest = np.max(np.diff(times))
+            self.longest_step = float(np.fmax(self.longest_step, longest))
+        if self.problem.watched:
+            w = self._heights(times, states)
+            self.low = float(np.fmin.reduce(w, initial=self.low))
+            self.high = float(np.fmax.reduce(w, initial=self.high))
+
+    def _heights(self, times: Array, states: Array) -> Array:
+        """Return w under the slider at steps and where it is extreme between them, m.
+
+        Between steps w is a cubic.
+        """
+        q = self.physics
+        w = states[:, q.a] @ q.shape
+        slope = states[:, q.b] @ q.slope
+        rate = states[:, q.alpha] @ q.shape + states[:, q.f] * slope
+        forward = np.diff(times, append=math.inf) > 0.0
+        steps = np.flatnonzero(forward & np.isfinite(w + rate))
+        if len(steps) < 2:
+            return w
+        cubics = CubicHermiteSpline(times[steps], w[steps], rate[steps])
+        extremes = cubics.derivative().roots(extrapolate=False)
+        return np.concatenate([w, cubics(extremes)])
+
+    def check(self) -> None:
+        """Raise `GaveUp` if the budget is used up."""
+        if clock.thread_time() - self.began > self.budget:
+            raise GaveUp(RunStatus.TOO_SLOW, f"not finished after {self.budget:g} s")
+
+    def counted(self, function: Callable[[float, Array], Array]) -> Callable[[float, Array], Array]:
+        """Return a right-hand side that counts its calls and sometimes looks at the clock."""
+
+        def wrapped(t: float, y: Array) -> Array:
+            self.work += 1
+            if self.work & CHECKED_CALLS == 0:
+                self.check()
+            return function(t, y)
+
+        return wrapped

@@ -1,0 +1,158 @@
+"""Methods that run in one compiled call: the package's own engine, and fixed-step Runge-Kutta."""
+
+from __future__ import annotations
+
+import math
+import time as clock
+from dataclasses import replace
+
+import numpy as np
+
+from benchmarks.methods import kernels
+from benchmarks.methods.integrators import Meter, MethodResult, Problem, RunStatus
+from benchmarks.methods.kernels import Physics
+from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.errors import Status
+from disc_model.simulation.api import Execution, simulate
+from disc_model.simulation.case import Window
+
+SERIES_STEPS_PER_SECOND = 300_000
+"""Steps of the engine per second of budget: it stops by steps, not by the clock."""
+WATCH_RATE = 2e4
+"""Sampling rate, 1/s: after a separation the disc vibrates by 0.04 rad a sample, and its range is
+accurate to 2e-4."""
+LONGEST_BUDGET = 1e6
+"""Seconds from which on a budget counts as unlimited."""
+FAILURES = {Status.STEP_LIMIT: RunStatus.TOO_SLOW, Status.PARADOX: RunStatus.FAILED}
+"""Ends of the engine that methods call by another name."""
+
+
+def _steps(budget: float, per_second: int) -> int:
+    """Return the greatest number of steps for a budget in seconds, at a rate of steps."""
+    return int(max(1, min(budget, LONGEST_BUDGET) * per_second))
+
+
+def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResult:
+    """Integrate with the engine of `disc_model.simulation.api`.
+
+    It uses Taylor series of high order, with events as roots of polynomials.
+
+    Parameters
+    ----------
+    problem : what is integrated
+    value : tolerance
+    budget : seconds
+    """
+    windows = {}
+    if problem.watched:  # in one bin over the whole run
+        samples = max(2, round(WATCH_RATE * problem.span))
+        windows["whole"] = Window(
+            start=problem.start.time, stop=problem.t_end, rate=WATCH_RATE, envelope=samples
+        )
+    began = clock.thread_time()
+    result = simulate(
+        problem.parameters,
+        problem.t_end,
+        windows,
+        tol=value,
+        initial_state=problem.start,
+        stop_at="first_separation" if problem.stop else None,
+        execution=Execution(max_steps=_steps(budget, SERIES_STEPS_PER_SECOND)),
+    )
+    call = clock.thread_time() - began
+
+    status = result.status
+    outcome = RunStatus.FINISHED
+    if not status.complete:
+        outcome = FAILURES.get(status) or RunStatus(status.value)
+    heights = (math.nan, math.nan)
+    seen = result.samples.get("whole", {})
+    if len(seen.get("w_min", ())):  # of a bin that a run ends before, there is nothing
+        heights = (float(seen["w_min"].min()), float(seen["w_max"].max()))
+    return MethodResult(
+        times=result.events["time"].to_numpy(),
+        kinds=tuple(result.events["kind"]),
+        final=result.final_state,
+        # the time of the steps; of a long run, which other processes may have interrupted, that of
+        # the call
+        seconds=min(result.statistics["wall_time"], call),
+        work=int(result.statistics["steps"]),
+        outcome=outcome,
+        message=result.message,
+        heights=heights,
+    )
+
+
+def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
+    """Integrate with the engine, without modes of the disc if they change the answer too little.
+
+    They change it by about k sum psi^2/omega^2, the disc's deflection over that of the slider's
+    spring, which is compared with the tolerance.
+
+    Parameters
+    ----------
+    problem : what is integrated
+    value : tolerance
+    budget : seconds
+    """
+    p = problem.parameters
+    start = problem.start
+    physics = Physics(p)
+    change = p.k * float(np.sum(physics.shape**2 / physics.stiffness))
+    if change > value or start.phase == "separation":
+        return solve_by_series(problem, value, budget)
+
+    none = np.empty(0)
+    rigid_start = start.replace(u=0.0, u_velocity=0.0, a=none, b=none, alpha=none, beta=none)
+    rigid = replace(problem, parameters=p.replace(n_diameters=-1), start=rigid_start)
+    result = solve_by_series(rigid, value, budget)
+    end = result.final
+    final = start.replace(
+        time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f
+    )
+    return replace(result, final=final)
+
+
+# ---- The paper's fixed-step Runge-Kutta
+
+STABILITY_LIMIT = 2.0 * math.sqrt(2.0)
+"""Largest omega h at which RK4 does not let an undamped oscillation grow."""
+RK4_STEPS_PER_SECOND = 1_000_000
+MAX_EVENTS = 20_000
+RK4_OUTCOMES = {
+    kernels.FINISHED: RunStatus.FINISHED,
+    kernels.NON_FINITE: RunStatus.NON_FINITE,
+    kernels.STALLED: RunStatus.STALLED,
+    kernels.STEP_LIMIT: RunStatus.TOO_SLOW,
+}
+
+
+def solve_by_rk4(problem: Problem, value: float, budget: float) -> MethodResult:
+    """Integrate with classical RK4.
+
+    Parameters
+    ----------
+    problem : what is integrated
+    value : step, s
+    budget : seconds
+    """
+    meter = Meter(problem, budget)
+    physics = meter.physics
+    start = problem.start
+    y = physics.pack(start)
+    times = np.empty(MAX_EVENTS)
+    kinds = np.empty(MAX_EVENTS, np.int64)
+    heights = np.array([math.inf, -math.inf])
+    track = (times, kinds, heights)
+    case = (physics.modes, physics.c, PHASES.index(start.phase), start.direction)
+    kernels.rk4_run(*case, y.copy(), (0.0, value, 1, problem.stop), track)  # compiles
+
+    limits = (problem.span, value, _steps(budget, RK4_STEPS_PER_SECOND), problem.stop)
+    with meter.running():
+        why, t, phase, direction, events, steps = kernels.rk4_run(*case, y, limits, track)
+    meter.outcome = RK4_OUTCOMES[why]
+    meter.work = 4 * steps
+    meter.longest_step = value
+    meter.low, meter.high = heights.tolist()
+    final = physics.unpack(start.time + t, PHASES[phase], direction, y)
+    return meter.result(times[:events], [EVENT_KINDS[kind] for kind in kinds[:events]], final)

@@ -1,0 +1,300 @@
+"""The energy of the transverse motion: what the slope supplies, and what damping and impacts take."""
+
+import math
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from disc_model.disc.plate import modal_damping, mode_arrays, modes_at_point
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.case import Window
+from disc_model.simulation.states import State
+from workflow.paper.measures import Absent, Array
+
+STAGES = 60
+"""Stages of a run at the ends of which powers are averaged."""
+LENGTH = 5.0
+"""Greatest time at the end of each over which they are averaged, s."""
+RATE = 400.0
+"""Samples per second."""
+INSTANT = 0.25
+"""Time over which powers of a growing motion are averaged where its range is to be known, s."""
+INSTANT_RATE = 8000.0
+"""Samples per second in such an instant."""
+NEAR = 0.05
+"""Share within which the range in such an instant is near a width."""
+TRANSIENT = 60.0
+"""Time for which a motion goes on in a compliant contact before its powers are averaged, s."""
+STRETCHES = 5
+"""Stretches of that motion over which they are averaged,"""
+STRETCH = 20.0
+"""and the length of each, s."""
+
+
+class Powers(NamedTuple):
+    """Mean powers over a time, W."""
+
+    width: float
+    """Range of the slider's height, m."""
+    pushes: float
+    """Supplied by the contact force on the slope, P f B, while the force is positive."""
+    pulls: float
+    """Supplied by it while it is negative."""
+    damped: float
+    """Taken by the damping of the disc and of the slider."""
+    gained: float
+    """Rise of the energy of the disc and of the slider's vertical motion."""
+
+    @property
+    def supplied(self) -> float:
+        return self.pushes + self.pulls
+
+    @property
+    def impacts(self) -> float:
+        """Taken by impacts: the rest of the balance."""
+        return self.supplied - self.damped - self.gained
+
+
+def powers(p: Parameters, u_0: float, theta: Array, samples: Sequence[Mapping[Any, Any]]) -> Powers:
+    """Return mean powers from samples of the disc at as many angles as it has modes.
+
+    These give its whole motion. The power of the contact force is that on the velocity of the
+    contact point less that of the disc's material under it, f B.
+
+    Parameters
+    ----------
+    p : the case
+    u_0 : height of the slider at the start, m
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    """
+    first = samples[0]
+    time, force, drive, u, velocity = (
+        np.asarray(first[name]) for name in ("time", "P", "psi", "u", "u_velocity")
+    )
+    omega = _by_mode(p, mode_arrays(p).omega)
+    psi = _by_mode(p, modes_at_point(p).psi)
+    modal_speed = _modal(p, theta, samples, "w_point_velocity")
+
+    under_slider = _waves(p.Omega * time - drive, p.n_diameters)
+    material = np.sum(psi * modal_speed * under_slider, axis=0)
+    power = force * (velocity - material)
+
+    # twice the energy: modes of unit modal mass, the slider, its spring and preload
+    modal_force = omega * _modal(p, theta, samples, "w_point")
+    height = u - u_0
+    energy = np.sum(modal_speed**2 + modal_force**2, axis=0)
+    energy += p.m * velocity**2 + p.k * height**2 + 2 * p.N * height
+
+    of_modes = _damping(p, modal_speed).sum()
+    duration = float(time[-1] - time[0])
+    return Powers(
+        width=float(np.ptp(u)),
+        pushes=float(np.mean(power * (force > 0))),
+        pulls=float(np.mean(power * (force < 0))),
+        damped=float(of_modes + p.c * np.mean(velocity**2)),
+        gained=float(energy[-1] - energy[0]) / 2 / duration,
+    )
+
+
+def damping_by_diameters(
+    p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]]
+) -> Array:
+    """Return mean powers in W that the damping of the disc takes, by the modes' nodal diameters.
+
+    Parameters
+    ----------
+    p : the case
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    """
+    return _damping(p, _modal(p, theta, samples, "w_point_velocity"))
+
+
+def _damping(p: Parameters, modal_speed: Array) -> Array:
+    """Return these powers from the rates of modal coordinates, shape (modes, times)."""
+    taken = np.mean(_by_mode(p, modal_damping(p)) * modal_speed**2, axis=1)
+    orders = np.arange(p.n_diameters + 1)
+    diameters = np.concatenate([orders, orders[1:]])
+    return np.asarray(np.bincount(diameters, weights=taken), dtype=float)
+
+
+def _modal(p: Parameters, theta: Array, samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
+    """Return modal coordinates of unit modal mass, or their rates, shape (modes, times).
+
+    Parameters
+    ----------
+    p : the case
+    theta : angles at which the disc was sampled, rad
+    samples : variables over time by name, at each of these angles
+    name : displacement or velocity of the disc at these angles
+    """
+    waves = _waves(theta, p.n_diameters).T
+    coefficients = np.linalg.solve(waves, _stacked(samples, name))
+    return np.asarray(coefficients / _by_mode(p, modes_at_point(p).psi))
+
+
+def _by_mode(p: Parameters, values: Array) -> Array:
+    """Return values of modes by diameters, then once more those of the second mode of each pair.
+
+    The result has shape (2 n_diameters + 1, 1), in the order of `_waves`.
+    """
+    order = np.argsort(mode_arrays(p).diameters)
+    ordered = values[order]
+    both = np.concatenate([ordered, ordered[1:]])
+    return both[:, None]
+
+
+def _stacked(samples: Sequence[Mapping[Any, Any]], name: str) -> Array:
+    """Return a variable at all angles, shape (angles, times)."""
+    return np.stack([np.asarray(each[name]) for each in samples])
+
+
+def _waves(angle: Array, most: int) -> Array:
+    """Return 1, then cosines and sines of multiples of angles, shape (2 most + 1, angles)."""
+    orders = np.arange(1, most + 1)[:, None]
+    multiples = orders * angle
+    ones = np.ones((1, angle.size))
+    return np.concatenate([ones, np.cos(multiples), np.sin(multiples)])
+
+
+def angles_round(p: Parameters) -> Array:
+    """Return as many angles round the disc as it has modes, rad."""
+    count = 2 * p.n_diameters + 1
+    return 2 * np.pi * np.arange(count) / count
+
+
+def windows_round(
+    p: Parameters, start: float, stop: float, rate: float = RATE
+) -> dict[str, Window]:
+    """Return windows that sample the disc at `angles_round` between two times in s.
+
+    The rate is in samples per second.
+    """
+    return {
+        f"at {angle:g}": Window(start=start, stop=stop, rate=rate, theta=angle)
+        for angle in angles_round(p).tolist()
+    }
+
+
+def power_history(p: Parameters, until: float, widest: float = math.inf) -> list[Powers]:
+    """Return powers at `STAGES` times of the motion from the static start.
+
+    Parameters
+    ----------
+    p : the case
+    until : the last time, s
+    widest : range of the slider's height in m beyond which the motion is not followed
+    """
+    theta = angles_round(p)
+    state = None
+    history: list[Powers] = []
+    times = np.linspace(0.0, until, STAGES + 1).tolist()
+    for begin, end in pairwise(times):
+        windows = windows_round(p, max(begin, end - LENGTH), end)
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
+        state = run.final_state
+        samples = list(run.samples.values())
+        history.append(powers(p, run.u_0, theta, samples))
+        if len(history) > 1 and history[-1].width > widest:
+            break
+    return history
+
+
+def in_the_end(history: Sequence[Powers]) -> Powers:
+    """Return means over the last quarter of the stages, for the steady state."""
+    late = history[-len(history) // 4 :]
+    return Powers(*np.mean(late, axis=0).tolist())
+
+
+def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
+    """Return mean powers in W that damping takes in each of `STRETCHES` stretches of a motion in a
+    compliant contact. As that has no impacts, these are what the contact force supplies in the
+    steady state.
+
+    Parameters
+    ----------
+    p : a case with rigid contact; its contact becomes as flexible as the modes that are left out
+    state : from which the motion goes on
+    """
+    compliant = p.replace(contact_compliance="residual")
+    theta = angles_round(compliant)
+    end = state.time + TRANSIENT
+    run = simulate(compliant, end, initial_state=state, events=False).raise_for_status()
+    taken = []
+    for _ in range(STRETCHES):
+        begin = run.final_state.time
+        windows = windows_round(compliant, begin, begin + STRETCH)
+        run = simulate(compliant, begin + STRETCH, windows, initial_state=run.final_state)
+        run.raise_for_status()
+        taken.append(powers(compliant, run.u_0, theta, list(run.samples.values())).damped)
+    return np.array(taken)
+
+
+def at_width(history: Sequence[Powers], width: float) -> Powers:
+    """Return the powers of a growing motion where its range first has a width in m.
+
+    They are interpolated in the square of the width. Raises `Absent` if the motion stays smaller.
+    """
+    for low, high in pairwise(history):
+        if high.width > width:
+            share = (width**2 - low.width**2) / (high.width**2 - low.width**2)
+            interpolated = (1 - share) * np.array(low) + share * np.array(high)
+            return Powers(*interpolated.tolist())
+    raise Absent(f"maintained contact comes to {1e3 * history[-1].width:.3g} mm only")
+
+
+def at_range(
+    p: Parameters, until: float, width: float, stages: Sequence[Powers] | None = None
+) -> tuple[Powers, float]:
+    """Return the powers of a growing motion about where its range has a width.
+
+    A stage of `power_history` has the greatest range of seconds, in which the motion may grow much.
+    Powers are therefore means over all instants in which the range is within `NEAR` of the width;
+    those of a single instant depend on the releases that fall into it. The motion begins at the
+    static start.
+
+    Parameters
+    ----------
+    p : the case
+    until : time to which the motion is followed, s
+    width : range of the slider's height, m
+    stages : the `power_history` to that time, if it is known
+
+    Returns
+    -------
+    powers : the means
+    end : end of the last of these instants, s
+
+    Raises
+    ------
+    Absent
+        If the motion stays smaller, or is near that width in no instant.
+    """
+    if stages is None:
+        stages = power_history(p, until, width)
+    at_width(stages, width)  # raises if the motion stays smaller
+    beyond = [stage.width > width for stage in stages[1:]].index(True)
+    begin = until * beyond / STAGES
+    theta = angles_round(p)
+    state = None
+    if begin > 0:
+        state = simulate(p, begin, events=False).final_state
+    near: list[Powers] = []
+    last = math.nan
+    for end in np.arange(begin + INSTANT, until + INSTANT / 2, INSTANT).tolist():
+        windows = windows_round(p, end - INSTANT, end, INSTANT_RATE)
+        run = simulate(p, end, windows, initial_state=state).raise_for_status()
+        state = run.final_state
+        found = powers(p, run.u_0, theta, list(run.samples.values()))
+        if found.width > (1 + NEAR) * width:
+            break
+        if found.width > (1 - NEAR) * width:
+            near.append(found)
+            last = end
+    if not near:
+        raise Absent(f"maintained contact leaps over {1e3 * width:.3g} mm")
+    return Powers(*np.mean(near, axis=0).tolist()), last

@@ -1,0 +1,125 @@
+# The paper's claims and tables against the computed results, with the modes normalised otherwise, and under other models.
+
+
+from workflow.paper import JUDGING_TABLES, SCANS, SURVIVAL_GRIDS, TABLE_CASES
+
+SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
+MADE = [table for table, cases in TABLE_CASES.items() if STUDY.specs.keys() >= {*cases}]
+
+
+rule check_claims:
+    input:
+        cases=lambda w: need(sorted(map(case_file, STUDY.specs))),
+        scans=list(SCANNED.values()),
+        tables=[
+            f"{RESULTS}/tables/{table}.csv"
+            for table in JUDGING_TABLES
+            if table in MADE
+        ],
+    output:
+        csv=f"{RESULTS}/claims.csv",
+        md=f"{RESULTS}/claims.md",
+        html=report(
+            f"{RESULTS}/claims.html",
+            caption="report/claims.rst",
+            category="Claims of the paper",
+            labels={"table": "All statements, with verdicts"},
+        ),
+    log:
+        f"{RESULTS}/logs/check_claims.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        code=code_of("../paper/scripts/check_claims", WORKFLOW / "paper", "data"),
+    shell:
+        "job ../paper/scripts/check_claims {output} {input.cases} {input.scans} {input.tables} > {log} 2>&1"
+
+
+rule make_table:
+    # Tables 1 and 2 of the paper, and those on which results rest: each from its own cases, if the study has them.
+    input:
+        lambda w: need([*map(case_file, TABLE_CASES[w.table])]),
+    output:
+        csv=f"{RESULTS}/tables/{{table}}.csv",
+        md=f"{RESULTS}/tables/{{table}}.md",
+        html=report(
+            f"{RESULTS}/tables/{{table}}.html",
+            caption="report/table.rst",
+            category="Tables of the paper",
+            labels=lambda w: {"table": w.table.replace("table", "Table ")},
+        ),
+    log:
+        f"{RESULTS}/logs/make_table/{{table}}.log",
+    wildcard_constraints:
+        table="|".join(TABLE_CASES),
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        code=code_of(
+            "../paper/scripts/make_table", WORKFLOW / "paper", "data", *PHYSICS
+        ),
+    shell:
+        "job ../paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
+
+
+rule compare_normalisations:
+    # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
+    input:
+        published="results/paper/cases.nc",
+        orthonormal="results/paper_orthonormal/cases.nc",
+    output:
+        csv="results/paper/normalisation.csv",
+        md="results/paper/normalisation.md",
+        html=report(
+            "results/paper/normalisation.html",
+            caption="report/normalisation.rst",
+            category="Normalisation of the modes",
+            labels={"page": "What changes with Eq. (17)"},
+        ),
+    log:
+        "results/paper/logs/compare_normalisations.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        code=code_of(
+            "../paper/scripts/compare_normalisations", WORKFLOW / "paper", "data"
+        ),
+    shell:
+        "job ../paper/scripts/compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
+
+
+rule judge_survival:
+    # Needs the motions and grids of config/survival.yaml: `make survival` computes them and runs this.
+    input:
+        cases="results/survival/cases.nc",
+        grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
+        png="results/survival_growth/figures/survival_growth.png",
+    output:
+        csv="results/paper/survival.csv",
+        md="results/paper/survival.md",
+        html=report(
+            "results/paper/survival.html",
+            caption="report/survival.rst",
+            category="Model sensitivity",
+            labels={"page": "The paper's conclusions under five models"},
+        ),
+        png=report(
+            "results/paper/survival_growth.png",
+            caption="report/survival.rst",
+            category="Model sensitivity",
+            labels={"page": "Growth rate over speed and preload under each"},
+        ),
+    log:
+        "results/paper/logs/judge_survival.log",
+    conda:
+        "../envs/disc_model.yaml"
+    params:
+        code=code_of("../paper/scripts/judge_survival", WORKFLOW / "paper", "data"),
+    shell:
+        "(job ../paper/scripts/judge_survival {output.csv} {output.md} {output.html} {input.cases} {input.grids}"
+        " && cp {input.png} {output.png}) > {log} 2>&1"
+
+
+if STUDY.claims:
+    PRODUCTS += [*rules.check_claims.output]
+    PRODUCTS += collect(rules.make_table.output, table=MADE)
