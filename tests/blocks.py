@@ -1,4 +1,4 @@
-"""The block on a rigid disc on which several tests agree."""
+"""Cases on which several tests agree: a block on a rigid disc, and a disc of steel."""
 
 from disc_model import Parameters
 
@@ -17,3 +17,8 @@ RIG = Parameters(
 )
 """A published rig: between the Hopf point of steady sliding, 0.159 m/s, and the end of stick-slip,
 0.2306 m/s, both are stable."""
+STEEL = Parameters(
+    N=5000, Omega=60, E=210e9, rho=7850, nu=0.3, h=6e-3, m=0.3, k=5e5, k_p=2e5, mu_s=0.45, mu_k=0.35,
+    damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
+)  # fmt: skip
+"""Under a pad, growth of its steady sliding converges with the number of modes."""

@@ -14,6 +14,7 @@ from disc_model.mode_choice import RICH, UndecidedModes, choose_when_run, freque
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import parse_study
+from tests.blocks import STEEL
 from tests.refusals import refusal
 
 P = Parameters(N=385.0, Omega=15.1)
@@ -139,12 +140,6 @@ def test_modes_that_grow_and_are_left_out_are_told() -> None:
     assert repr(choice).endswith("; with all 5 modes 3 grow, with these 1)")
     assert dict(choice.summary())["modes that grow"] == "with all 5 modes 3 grow, with these 1"
     assert json.loads(choice.to_json())["growing"] == [1, 3]
-
-
-STEEL = Parameters(
-    N=5000, Omega=60, E=210e9, rho=7850, nu=0.3, h=6e-3, m=0.3, k=5e5, k_p=2e5, mu_s=0.45, mu_k=0.35,
-    damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
-)  # fmt: skip
 
 
 def test_growth_of_steady_sliding_converges_under_a_pad_and_not_at_a_point(

@@ -12,6 +12,7 @@ from benchmarks.methods.integrators import MethodResult, RunStatus
 from benchmarks.methods.kernels import Physics
 from benchmarks.scenes import Verdict, answer, errors, problem
 from disc_model import Parameters
+from disc_model.simulation.states import static_start
 from tests.references import stored
 
 P = Parameters(N=385.0, Omega=15.1)
@@ -21,6 +22,10 @@ def test_the_stored_start_is_that_of_the_references() -> None:
     ours = scenes.separating_start(P)
     theirs = stored.engine_state(stored.load("C")["start"], P)
     assert Physics(P).distance(ours, theirs) < 1e-14
+
+
+def test_the_static_start_is_the_engines() -> None:
+    assert Physics(P).distance(scenes.static_start(P), static_start(P)) < 1e-12
 
 
 @pytest.mark.parametrize(("scene", "name"), [("stick_slip", "A"), ("separating", "C")])

@@ -10,6 +10,8 @@ import disc_model as dm
 from disc_model.figures import disc
 from disc_model.figures.drawing import SEPARATED, SLIDER
 from disc_model.simulation.api import snapshots
+from tests.references.printed import P as LIVELY
+from tests.references.printed import lively
 
 P = dm.Parameters(N=385, Omega=15.1)
 TIMES = [0.11, 0.23, 0.9]  # after more than a turn in the end
@@ -37,6 +39,17 @@ def test_a_picture_has_the_deflection_of_the_disc_at_its_angles(radii: list[floa
             drawn = shown.deflection(i, np.array(radii), ANGLES)
             expected = [dm.deflection(P, state, r, ANGLES).values.ravel() for r in radii]
         np.testing.assert_allclose(drawn, np.reshape(expected, drawn.shape), rtol=0, atol=1e-15)
+
+
+def test_the_disc_lies_where_the_material_is() -> None:
+    """By the slider's own angle the shape of a disc whose surface moves would lie elsewhere."""
+    p = LIVELY.replace(friction_offset=0.02)
+    state = lively("slip", 1, p).replace(surface_turn=0.3)
+    shown = disc.Motion.of(p, [state])
+    expected = dm.deflection(p, state, [p.r_0], ANGLES)[0]
+    np.testing.assert_allclose(shown.deflection(0, None, ANGLES), expected, rtol=1e-12)
+    under = shown.deflection(0, None, shown.slider)
+    assert under.item() == pytest.approx(state.u, rel=1e-12)
 
 
 def test_the_slider_stands_on_the_disc_under_it() -> None:

@@ -210,15 +210,15 @@ def change(case, modes, y, side):
 
 
 @njit
-def follow(case, modes, y, t_end, h, stop):
-    """Follow the motion from stick.
+def follow(case, modes, y, side, t_end, h, stop):
+    """Follow the motion from a phase.
 
-    Returns the first separation (s, or nan), the range of the slider in the last second (m), and
-    the largest speed of the surface before the separation (m/s); with ``stop`` no further than to
-    the separation."""
+    Returns its events as rows of time (s) and ``side`` before and after, behind a row of the start;
+    the range of the slider in the last second (m), and the largest speed of the surface before the
+    first separation (m/s); with ``stop`` no further than to that separation."""
     t = 0.0
-    side = STICK
-    first = np.nan
+    found = [(t, side, side)]
+    apart = False
     low = np.inf
     high = -np.inf
     fastest = 0.0
@@ -238,18 +238,19 @@ def follow(case, modes, y, t_end, h, stop):
                 else:
                     left = middle
             y, margin = advance(case, modes, before, side, right)
-            side = change(case, modes, y, side)
+            ended = side
+            side = change(case, modes, y, ended)
+            found.append((t + right, ended, side))
             step = right
-            if side == SEPARATION and np.isnan(first):
-                first = t + right
-                if stop:
-                    break
+            apart = apart or side == SEPARATION
+            if apart and stop:
+                break
             if right < 1e-9:  # leads away from an event at the start of a phase
                 y = advance(case, modes, y, side, 1e-9)[0]
                 step = right + 1e-9
         t += step
         now = motion(case, modes, y, side, rates)
-        if np.isnan(first):
+        if not apart:
             fastest = max(fastest, abs(now.surface_speed))
         if t > t_end - 1.0:
             own = case.compliance > 0.0 or side == SEPARATION
@@ -259,7 +260,7 @@ def follow(case, modes, y, t_end, h, stop):
                 height = now.w
             low = min(low, height)
             high = max(high, height)
-    return first, high - low, fastest
+    return found, high - low, fastest
 
 
 def case_and_modes(problem, *, bilateral=False):
@@ -271,12 +272,42 @@ def case_and_modes(problem, *, bilateral=False):
     return case, modes
 
 
+def start_of(state):
+    """Vector and ``side`` of a `stored.State`."""
+    slider = [state.psi, state.f, state.u, state.u_velocity]
+    y = np.concatenate([state.a, state.b, state.alpha, state.beta, slider]).astype(float)
+    sides = {"stick": STICK, "slip": float(state.direction), "separation": SEPARATION}
+    return y, sides[state.phase]
+
+
 def first_separation(problem, t_end, h=STEP, *, bilateral=False, stop=True):
-    """Of a `taylor.Problem`, from the static start: see `follow`, the last over r_0 Omega."""
+    """Of a `taylor.Problem`, from the static start: its time, or nan, and the last two of `follow`,
+    of which the last over r_0 Omega."""
     case, modes = case_and_modes(problem, bilateral=bilateral)
-    n = len(modes.s)
-    start = np.zeros(4 * n + 4)
-    start[:n] = problem.equilibrium().a
-    start[-2] = case.u_0
-    time, width, fastest = follow(case, modes, start, float(t_end), h, stop)
-    return time, width, fastest / (case.r_0 * case.Omega)
+    start, side = start_of(problem.equilibrium())
+    found, width, fastest = follow(case, modes, start, side, float(t_end), h, stop)
+    times = [time for time, _, after in found if after == SEPARATION]
+    return min(times, default=np.nan), width, fastest / (case.r_0 * case.Omega)
+
+
+def switches(problem, start, duration, h=STEP):
+    """Times since a `stored.State`, s, and kinds of the events."""
+    found, *_ = follow(*case_and_modes(problem), *start_of(start), float(duration), h, False)
+    times = []
+    kinds = []
+    for time, before, after in found[1:]:
+        for kind in _kinds(before, after):
+            times.append(time)
+            kinds.append(kind)
+    return np.array(times), kinds
+
+
+def _kinds(before, after):
+    """Kinds of the events between two phases."""
+    if before == SEPARATION:
+        return ["reattachment", "separation"][: 1 + (after == SEPARATION)]
+    if after == SEPARATION:
+        return ["separation"]
+    if before == STICK:
+        return ["stick_to_slip"]
+    return ["slip_to_stick" if after == STICK else "slip_reversal"]

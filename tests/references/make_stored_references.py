@@ -1,4 +1,4 @@
-"""Compute the stored references of tests/references/data and of the benchmark, in an hour.
+"""Compute the stored references of tests/references/data, in an hour.
 
 Run from the repository's root::
 
@@ -10,19 +10,13 @@ in long double, with another search for roots: they agree with these to 1e-17 s.
 """
 
 import json
-import math
-from itertools import accumulate
-from pathlib import Path
 
 import numpy as np
 
-import benchmarks
-from benchmarks.scenes import problem, stated
 from disc_model.errors import script
 from tests.contact_laws import LAWS
-from tests.references import stored
 from tests.references.stored import DATA, State, load, rounded
-from tests.references.taylor import TRUNCATION, Reference, problem_of, stored_problem, violent_start
+from tests.references.taylor import TRUNCATION, Reference, stored_problem, violent_start
 
 FINER = TRUNCATION / 1e3
 """Truncation of the runs that check others."""
@@ -235,56 +229,6 @@ def contact(name):
     write(f"contact_{name}", {"parameters": parameters, "runs": runs})
 
 
-# ---- Scenes of the benchmark
-
-
-def of_benchmark(name):
-    """Return the answer of a scene: event times, kinds and the state at the end."""
-    task = problem(name)
-    p = task.parameters
-    run, difference = repeated(problem_of(p), stored.reference_state(task.start, p), task.t_end)
-    final = stored.engine_state(rounded(run.state()), p)
-    return {
-        "parameters": stated(p),
-        "t_end": task.t_end,
-        "largest_difference_to_check_run": difference,
-        "kinds": [e["kind"] for e in run.events],
-        "times": [decimal(e["time"]) for e in run.events],
-        "final": stored.as_json(final),
-    }
-
-
-def rigid_cycle():
-    """Return stick-slip on a rigid disc from a relaxed spring, in closed form.
-
-    The contact force is N, and there is no damping; the motion is followed up to its third event. At
-    E = 1e20 Pa the disc's remaining flexibility, k psi^2/omega^2, is 3e-9: this is exact to about
-    that.
-    """
-    task = problem("rigid")
-    p = task.parameters
-    omega = math.sqrt(p.k_p / p.m)
-    held = p.mu_s * p.N / (p.k_p * p.r_0)
-    slipping = p.mu_k * p.N / (p.k_p * p.r_0)
-    excess = held - slipping
-    slip = 2.0 / omega * (math.pi - math.atan(excess * omega / p.Omega))
-    stick = (held - (slipping - excess)) / p.Omega
-    times = [*accumulate([held / p.Omega, slip, stick])]
-
-    since = omega * (task.t_end - times[-1])
-    psi = slipping + excess * math.cos(since) + p.Omega / omega * math.sin(since)
-    f = p.Omega + excess * omega * math.sin(since) - p.Omega * math.cos(since)
-    final = task.start.replace(time=task.t_end, phase="slip", direction=1, psi=psi, f=f)
-    return {
-        "parameters": stated(p),
-        "t_end": task.t_end,
-        "largest_difference_to_check_run": 1e-9 * task.t_end,
-        "kinds": ["stick_to_slip", "slip_to_stick", "stick_to_slip"],
-        "times": [f"{t:.25f}" for t in times],
-        "final": stored.as_json(final),
-    }
-
-
 @script
 def main():
     """Write all stored references."""
@@ -298,8 +242,3 @@ def main():
     record_first_separation(case)
     for name in LAWS:
         contact(name)
-
-    scenes = {name: of_benchmark(name) for name in ("stick_slip", "separating", "many_modes")}
-    scenes["rigid"] = rigid_cycle()
-    target = Path(benchmarks.__file__).parent / "data" / "benchmark_reference.json"
-    target.write_text(json.dumps(scenes, indent=1) + "\n", encoding="utf-8")

@@ -8,7 +8,6 @@ import pytest
 
 import disc_model as dm
 from disc_model import Disc, Execution, Parameters, Window, simulate
-from disc_model.figures.disc import Motion
 from disc_model.simulation.states import (
     engine_case,
     perturb,
@@ -261,18 +260,6 @@ def test_samples_and_deflection_show_the_disc_where_the_material_is() -> None:
     shown = dm.deflection(p, result.final_state, [p.r_0], [1.0])
     assert float(shown.squeeze()) == pytest.approx(wanted[names.index("w_point")], rel=1e-9)
     assert abs(result.final_state.surface_turn) > 1e-8
-
-
-def test_a_film_shows_the_disc_where_the_material_is() -> None:
-    """As `deflection` has it; by the slider's own angle the disc's shape would lie elsewhere."""
-    p = LIVELY.replace(friction_offset=0.02)
-    state = lively("slip", 1, p).replace(surface_turn=0.3)
-    motion = Motion.of(p, [state])
-    angles = np.array([0.0, 1.0, 2.0])
-    shown = motion.deflection(0, None, angles)
-    np.testing.assert_allclose(shown, dm.deflection(p, state, [p.r_0], angles)[0], rtol=1e-12)
-    under = motion.deflection(0, None, motion.slider)
-    assert under.item() == pytest.approx(state.u, rel=1e-12)
 
 
 # ------------------------------------------------------------------------------------ limits

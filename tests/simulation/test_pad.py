@@ -9,10 +9,10 @@ from disc_model import Disc, Parameters, Window, deflection, plate_modes, simula
 from disc_model.disc.plate import mode_arrays, modes_at_point, tangential_amplitudes
 from disc_model.simulation.states import transfer_state
 from disc_model.stability.sliding import steady_sliding
+from tests.blocks import STEEL
 from tests.references import taylor
 from tests.references.growth import pad_means, steady_eigenvalues
 from tests.refusals import refusal
-from tests.test_mode_choice import STEEL
 
 BRAKE = Disc.from_csv(Path("config/discs/brake.csv"))
 PLATE = Parameters(N=385, Omega=15.1, friction_offset=0.02)

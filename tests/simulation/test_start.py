@@ -8,9 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from benchmarks.methods import kernels
-from benchmarks.methods.kernels import Physics
-from disc_model import Window, deflection, floquet
+from disc_model import Window, deflection, floquet, outcome, run_study
 from disc_model.data.variables import PHASES, flag_names
 from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
@@ -18,10 +16,9 @@ from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Start
 from disc_model.simulation.starts import initial_state, make_initial_state
 from disc_model.simulation.states import State, perturb, static_start, transfer_state
-from disc_model.studies.functions import outcome
 from tests.contact_laws import LAWS
+from tests.references.printed import Printed
 from tests.refusals import refusal
-from tests.studies.conftest import computed
 
 
 def test_a_preparation_that_fails_is_reported() -> None:
@@ -33,7 +30,7 @@ def test_a_preparation_that_fails_is_reported() -> None:
         "axes": {"Omega": [15]},
         "options": options,
     }
-    found = computed(**raw).isel(Omega=0)
+    found = run_study(raw).isel(Omega=0)
     assert flag_names(found["status"]) == "failed"
     assert "ParameterError" in str(found["message"].item())
 
@@ -155,9 +152,8 @@ def test_a_switch_continued_under_other_parameters_is_one_of_these(
     to 0.2 mm."""
     p = APART.replace(**change)
     start = transfer_state(p, switch())
-    physics = Physics(p)
     # by formulas that share nothing with the engine
-    force, _ = kernels.contact(physics.modes, physics.c, 1, physics.pack(start))
+    force = Printed(p, start.replace(phase="slip", direction=1)).force()
     assert abs(force) > 1e-3
     window = Window(start=0, stop=2e-3, rate=1e6)
     run = simulate(p, 2e-3, windows={"w": window}, initial_state=start)

@@ -1,6 +1,7 @@
 """Periods of motions with stick and separation, with a test that can fail, and their multipliers."""
 
 import math
+from itertools import pairwise
 from types import SimpleNamespace
 from typing import Any
 
@@ -9,7 +10,6 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from disc_model.disc.plate import mode_arrays
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
@@ -18,8 +18,8 @@ from disc_model.simulation.states import engine_case
 from disc_model.stability import locking
 from disc_model.stability.cycle import multipliers
 from disc_model.stability.locking import Releases, lock_of, releases_of
-from tests.references import fixed_step
-from tests.references.taylor import Problem
+from tests.references import stored, taylor
+from tests.references.fixed_step import switches
 
 CASE = Parameters(N=200, Omega=20, normalization="as_published")
 GOLDEN = (math.sqrt(5) - 1) / 2
@@ -270,51 +270,9 @@ def test_a_method_of_fixed_steps_finds_the_same_numbers_of_vibrations(run: Resul
 
 def vibrations_by_fixed_steps(run: Result, duration: float) -> list[int]:
     """Numbers of separations between releases, from the state in which a run begins."""
-    state = run.initial_state
-    assert state is not None
     p = run.parameters
-    disc = mode_arrays(p)
-    problem = Problem(dict(p), disc.omega, disc.psi, disc.diameters)
-    case, modes = fixed_step.case_and_modes(problem)
-    moved = [state.a, state.b, state.alpha, state.beta]
-    y = np.concatenate([*moved, [state.psi, state.f, state.u, state.u_velocity]])
-    sides: dict[str, Any] = {
-        "stick": fixed_step.STICK,
-        "slip": float(state.direction),
-        "separation": fixed_step.SEPARATION,
-    }
-    side = sides[state.phase]
-    counts: list[int] = []
-    count = 0
-    is_known = False
-    time = 0.0
-    while time < duration:
-        h = fixed_step.STEP
-        new, margin = fixed_step.advance(case, modes, y, side, h)
-        step = h
-        if margin < 0:
-            left = 0.0
-            right = h
-            while right - left > 1e-13:
-                middle = (left + right) / 2
-                _, margin = fixed_step.advance(case, modes, y, side, middle)
-                if margin < 0:
-                    right = middle
-                else:
-                    left = middle
-            new, _ = fixed_step.advance(case, modes, y, side, right)
-            after = fixed_step.change(case, modes, new, side)
-            if side == fixed_step.STICK and is_known:
-                counts.append(count)
-            if side == fixed_step.STICK:
-                is_known = True
-                count = 0
-            count += after == fixed_step.SEPARATION and side != fixed_step.SEPARATION
-            side = after
-            step = right
-            if right < 1e-9:  # leads away from an event at the start of a phase
-                new, _ = fixed_step.advance(case, modes, new, side, 1e-9)
-                step = right + 1e-9
-        y = new
-        time += step
-    return counts
+    assert run.initial_state is not None
+    start = stored.reference_state(run.initial_state, p)
+    _, kinds = switches(taylor.problem_of(p), start, duration)
+    releases = [at for at, kind in enumerate(kinds) if kind == "stick_to_slip"]
+    return [kinds[at:end].count("separation") for at, end in pairwise(releases)]

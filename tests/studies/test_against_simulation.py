@@ -5,18 +5,11 @@ from typing import Any
 
 import numpy as np
 import pytest
+import xarray as xr
 
-from disc_model.data.variables import flag_names
-from disc_model.parameters import Parameters
-from disc_model.simulation.api import simulate
-from disc_model.simulation.result import Result
-from disc_model.simulation.states import State, perturb, static_start
+from disc_model import Parameters, Result, State, initial_state, run_study, simulate, words
+from disc_model.simulation.states import static_start
 from disc_model.stability.attractors import random_perturbation
-from disc_model.studies import functions
-from disc_model.studies.quantities.bifurcation import Bifurcation
-from disc_model.studies.quantities.regions import Regions
-from disc_model.studies.quantities.sensitivity import Sensitivity
-from disc_model.studies.quantity import Point
 from tests.contact_laws import ALL_LAWS, COMPILES
 
 pytestmark = pytest.mark.compiled
@@ -84,6 +77,22 @@ def separating(law: str, count: int, seed: int = 0) -> list[Parameters]:
     return found
 
 
+def studied(
+    p: Parameters, quantity: str, axes: dict[str, list[float]] | None = None, **options: Any
+) -> xr.Dataset:
+    """What a study says of a case, or over axes through it."""
+    varied = axes or {"N": [p.N]}
+    given = {*varied}
+    if "scan" in options:
+        given.add("Omega")
+    base = p.model_dump(exclude_defaults=True, exclude=given)
+    study = {"study": "one", "quantity": quantity, "base": base, "axes": varied, "options": options}
+    found = words(run_study(study))
+    if axes is None:
+        found = found.isel(N=0)
+    return found
+
+
 @EACH_LAW
 def test_outcome_loses_contact_when_the_simulated_static_start_does(law: str) -> None:
     """With an offset, two of three first separations were wrong by more than 1 %."""
@@ -91,7 +100,7 @@ def test_outcome_loses_contact_when_the_simulated_static_start_does(law: str) ->
     separated = 0
     # under some laws few cases separate by chance
     for p in [*(drawn(rng, law) for _ in range(90)), *separating(law, 10)]:
-        found = functions.outcome(p, HORIZON, evaluation_time=0.05, after_separation=0.05)
+        found = studied(p, "outcome", horizon=HORIZON, evaluation_time=0.05, after_separation=0.05)
         first = found["first_separation"].item()
         assert (found["outcome"].item() == "separation") == math.isfinite(first)
         if first == pytest.approx(first_separation(p), rel=SAME_TIME, nan_ok=True):
@@ -107,7 +116,7 @@ def test_first_separations_of_many_cases_are_the_simulated_ones(law: str, seed: 
     cases = [p for p in separating(law, 40, seed) if is_regular(p)]
     assert len(cases) >= 30
     for p in cases:
-        first = functions.outcome(p, HORIZON)["first_separation"].item()
+        first = studied(p, "outcome", horizon=HORIZON)["first_separation"].item()
         assert first == pytest.approx(first_separation(p), rel=SAME_TIME), p
 
 
@@ -115,25 +124,23 @@ def test_first_separations_of_many_cases_are_the_simulated_ones(law: str, seed: 
 def test_an_outcome_from_a_perturbed_start_is_the_simulated_one(law: str) -> None:
     kick = {"u": 2e-4, "f": 0.3}
     for p in separating(law, 2):
-        found = functions.outcome(p, HORIZON, start=kick)
-        start = perturb(p, static_start(p), **kick)
-        first = first_separation(p, start=start)
+        found = studied(p, "outcome", horizon=HORIZON, perturbation=kick)
+        first = first_separation(p, start=initial_state(p, kick))
         assert found["first_separation"].item() == pytest.approx(first, rel=SAME_TIME)
 
 
 @EACH_LAW
 def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
     for p in separating(law, 2):
-        low = 0.9 * p.Omega
-        found = functions.critical_speed(
-            p, (low, p.Omega), HORIZON, step=0.05 * p.Omega, precision=0.05 * p.Omega
-        )
+        step = 0.05 * p.Omega
+        scan = {"start": 0.9 * p.Omega, "stop": p.Omega, "step": step}
+        found = studied(p, "critical_speed", horizons=[HORIZON], scan=scan, precision=step)
         speeds = found["scan_Omega"].values
         times = [first_separation(p.replace(Omega=float(speed))) for speed in speeds]
         assert found["scan_first_separation"].values == pytest.approx(
             times, rel=SAME_TIME, nan_ok=True
         )
-        separates = flag_names(found["scan_outcome"]) == "separation"
+        separates = found["scan_outcome"] == "separation"
         assert separates.tolist() == np.isfinite(times).tolist()
         lowest = speeds[np.isfinite(times)][0]
         assert found["critical_speed"].item() == pytest.approx(lowest, rel=1e-11)
@@ -142,44 +149,34 @@ def test_critical_speed_scans_the_simulated_motions(law: str) -> None:
 @EACH_LAW
 def test_a_map_has_the_simulated_first_separations(law: str) -> None:
     for p in separating(law, 2):
-        plane = []
-        for a in (0.95, 1):
-            case = p.replace(N=a * p.N)
-            speeds = (0.9 * p.Omega, p.Omega)
-            row = [case.replace(Omega=Omega) for Omega in speeds]
-            plane.append(row)
-        rows = Regions(horizon=HORIZON, initial_cell_size=1).compute_tile(plane, [])
-        for cases, line in zip(plane, rows, strict=True):
-            for case, (row, message) in zip(cases, line, strict=True):
-                first = first_separation(case)
-                assert message == ""
-                assert (row["outcome"] == "separation") == math.isfinite(first)
-                told = row.get("first_separation", math.nan)
+        axes = {"N": [0.95 * p.N, p.N], "Omega": [0.9 * p.Omega, p.Omega]}
+        found = studied(p, "regions", axes, horizon=HORIZON, initial_cell_size=1)
+        for N in axes["N"]:
+            for Omega in axes["Omega"]:
+                first = first_separation(p.replace(N=N, Omega=Omega))
+                there = found.sel(N=N, Omega=Omega)
+                assert there["message"] == ""
+                assert (there["outcome"] == "separation") == math.isfinite(first)
+                told = there["first_separation"].item()
                 assert told == pytest.approx(first, rel=SAME_TIME, nan_ok=True)
 
 
 @EACH_LAW
 def test_samples_of_sensitivity_separate_when_their_simulations_do(law: str) -> None:
     """They were extrapolated by multipliers, and called simulated."""
-    options = {
-        "distributions": {
-            "k": {"distribution": "uniform", "low": 0.95, "high": 1.05, "relative": True}
-        },
-        "simulated_samples": 4,
-        "horizon": HORIZON,
-    }
-    quantity = Sensitivity.model_validate(options)
+    drawn_k = {"distribution": "uniform", "low": 0.95, "high": 1.05, "relative": True}
+    options = {"distributions": {"k": drawn_k}, "samples": 5, "simulated_samples": 4}
     for p in separating(law, 2):
-        for sample in range(5):
-            row, _ = quantity.compute_point(Point(p, sample=sample))
-            if sample == 4:  # beyond the number that is followed
-                assert row["outcome"] == "not_simulated"
-                continue
-            case = p.replace(k=float(row["parameter_values"][0]))
+        found = studied(p, "sensitivity", horizon=HORIZON, **options)
+        assert found["outcome"].values[4] == "not_simulated"  # beyond the number that is followed
+        for sample in range(4):
+            there = found.isel(sample=sample)
+            case = p.replace(k=there["parameter_values"].item())
             assert 0.95 * p.k <= case.k <= 1.05 * p.k
             first = first_separation(case)
-            assert row["first_separation"] == pytest.approx(first, rel=SAME_TIME, nan_ok=True)
-            assert (row["outcome"] == "separation") == math.isfinite(first)
+            told = there["first_separation"].item()
+            assert told == pytest.approx(first, rel=SAME_TIME, nan_ok=True)
+            assert (there["outcome"] == "separation") == math.isfinite(first)
 
 
 def shares_of(run: Result) -> dict[str, float]:
@@ -199,9 +196,9 @@ def test_hysteresis_follows_the_motion_from_speed_to_speed(law: str) -> None:
     dwell = 8.0
     late = 1.0
     for p in separating(law, 1):
-        ends = 0.9 * p.Omega, p.Omega
-        found = functions.hysteresis(
-            p, ends, dwell, step=0.05 * p.Omega, max_dwell=dwell, evaluation_time=late
+        scan = {"start": 0.9 * p.Omega, "stop": p.Omega, "step": 0.05 * p.Omega}
+        found = studied(
+            p, "hysteresis", scan=scan, dwell=dwell, max_dwell=dwell, evaluation_time=late
         )
         speeds = found["sweep_Omega"].values
         state = None
@@ -236,7 +233,9 @@ def test_basins_lose_contact_when_the_simulated_starts_do(law: str) -> None:
     horizon = 8.0
     for p in separating(law, 1):
         energies = [1e-4, 0.3]
-        found = functions.basins(p, energies, 2, horizon=horizon, n_bisection_directions=0, seed=3)
+        found = studied(
+            p, "basins", energies=energies, n_starts=2, horizon=horizon, n_bisection_directions=0, seed=3
+        )  # fmt: skip
         times = found["simulated_time"]
         for j, energy in enumerate(energies):
             for i in range(2):
@@ -259,10 +258,9 @@ def test_a_steel_disc_slides_steadily_whoever_is_asked() -> None:
         N=1000, Omega=40, E=210e9, rho=7850, nu=0.3, h=0.006, m=0.3, k=5e5, k_p=2e5, c_p=5, mu_s=0.45, mu_k=0.39,
         damping_ratio=5e-4, normalization="orthonormal", friction_offset="surface",
     )  # fmt: skip
-    assert functions.outcome(p, 80)["outcome"].item() == "steady_sliding"
+    assert studied(p, "outcome", horizon=80)["outcome"] == "steady_sliding"
     for section in ("event", "stroboscopic"):
-        diagram = Bifurcation(section=section, transient=80, max_transient=80)
-        values, message = diagram.compute_point(Point(p))
-        assert values["kind"] == "steady_sliding"
-        assert values["settled"] == "settled"
-        assert message == ""
+        found = studied(p, "bifurcation", section=section, transient=80, max_transient=80)
+        assert found["kind"] == "steady_sliding"
+        assert found["settled"] == "settled"
+        assert found["message"] == ""

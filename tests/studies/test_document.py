@@ -8,13 +8,13 @@ from typing import Any
 import jsonschema
 import pytest
 import yaml
-from workflow.schemas.write_schema import schema_text
 
 from disc_model.studies import reading
 from disc_model.studies.reading import StudyError, read_file
 from disc_model.studies.study import load_study, parse_study
 from tests.studies.refused import faults_of
 from tests.studies.test_faults import STUDIES
+from workflow.schemas.write_schema import schema_text
 
 ROOT = Path(__file__).parents[2]
 SHIPPED = ROOT / "workflow" / "schemas" / "study.schema.json"

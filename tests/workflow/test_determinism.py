@@ -29,18 +29,20 @@ def test_one_and_two_cores(project: Project, finished: Project) -> None:
 CASES = """
 import sys
 from disc_model import Parameters, Poincare, Window, simulate
-from benchmarks.scenes import problem
 from disc_model.data.dataset import save
 from disc_model.simulation.named_case import run_case
 from disc_model.simulation.case import CaseSpec
+from tests.references import stored
 
 windows = (("history", Window(start=0, stop=1, rate=1000)),)
 p = Parameters(N=385, Omega=15.1)
 spec = CaseSpec(parameters=p, t_end=1.0, windows=windows, poincare=Poincare(), events=(0.0, 1.0), audit_every_step=True)
 save(run_case(spec), sys.argv[1] + "/grows.nc")
-after = problem("separating")
-window = Window(start=after.start.time, stop=after.t_end, rate=1000)
-simulate(after.parameters, after.t_end, {"w": window}, initial_state=after.start).save(sys.argv[1] + "/separates.nc")
+after = stored.load("C")
+p = Parameters(**after["parameters"])
+start = stored.engine_state(after["start"], p)
+window = Window(start=start.time, stop=after["t_end"], rate=1000)
+simulate(p, after["t_end"], {"w": window}, initial_state=start).save(sys.argv[1] + "/separates.nc")
 """
 
 

@@ -7,7 +7,6 @@ from collections.abc import Callable
 import pytest
 import xarray as xr
 
-from tests.processes import python
 from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
@@ -25,10 +24,13 @@ Jobs = Callable[[Project], set[str]]
 
 
 def batches(project: Project, name: str) -> set[str]:
-    """The jobs of all batches that a study now has, its sources hashed as in the project."""
-    code = f"from disc_model.studies.study import load_study; print(*load_study('config/{name}.yaml').grid.batches)"
-    found = python(code, cwd=project.folder, **project.own).stdout.split()
-    return {f"compute_batch:{name}:{batch}" for batch in found}
+    """The jobs of all batches that a study now has."""
+    jobs = project.jobs("--forceall")
+    return {
+        f"{rule}:{name}:{wildcards['batch']}"
+        for rule, wildcards in jobs
+        if rule == "compute_batch" and name in wildcards.values()
+    }
 
 
 def whole_map(project: Project) -> set[str]:
@@ -174,7 +176,7 @@ def test_a_point_that_fails_is_reported_and_what_no_study_needs_is_removed(
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
     assert len(lines) == bad > 0
     assert lines[-2].startswith(
-        "N = 1000000, Omega = 25, normalization = as_published: paradox: at t = "
+        "N = 1000000 N, Omega = 25 rad/s, normalization = as_published: paradox: at t = "
     )
     project.complete("-j1", "gc")
     left = {

@@ -2,7 +2,7 @@
 
 Run from the repository's root::
 
-    python -m tests.references.make_answer_references benchmarks/data/answers.json
+    python -m tests.benchmarks.make_answers benchmarks/data/answers.json
 
 Each is found without the engine: by the long-double Taylor reference of tests/references, or by
 heyoka in double precision, and once more at another tolerance; what the two differ by is stored
