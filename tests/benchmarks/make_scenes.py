@@ -10,8 +10,7 @@ import math
 from itertools import accumulate
 from pathlib import Path
 
-from disc_model.benchmarks.scenes import problem, stated
-
+from benchmarks.scenes import problem, stated
 from disc_model import benchmarks
 from disc_model.errors import script
 from tests.references import stored
