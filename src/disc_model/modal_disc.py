@@ -5,9 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
-from functools import partial
 from itertools import combinations, pairwise
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import pydantic
@@ -56,7 +54,7 @@ Column = Iterable[float | str]  # numbers of the modes of a table
 
 def _read(quantity: str) -> BeforeValidator:
     """A validator for pydantic, which reads a text with a unit as a number of a mode."""
-    return BeforeValidator(partial(mode_number, quantity))
+    return BeforeValidator(lambda text: mode_number(quantity, text))
 
 
 class Disc(Strict):
@@ -317,9 +315,9 @@ class Disc(Strict):
         True
         """
         from disc_model.data.files import regular_file
-        from disc_model.disc.files.table import read_csv
+        from disc_model.disc.files import disc_of_table
 
-        return read_csv(regular_file(path), pairs)
+        return disc_of_table(regular_file(path), pairs)
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
@@ -328,12 +326,9 @@ class Disc(Strict):
         `disc_model.data.dataset.WriteError` if it cannot be written. `from_csv` has an example.
         """
         from disc_model.data.files import regular_file, write_atomically
-        from disc_model.disc.files.table import table_text
+        from disc_model.disc.files import write_table
 
-        text = table_text(self)
-        write_atomically(
-            regular_file(path), lambda name: Path(name).write_text(text, encoding="utf-8")
-        )
+        write_atomically(regular_file(path), lambda name: write_table(self, name))
 
     @classmethod
     def from_uff(
@@ -386,12 +381,12 @@ class Disc(Strict):
             are implausible.
         """
         from disc_model.data.files import regular_file
-        from disc_model.disc.files.place import Place
-        from disc_model.disc.files.universal_file import read_uff
+        from disc_model.disc.files import disc_of_universal_file
 
         file = regular_file(path)
-        place = Place.of(r_0=r_0, axis=axis, centre=centre, units=units, modal_mass=modal_mass)
-        return read_uff(file, place)
+        return disc_of_universal_file(
+            file, r_0=r_0, axis=axis, centre=centre, units=units, modal_mass=modal_mass
+        )
 
     @classmethod
     def from_section(  # noqa: PLR0913
@@ -439,12 +434,10 @@ class Disc(Strict):
         ImplausibleValue
             If E or rho is not within a hundredth and a hundred times that of Table 1.
         """
-        from disc_model.disc.files.mesh import mesh_of
-        from disc_model.disc.files.section import disc_of_section
+        from disc_model.disc.files import disc_of_drawing
 
-        mesh = section if size is None else mesh_of(section, size)
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
-        return disc_of_section(mesh, material, clamped, slider, highest_Hz)
+        return disc_of_drawing(section, size, material, clamped, slider, highest_Hz)
 
 
 def _circles_by_frequency(diameters: tuple[int, ...], omega: tuple[float, ...]) -> tuple[int, ...]:

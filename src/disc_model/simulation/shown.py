@@ -20,8 +20,6 @@ from disc_model.units import is_whole
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.animation import FuncAnimation
-    from matplotlib.axes import Axes
 
 CYCLES = 4  # of stick and slip that are shown of the end of a run
 SEPARATIONS = 4 * CYCLES  # most of them that are shown of the end of a run
@@ -151,7 +149,7 @@ def states_between(run: Result, first: float, last: float, number: int) -> tuple
 
 def draw_spectrum(
     run: Result, window: str | None, variable: str, highest: float | None, **wishes: Any
-) -> Axes:
+) -> Any:
     """Draw the spectrum of a window, see `Result.plot_spectrum`."""
     pictures = drawings()
     case, name = shown_window(run, window, "late")
@@ -164,9 +162,7 @@ def draw_spectrum(
         raise
 
 
-def film(
-    run: Result, path: str | Path | None, window: str | None, frames: int, fps: int
-) -> FuncAnimation:
+def film(run: Result, path: str | Path | None, window: str | None, frames: int, fps: int) -> Any:
     """Make a film of a window, see `Result.animate`."""
     pictures = drawings()
     # what cannot be written is refused before anything is computed

@@ -23,7 +23,6 @@ from disc_model.disc.files.pairs import (
 )
 from disc_model.disc.files.rows import begins_a_number, joined, number_in, rows_of
 from disc_model.disc.given import SAME_PAIR, DiscReport, doubts_of_halves
-from disc_model.disc.plausibility import warn_of_disc
 from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.mode_units import POLES, UNCERTAIN
 from disc_model.parameters import Disc
@@ -99,13 +98,6 @@ def read_disc(path: str | os.PathLike[str], pairs: Pairs = "given") -> Disc:
         return _disc(text.splitlines(), pairs, name)
     except ParameterError as error:
         raise ParameterError(*(fault.inside((name,)) for fault in error.faults)) from None
-
-
-def read_csv(path: str | os.PathLike[str], pairs: Pairs) -> Disc:
-    """Read a disc as `read_disc`, and warn of what is implausible in it."""
-    disc = read_disc(path, pairs)
-    warn_of_disc(disc)
-    return disc
 
 
 def table_text(disc: Disc) -> str:

@@ -34,7 +34,6 @@ from disc_model.disc.files.universal_waves import (
     waves_of,
 )
 from disc_model.disc.given import DiscReport, doubts_of_halves
-from disc_model.disc.plausibility import warn_of_disc
 from disc_model.errors import Fault, ParameterError
 from disc_model.parameters import Disc
 
@@ -45,11 +44,9 @@ def read_uff(path: str | os.PathLike[str], place: Place) -> Disc:
     """Read a disc from a universal file, see `disc_model.Disc.from_uff`."""
     name = Path(path).name
     try:
-        disc = _disc(read_sets(path), place, name)
+        return _disc(read_sets(path), place, name)
     except ParameterError as error:
         raise ParameterError(*(_inside(fault, name) for fault in error.faults)) from None
-    warn_of_disc(disc)
-    return disc
 
 
 def _inside(fault: Fault, name: str) -> Fault:
