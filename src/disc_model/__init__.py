@@ -18,18 +18,16 @@ from __future__ import annotations
 import importlib
 from typing import TYPE_CHECKING, Any
 
-import disc_model.attached
-
 __version__ = "0.3.0"
 
 _NAMES = {
-    "attached.branch_pictures": "plot_branches",
     "data.coded": "words",
     "data.exchange": "load save",
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
     "disc.plausibility": "ImplausibleValue",
+    "figures.branch_pictures": "plot_branches",
     "figures.pictures": "plot_campbell plot_modes plot_sweep",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
@@ -75,7 +73,6 @@ __all__ = [*_HOMES, "__version__"]
 
 if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
-    from disc_model.attached.branch_pictures import plot_branches
     from disc_model.data.coded import words
     from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
@@ -92,6 +89,7 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
+    from disc_model.figures.branch_pictures import plot_branches
     from disc_model.figures.pictures import plot_campbell, plot_modes, plot_sweep
     from disc_model.fitting.fit import fit
     from disc_model.fitting.measured import Measurement

@@ -11,10 +11,8 @@ from html import escape
 from importlib import import_module
 from importlib.util import find_spec
 from threading import Timer
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from disc_model.attached.drawing import draw  # which `disc_model.attached` puts here
+from types import ModuleType
+from typing import Any
 
 WRITTEN_OUT = 1e6  # numbers below it have no power of ten
 DEVIATION_DIGITS = 2  # significant digits of standard deviations
@@ -87,6 +85,21 @@ def brought(module: str, extra: str) -> Any:
         raise ModuleNotFoundError(
             f"there is no module {module}: pip install 'disc_model[{extra}]'"
         ) from None
+
+
+def drawings() -> ModuleType:
+    """Return `disc_model.figures.results`, the functions that draw, imported when something is
+    drawn; raises `ModuleNotFoundError`, with the command to install it, without matplotlib."""
+    brought("matplotlib", "plot")
+    from disc_model.figures import results
+
+    return results
+
+
+def draw(picture: str, *inputs: Any, **options: Any) -> Any:
+    """Draw by a function of `disc_model.figures.results`, which is given by its name."""
+    function = getattr(drawings(), picture)
+    return function(*inputs, **options)
 
 
 class Drawn:

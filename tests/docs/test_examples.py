@@ -26,13 +26,8 @@ BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
 OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
-RETURNED = [
-    "mode_choice.ModeChoice",
-    "attached.run_pictures",
-    "stability.continuation.Branch",
-    "display.Drawn",
-]
-"""Classes of what functions return, whose methods draw, and where others have such methods from."""
+RETURNED = ["mode_choice.ModeChoice", "stability.continuation.Branch", "display.Drawn"]
+"""Classes of what functions return, and the base of those whose methods draw."""
 
 
 def page_name(page: Path) -> str:
@@ -122,7 +117,7 @@ def test_studies_of_a_page_that_show_each_other_fit(tmp_path: Path) -> None:
 # ---- Docstrings
 
 
-@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED, "attached.disc_files"])
+@pytest.mark.parametrize("name", [*disc_model.__all__, *RETURNED])
 def test_examples_of_docstrings_print_what_they_say(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

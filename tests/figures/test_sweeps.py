@@ -21,7 +21,7 @@ from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
-from disc_model.stability.critical_data import long_name_of
+from disc_model.stability.critical_values import long_name_of
 from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import describe
 from tests.blocks import RIG

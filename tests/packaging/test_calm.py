@@ -12,7 +12,6 @@ import statistics
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -263,91 +262,6 @@ def test_few_lines_of_the_tests_are_dense(of_tests):
 
 def test_few_lines_of_the_tests_are_wide(of_tests):
     assert of_tests.percent(of_tests.wide) <= 1, of_tests.wide
-
-
-# ---- Circles of imports, those by a text included
-
-
-def imports(modules: dict[str, str]) -> dict[str, set[str]]:
-    """Return what each module imports of the others when it is imported or used.
-
-    A text that is the whole name of a module counts as an import: `import_module` may get it by a
-    table. A package that holds a module is no import of its own, nor what serves types alone.
-    """
-    return {name: set(_edges(name, text, modules)) for name, text in modules.items()}
-
-
-def _edges(name: str, text: str, modules: dict[str, str]) -> Iterator[str]:
-    """Yield the modules of ours that one of them imports."""
-    tree = ast.parse(text)
-    for_types = _nodes_for_types(tree)
-    for node in ast.walk(tree):
-        if node in for_types:
-            continue
-        for imported in _modules_of(node):
-            if imported in modules and imported != name and not name.startswith(f"{imported}."):
-                yield imported
-
-
-def _nodes_for_types(tree: ast.Module) -> set[ast.AST]:
-    """Return the nodes under `if TYPE_CHECKING`, which does not run."""
-    nodes: set[ast.AST] = set()
-    for node in ast.walk(tree):
-        if isinstance(node, ast.If) and getattr(node.test, "id", "") == "TYPE_CHECKING":
-            for statement in node.body:
-                nodes.update(ast.walk(statement))
-    return nodes
-
-
-def _modules_of(node: ast.AST) -> Iterator[str]:
-    """Yield the names of modules that a node may import, those of `from package import module`."""
-    if isinstance(node, ast.Import):
-        yield from (alias.name for alias in node.names)
-    elif isinstance(node, ast.ImportFrom):
-        yield node.module or ""
-        yield from (f"{node.module}.{alias.name}" for alias in node.names)
-    elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-        yield node.value
-
-
-def circle(modules: dict[str, str]) -> list[str]:
-    """Return modules that import each other in a circle, or none."""
-    try:
-        TopologicalSorter(imports(modules)).prepare()
-    except CycleError as error:
-        return list(error.args[1])
-    return []
-
-
-def _package_modules() -> dict[str, str]:
-    """Return the texts of the modules of the package by their names."""
-    modules = {}
-    for file, text in _texts(SOURCES):
-        parts = Path(file).with_suffix("").parts
-        if parts[0] != PACKAGE:
-            continue
-        if parts[-1] == "__init__":
-            parts = parts[:-1]
-        modules[".".join(parts)] = text
-    return modules
-
-
-def test_no_modules_of_the_package_import_each_other_in_a_circle():
-    modules = _package_modules()
-    assert f"{PACKAGE}.parameters" in modules
-    assert not circle(modules)
-
-
-def test_a_circle_by_a_text_is_found():
-    modules = {
-        "a": "import b",
-        "b": "def later():\n    return import_module('c.d')",
-        "c": "",
-        "c.d": "from a import x",
-    }
-    assert set(circle(modules)) == {"a", "b", "c.d"}
-    assert not circle(modules | {"c.d": "from c import x"})
-    assert not circle(modules | {"c.d": "if TYPE_CHECKING:\n    from a import x"})
 
 
 # ---- The measure itself

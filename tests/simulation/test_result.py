@@ -15,9 +15,9 @@ import xarray as xr
 from scipy.io import loadmat
 
 from disc_model import ParameterError, Parameters, Poincare, Ramp, Result, State, Window, simulate
-from disc_model.attached.shown import simulated_again
 from disc_model.data.dataset import MissingFile, UnreadableFile
 from disc_model.data.tables import load_tables, save_tables
+from disc_model.simulation.shown import simulated_again
 from tests.refusals import refusal
 from tests.simulation.equal import same
 

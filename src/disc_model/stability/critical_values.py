@@ -5,22 +5,56 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import Any
 
 import numpy as np
+import xarray as xr
 
 from disc_model.arrays import Array, EqualByValue, Mask
-from disc_model.data.variables import unit_of_parameter, value_with_unit
+from disc_model.data.variables import (
+    Variable,
+    attributes_of_number,
+    unit_of_parameter,
+    value_with_unit,
+)
 from disc_model.display import Drawn, counted, html_table
 from disc_model.parameters import Parameters
+from disc_model.sources import versions_text
 from disc_model.stability.cycle import STICK_SLIP
 from disc_model.stability.parameter_scan import SLIDING
 
-if TYPE_CHECKING:
-    import xarray as xr
-
 MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
 """Kinds of motion whose stability is followed, and what texts call them."""
+RATES = {
+    "growth_rate": Variable("s-1", "growth rate of disturbances of the motion"),
+    "sliding_growth_rate": Variable(
+        "s-1", "growth rate of steady sliding where this is the motion near the static start"
+    ),
+    "other_growth_rate": Variable(
+        "s-1",
+        "growth rate of another cycle at the critical value, near the motion from the static start",
+    ),
+}
+VERDICTS = {
+    "unstable_above": Variable(
+        "1", "whether the motion is unstable just above the change of stability"
+    ),
+    "near_motion": Variable(
+        "1", "whether the motion from the static start may be near the unstable cycle"
+    ),
+}
+UNSTABLE = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
+"""What names of variables call the kinds of motion whose stability is followed."""
+OF_PARAMETER = {
+    "value": "critical value of {parameter} for instability of {motion}",
+    "border": "{parameter} above which {motion} stays unstable",
+    "crossings": "{parameter} at which stability of {motion} changes",
+    "values": "{parameter} at which the motion was computed",
+    "resolution": "largest step in {parameter} between computed values",
+}
+"""Variables in the unit of the parameter, and their names."""
+SAVED = ("value", "border", "crossings", "resolution")
+"""Those of them in a dataset, along which the values are a coordinate."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -165,9 +199,7 @@ class Critical(Drawn, EqualByValue):
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)
         """
-        from disc_model.stability.critical_data import dataset_of
-
-        return dataset_of(self)
+        return _dataset_of(self)
 
     @property
     def _elsewhere(self) -> str:
@@ -221,3 +253,45 @@ class Critical(Drawn, EqualByValue):
             unstable_at_first = not self.unstable_above[0]
         grows = np.array([unstable_at_first, *self.unstable_above])
         return np.column_stack([edges[:-1], edges[1:]])[grows]
+
+
+# ---- As a dataset
+
+
+def long_name_of(name: str, kind: str, meaning: str) -> str:
+    """The name of a variable in the unit of the parameter, by what this means and the kind of motion."""
+    return OF_PARAMETER[name].format(parameter=meaning, motion=UNSTABLE[kind])
+
+
+def _dataset_of(found: Critical) -> xr.Dataset:
+    """Critical values as a dataset, as `Critical.to_dataset` describes it."""
+    described = attributes_of_number(found.name)
+    variables: dict[str, xr.Variable] = {}
+    for name in SAVED:
+        attrs = {**described, "long_name": long_name_of(name, found.kind, described["long_name"])}
+        variables[name] = _variable(getattr(found, name), "crossing", attrs)
+    for name in ("growth_rate", "sliding_growth_rate"):
+        variables[name] = _variable(getattr(found, name), found.name, RATES[name].attributes)
+    other = found.other_growth_rate
+    variables["other_growth_rate"] = _variable(other, "", RATES["other_growth_rate"].attributes)
+    near = math.nan if found.near_motion is None else float(found.near_motion)
+    variables["near_motion"] = _variable(near, "", VERDICTS["near_motion"].attributes)
+    above = found.unstable_above
+    variables["unstable_above"] = _variable(
+        above, "crossing", VERDICTS["unstable_above"].attributes
+    )
+    attrs = {
+        "kind": found.kind,
+        "message": found.message,
+        "name": found.name,
+        "parameters": found.parameters.canonical_json,
+        "versions": versions_text(),
+    }
+    coordinates = {found.name: xr.Variable(found.name, found.values, described)}
+    return xr.Dataset(variables, coordinates, attrs)
+
+
+def _variable(values: Any, dim: str, attrs: dict[str, Any]) -> xr.Variable:
+    """A variable of numbers along a dimension, or of one number alone."""
+    array = np.asarray(values)
+    return xr.Variable((dim,)[: array.ndim], array, attrs)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, NamedTuple
+from typing import Annotated, Any, ClassVar, NamedTuple
 
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
@@ -37,9 +37,6 @@ from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.studies.unused_units import unused_units
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
-
-if TYPE_CHECKING:
-    from disc_model.studies.study import Study
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
 REQUIRED = ("N", "Omega")  # parameters without a base value
@@ -234,7 +231,8 @@ class Cut(NamedTuple):
 class GridStudy:
     """A grid study; raises `ParameterError` with the faults between the parts of its file."""
 
-    def __init__(self, file: "Study", plots: Mapping[str, Plot]) -> None:
+    def __init__(self, file: Any, plots: Mapping[str, Plot]) -> None:
+        # the file is a `disc_model.studies.study.Study`
         self.file = file
         self.plots = plots
         self.name = file.name

@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any
 
 from disc_model.data.variables import COORDINATES, OF_RESULTS, SCALARS, attributes_of_number
-from disc_model.stability.critical_data import OF_PARAMETER, long_name_of
+from disc_model.stability.critical_values import OF_PARAMETER, long_name_of
 from disc_model.studies.registry import quantity_names, quantity_of
 
 

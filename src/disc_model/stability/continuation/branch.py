@@ -7,6 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
+import xarray as xr
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
 from disc_model.data.variables import attributes_of_number, unit_of_parameter
@@ -14,11 +15,14 @@ from disc_model.display import counted, draw, html_table, number_text
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
+from disc_model.sources import versions_text
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import (
+    POINTS,
+    SPECIAL,
     VARIABLES,
+    Columns,
     StoredBranch,
-    dataset_of,
     stored_extremes,
 )
 from disc_model.stability.continuation.special_kinds import CHANGES
@@ -29,7 +33,6 @@ from disc_model.units import in_si
 
 if TYPE_CHECKING:
     import pandas as pd
-    import xarray as xr
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -181,7 +184,7 @@ class Branch:
         >>> dm.load("branch.nc").identical(data)
         True
         """
-        return dataset_of(self)
+        return _dataset_of(self)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Branch:
@@ -403,3 +406,45 @@ class Branch:
         """
         wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
         return draw("plot_branch", self, y, looks=looks, units=units, **wishes)
+
+
+def _dataset_of(branch: Branch) -> xr.Dataset:
+    """A branch as a dataset, as `Branch.to_dataset` describes it."""
+    cycles = Columns("point", "")
+    cycles.add_parameters(branch.parameters, branch.values)
+    cycles.add(VARIABLES, lambda name: getattr(branch, name))
+    own = {
+        "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
+        "stable": branch.stable,
+        "separations": branch.separations,
+        "releases": branch.releases,
+        "diameters": branch.diameters,
+        "multipliers": branch.multipliers,
+    }
+    cycles.add(POINTS, own.__getitem__)
+    cycles.add_states([branch.state(i) for i in range(len(branch))])
+
+    special = Columns("special", "special_")
+    values = [each.values for each in branch.special]
+    special.add_parameters(branch.parameters, np.reshape(values, (-1, len(branch.parameters))))
+    special.add(VARIABLES | SPECIAL, lambda name: [getattr(each, name) for each in branch.special])
+    special.add_states([each.state for each in branch.special])
+
+    numbers = {
+        "point": ("point", np.arange(len(branch)), {"long_name": "number along the branch"}),
+        "special": (
+            "special",
+            np.arange(len(branch.special)),
+            {"long_name": "number of the special point along the branch"},
+        ),
+    }
+    attrs: dict[str, Any] = {
+        "ended": branch.ended,
+        "parameters": branch.case.canonical_json,
+        "free_parameters": ", ".join(branch.parameters),
+        "versions": versions_text(),
+    }
+    if len(branch.not_reached):
+        attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
+    coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
+    return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)

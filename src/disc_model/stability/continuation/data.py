@@ -1,9 +1,9 @@
-"""A branch as a dataset, and from one: its cycles along `point`, its special points along `special`."""
+"""The dataset of a branch: its cycles along `point`, its special points along `special`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -13,12 +13,8 @@ from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes_
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.sources import versions_text
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.slipping_map import SlippingMap
-
-if TYPE_CHECKING:
-    from disc_model.stability.continuation.branch import Branch
 
 VARIABLES = {
     "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
@@ -54,48 +50,6 @@ STATE = {name: SERIES[name] for name in ("psi", "f", "u", "u_velocity")} | {
     **COORDINATES,
 }
 """Values of the cycle's state on the section, at time 0."""
-
-
-def dataset_of(branch: Branch) -> xr.Dataset:
-    """A branch as a dataset, as `Branch.to_dataset` describes it."""
-    cycles = _Columns("point", "")
-    cycles.add_parameters(branch.parameters, branch.values)
-    cycles.add(VARIABLES, lambda name: getattr(branch, name))
-    own = {
-        "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
-        "stable": branch.stable,
-        "separations": branch.separations,
-        "releases": branch.releases,
-        "diameters": branch.diameters,
-        "multipliers": branch.multipliers,
-    }
-    cycles.add(POINTS, own.__getitem__)
-    cycles.add_states([branch.state(i) for i in range(len(branch))])
-
-    special = _Columns("special", "special_")
-    values = [each.values for each in branch.special]
-    special.add_parameters(branch.parameters, np.reshape(values, (-1, len(branch.parameters))))
-    special.add(VARIABLES | SPECIAL, lambda name: [getattr(each, name) for each in branch.special])
-    special.add_states([each.state for each in branch.special])
-
-    numbers = {
-        "point": ("point", np.arange(len(branch)), {"long_name": "number along the branch"}),
-        "special": (
-            "special",
-            np.arange(len(branch.special)),
-            {"long_name": "number of the special point along the branch"},
-        ),
-    }
-    attrs: dict[str, Any] = {
-        "ended": branch.ended,
-        "parameters": branch.case.canonical_json,
-        "free_parameters": ", ".join(branch.parameters),
-        "versions": versions_text(),
-    }
-    if len(branch.not_reached):
-        attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
-    coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
-    return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
 
 
 class StoredBranch:
@@ -160,7 +114,7 @@ def stored_extremes(data: xr.Dataset, begin: str = "") -> np.ndarray:
     return np.column_stack([data[f"{begin}{name}"].values for name in EXTREMES])
 
 
-class _Columns:
+class Columns:
     """Variables along a dimension, whose names have a beginning."""
 
     def __init__(self, dim: str, begin: str) -> None:

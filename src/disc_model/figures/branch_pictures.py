@@ -5,8 +5,8 @@ from __future__ import annotations
 import warnings
 from typing import TYPE_CHECKING, Any
 
-from disc_model.attached.drawing import draw
 from disc_model.data.swept_branches import OF_SWEEPS, has_failed, is_of_sweep, points_of_sweep
+from disc_model.display import draw
 from disc_model.errors import Fault, ParameterError, require
 
 if TYPE_CHECKING:

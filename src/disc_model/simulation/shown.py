@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from disc_model.disc.plate import mode_arrays
-from disc_model.errors import require, suggestion
+from disc_model.display import drawings
+from disc_model.errors import Fault, ParameterError, require, suggestion
 from disc_model.simulation.api import simulate, snapshots
 from disc_model.simulation.case import Poincare, Window, Windows
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
+from disc_model.units import is_whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,6 +28,11 @@ BINS = 600  # of the envelope of a run
 RATE = 4000.0  # samples of the envelope per second, at least
 FOLDED = 16  # samples for a spectrum per period of the highest mode: what is beyond its eighth multiple is weak
 FINE = 4000  # samples of the last cycles
+UNNAMED = (
+    "none is named, and the end of the run {}; simulate longer, or record a window, as by"
+    " simulate(case, 20, windows={{'late': Window(last=8, rate=8000)}})"
+)
+"""What is said of the stretch that is drawn if no window is named."""
 
 
 def shown_windows(
@@ -134,3 +142,35 @@ def states_between(run: Result, first: float, last: float, number: int) -> tuple
         initial_state=run.initial_state,
         ramps=run.ramps,
     )
+
+
+# ---- Pictures that take more than a window
+
+
+def draw_spectrum(
+    run: Result, window: str | None, variable: str, highest: float | None, **wishes: Any
+) -> Any:
+    """Draw the spectrum of a window, see `Result.plot_spectrum`."""
+    pictures = drawings()
+    case, name = shown_window(run, window, "late")
+    try:
+        return pictures.plot_spectrum(case, name, variable, highest, **wishes)
+    except ParameterError as error:
+        for fault in error.faults:
+            if window is None and fault.path == ("window",):
+                raise ParameterError(Fault(fault.path, "", UNNAMED.format(fault.rule))) from None
+        raise
+
+
+def film(run: Result, path: str | Path | None, window: str | None, frames: int, fps: int) -> Any:
+    """Make a film of a window, see `Result.animate`."""
+    pictures = drawings()
+    # what cannot be written is refused before anything is computed
+    require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
+    pictures.film_writer(path, fps)
+
+    case, name = shown_window(run, window, "end")
+    samples = pictures.window_of(case, name)
+    time = samples["time"]
+    states = states_between(run, float(time[0]), float(time[-1]), frames)
+    return pictures.animate(run.parameters, states, samples, path, fps)
