@@ -56,14 +56,12 @@ def names_in(figure: Figure) -> list[str]:
 def test_the_legend_of_many_lines_leaves_their_panel_room(width: str) -> None:
     """It lay over the panel, which had no height."""
     loads = np.linspace(300.0, 400.0, 11)
-    doubtful = np.zeros((6, 11), dtype=int)
     data = study(*loads)
-    data["near_motion"] = (PLANE, doubtful)
     figure = drawn(data, width=width)
     assert_fit_for_print(figure)
 
     names = names_in(figure)
-    assert len(names) == 12
+    assert len(names) == 11
 
     [ax] = figure.axes
     [legend] = figure.legends

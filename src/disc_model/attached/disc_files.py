@@ -36,8 +36,7 @@ def from_csv(
     Warns
     -----
     ImplausibleValue
-        If frequencies, amplitudes or damping are implausible, such as one frequency in kHz among others in Hz, or if
-        halves of a pair differ by more than a test errs.
+        If halves of a pair differ by more than a test errs.
 
     Returns
     -------
@@ -121,8 +120,7 @@ def from_uff(
     -----
     ImplausibleValue
         If the nodes are too few for the modes, antinodes of the halves of a pair do not lie between each other,
-        more than two shapes of equal diameters are within 5 %, poles seem to be in Hz, or frequencies or amplitudes
-        are implausible.
+        more than two shapes of equal diameters are within 5 %, or poles seem to be in Hz.
     """
     from disc_model.data.files import regular_file
     from disc_model.disc.files.place import Place
@@ -176,10 +174,6 @@ def from_section(  # noqa: PLR0913
         If a number breaks its rule, the section is in pieces or not held, the slider is not at a node, or no mode
         moves under it.
 
-    Warns
-    -----
-    ImplausibleValue
-        If E or rho is not within a hundredth and a hundred times that of Table 1.
     """
     from disc_model.disc.files.mesh import mesh_of
     from disc_model.disc.files.section import disc_of_section

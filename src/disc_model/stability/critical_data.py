@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -21,19 +20,8 @@ RATES = {
     "sliding_growth_rate": Variable(
         "s-1", "growth rate of steady sliding where this is the motion near the static start"
     ),
-    "other_growth_rate": Variable(
-        "s-1",
-        "growth rate of another cycle at the critical value, near the motion from the static start",
-    ),
 }
-VERDICTS = {
-    "unstable_above": Variable(
-        "1", "whether the motion is unstable just above the change of stability"
-    ),
-    "near_motion": Variable(
-        "1", "whether the motion from the static start may be near the unstable cycle"
-    ),
-}
+UNSTABLE_ABOVE = Variable("1", "whether the motion is unstable just above the change of stability")
 UNSTABLE = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
 """What names of variables call the kinds of motion whose stability is followed."""
 OF_PARAMETER = {
@@ -62,14 +50,8 @@ def dataset_of(found: Critical) -> xr.Dataset:
         variables[name] = _variable(getattr(found, name), "crossing", attrs)
     for name in ("growth_rate", "sliding_growth_rate"):
         variables[name] = _variable(getattr(found, name), found.name, RATES[name].attributes)
-    other = found.other_growth_rate
-    variables["other_growth_rate"] = _variable(other, "", RATES["other_growth_rate"].attributes)
-    near = math.nan if found.near_motion is None else float(found.near_motion)
-    variables["near_motion"] = _variable(near, "", VERDICTS["near_motion"].attributes)
     above = found.unstable_above
-    variables["unstable_above"] = _variable(
-        above, "crossing", VERDICTS["unstable_above"].attributes
-    )
+    variables["unstable_above"] = _variable(above, "crossing", UNSTABLE_ABOVE.attributes)
     attrs = {
         "kind": found.kind,
         "message": found.message,
