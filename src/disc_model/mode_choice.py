@@ -36,7 +36,6 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 MORE_MODES = "give a table with more modes, or a larger tolerance"
-NO_CIRCLE = (0, 0)  # diameters and circles of a model whose number of modes is not doubted
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 

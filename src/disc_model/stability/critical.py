@@ -48,8 +48,9 @@ def critical(
     motion. Where no cycle is found and stick-slip goes on, the motion counts as unstable.
 
     It is computed at equal steps, between which a window may be missed. Instability often lies in much
-    narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that these places are predicted from neighbouring values, and computed as well. Of
-    steady sliding, the greatest growth rates between values are looked for.
+    narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that
+    these places are predicted from neighbouring values, and computed as well. Of steady sliding, the
+    greatest growth rates between values are looked for.
 
     Parameters
     ----------
