@@ -74,7 +74,7 @@ def test_critical_shows_the_intervals_of_one_stability() -> None:
         ["10", "12", "stable"],
         ["12", "15.5", "unstable"],
         ["15.5", "20", "stable"],
-        ["tongues overlooked", "narrower than 0.025 rad/s", ""],
+        ["tongues missed", "narrower than 0.025 rad/s", ""],
     ]
 
 

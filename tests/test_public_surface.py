@@ -55,7 +55,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
-    (dm.split_growth, {"case": P, "split": 0.0}, {}),
     (
         dm.choose_modes,
         {"case": P, "quantity": "sliding_growth"},
@@ -231,7 +230,6 @@ RESULTS: tuple[Callable[[dm.Parameters], Any], ...] = (
     lambda case: dm.critical(case, "Omega", (20, 21), points=3),
     lambda case: dm.lyapunov_exponents(case, 0.2, count=1),
     lambda case: dm.fit(case, ["E"], {"frequency_0_0": (239.0, 1.0)}),
-    lambda case: dm.split_growth(case, 0.01),
     lambda case: dm.simulate(case, 0.01),
 )
 
@@ -302,7 +300,6 @@ def test_signatures_have_plain_types_and_defaults() -> None:
         ("neutral_curves", {"line": [3]}, "lines"),
         ("lyapunov_exponents", {"durations": 3}, "duration"),
         ("choose_modes", {"tolerances": 3}, "tolerance"),
-        ("split_growth", {"splits": 3}, "split"),
     ],
 )
 def test_the_argument_that_is_meant_is_suggested(

@@ -83,20 +83,6 @@ def test_bounds_of_a_ratio_may_be_in_percent() -> None:
     assert len(faults) == 2
 
 
-def test_a_split_may_be_in_percent() -> None:
-    assert dm.split_growth(CASE, "0.5 %") == dm.split_growth(CASE, 0.005)
-    with refusal(re.escape("split='3 mm': must be a number without a unit")):
-        dm.split_growth(CASE, "3 mm")
-
-
-def test_rounding_errors_of_growth_rates_are_zero() -> None:
-    """It was -1.421e-13."""
-    found = dm.split_growth(
-        CASE.replace(damping_ratio_0_0=0.0, damping_ratio_2_0=0.0, mu_s=0, mu_k=0), 0.0
-    )
-    assert repr(found) == "SplitGrowth(together=0, growth_rate=0, apart=0)"
-
-
 @pytest.mark.compiled
 def test_a_push_may_be_in_percent() -> None:
     branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))

@@ -1,7 +1,6 @@
 """Write the tables of docs/measurements.md and draw its picture: `make measurements`."""
 
 import re
-import warnings
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
@@ -10,7 +9,6 @@ from docs.measurements import load, robustness, stick_slip, wheel
 from docs.measurements.comparison import Comparison
 from matplotlib.figure import Figure
 
-import disc_model as dm
 from disc_model.errors import script
 from disc_model.figures.drawing import BLACK, SEPARATED, sample
 from disc_model.figures.legends import figure_legend
@@ -227,7 +225,6 @@ def draw_slips() -> Figure:
 @script
 def main() -> None:
     """Write the tables and draw the picture."""
-    warnings.simplefilter("ignore", dm.ImplausibleValue)  # a slider of 31 g is light
     text = PAGE.read_text(encoding="utf-8")
     for name, build in SECTIONS.items():
         content = build()

@@ -26,11 +26,11 @@ _NAMES = {
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
-    "disc.plausibility": "ImplausibleValue",
     "figures.branch_pictures": "plot_branches",
     "figures.pictures": "plot_campbell plot_modes plot_sweep",
     "errors": (
-        "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite"
+        "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite "
+        "ImplausibleValue"
     ),
     "fitting.fit": "fit",
     "fitting.measured": "Measurement",
@@ -51,7 +51,6 @@ _NAMES = {
     "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
-    "stability.splitting": "split_growth",
 }
 _OF_STUDIES = (
     "bifurcation",
@@ -77,9 +76,9 @@ if TYPE_CHECKING:
     from disc_model.data.exchange import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
-    from disc_model.disc.plausibility import ImplausibleValue
     from disc_model.errors import (
         DiscModelError,
+        ImplausibleValue,
         ModeError,
         NonFinite,
         PainleveParadox,
@@ -107,7 +106,6 @@ if TYPE_CHECKING:
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.stability.splitting import split_growth
     from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome
     from disc_model.studies.sweeps import sweep
     from disc_model.studies.whole_study import run_study

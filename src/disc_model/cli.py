@@ -33,7 +33,6 @@ from disc_model.disc.files.universal_sets import is_universal_file
 from disc_model.disc.given import DiscReport
 from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.disc.plate import damping_ratios, mode_arrays
-from disc_model.disc.plausibility import ImplausibleValue, warn_of_doubts
 from disc_model.display import counted, number_text
 from disc_model.errors import DiscModelError, Fault, ParameterError, suggestion
 from disc_model.parameters import Disc, Parameters
@@ -103,7 +102,6 @@ def command(
             if isinstance(model, ModesOptions) and model.from_ is not None:
                 texts["disc"] = model.read(texts)
             p = Parameters.model_validate(texts)
-            warn_of_doubts(p, lambda text: typer.echo(f"warning: {text}", err=True))
             function(p, model)
 
         wrapped.__signature__ = inspect.Signature(own)  # type: ignore[attr-defined]
@@ -177,15 +175,10 @@ class ModesOptions(Strict):
     )
 
     def read(self, case: Mapping[str, Any]) -> Disc:
-        """The disc of the file; warnings become lines of their own."""
+        """The disc of the file."""
         if "disc" in case:
             raise ParameterError(Fault(("disc",), "", "must be left out: --from gives the disc"))
-        with warnings.catch_warnings(record=True) as caught:
-            warnings.simplefilter("always", ImplausibleValue)
-            disc = self._disc(case)
-        for warning in caught:
-            typer.echo(f"warning: {warning.message}", err=True)
-        return disc
+        return self._disc(case)
 
     def _disc(self, case: Mapping[str, Any]) -> Disc:
         """The disc of a universal file or of a table."""
@@ -836,6 +829,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's
     # jobs inherit this
     os.environ["MPLBACKEND"] = "agg"
+    warnings.formatwarning = lambda text, *_, **__: f"warning: {text}\n"
     message = ""
     try:
         code = app(args=arguments, standalone_mode=False, prog_name="disc-model")

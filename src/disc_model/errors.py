@@ -370,6 +370,21 @@ class StatusBase(enum.StrEnum):
         return member
 
 
+class ImplausibleValue(UserWarning):
+    """A value is allowed but implausible.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> import warnings
+    >>> with warnings.catch_warnings(record=True) as caught:
+    ...     warnings.simplefilter("always")
+    ...     case = dm.Parameters(N=385, Omega=15, E=150)
+    >>> print(caught[0].category.__name__, caught[0].message)
+    ImplausibleValue E is below 1e+09 Pa: Young's modulus is a number in Pa, or has a unit, as in '150 GPa'
+    """
+
+
 class Status(StatusBase):
     """How a simulation ended; `advice` says what to do.
 
@@ -401,7 +416,7 @@ class Status(StatusBase):
     )
     AT_REST = (
         "at_rest",
-        "The simulation reached t_end, where the drive stands still and friction holds the slider for good.",
+        "The simulation reached t_end, where the drive stands still and the slider sticks.",
     )
 
     @property

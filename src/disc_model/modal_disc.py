@@ -106,7 +106,6 @@ class Disc(Strict):
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
     _report: DiscReport | None = pydantic.PrivateAttr(None)
-    _varied_from: Disc | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
         "omega",
@@ -256,15 +255,7 @@ class Disc(Strict):
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
             columns[column] = [numbers.get(self._name_of(column, i), value) for i, value in given]
-        disc = self.replace(**columns)
-        disc._varied_from = self.varied_from
-        return disc
-
-    @property
-    def varied_from(self) -> Disc:
-        """The disc of which this one was made by changes of its `numbers`; itself if there were
-        none."""
-        return self._varied_from or self
+        return self.replace(**columns)
 
     def first(self, count: int) -> Disc:
         """The disc with only the first `count` modes of its table."""

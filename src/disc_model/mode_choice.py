@@ -14,7 +14,6 @@ import numpy as np
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.plausibility import trial_cases, warn_of_doubts
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Bar, Summarised, counted, number_text, progress_bar
 from disc_model.errors import DiscModelError, require, with_known_names
@@ -37,7 +36,6 @@ CANDIDATES = ((1, 0), (2, 0), (3, 0), (4, 0), (6, 0), (8, 0), (6, 1), (8, 1))
 LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 MORE_MODES = "give a table with more modes, or a larger tolerance"
-NO_CIRCLE = (0, 0)  # diameters and circles of a model whose number of modes is not doubted
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
 
 
@@ -329,11 +327,6 @@ def choose_modes(
         arc of a pad. By the growth rate of steady sliding it has the frequency of the mode that grows fastest with each
         model.
 
-    Warns
-    -----
-    ImplausibleValue
-        If a value of the case is implausible, or the modes that were chosen have waves too short for a thin plate.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -352,11 +345,8 @@ def choose_modes(
     if not isinstance(case, Parameters):
         sizes = ("n_diameters", "n_circles")
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
-    warn_of_doubts(resized(case, NO_CIRCLE) if case.disc is None else case)
-    with progress_bar("choose_modes", None, progress) as bar, trial_cases():
-        choice = chosen_modes(case, request, bar)
-    warn_of_doubts(choice.parameters)
-    return choice
+    with progress_bar("choose_modes", None, progress) as bar:
+        return chosen_modes(case, request, bar)
 
 
 def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import operator
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_args
@@ -13,7 +14,7 @@ import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from disc_model.display import counted, html_table
-from disc_model.errors import Fault, as_text, raise_faults
+from disc_model.errors import Fault, ImplausibleValue, as_text, raise_faults
 from disc_model.hashing import canonical_json, content_key
 from disc_model.modal_disc import Disc, Quantity
 from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, is_number, must, number
@@ -43,6 +44,10 @@ FORMAT: Literal[1] = (
     1  # of the texts that identify cases and batches; another number makes other hashes
 )
 
+
+MOST_DAMPED = 0.05  # damping ratio above which it is doubted: discs of metal have 0.0001 to 0.01
+SOFTEST = 1e9  # Pa, Young's modulus below which it is doubted
+READER = 4  # frames from a warning to the line that makes a case
 
 _ORDER: tuple[tuple[str, str, Callable[[Any, Any], bool], str], ...] = (
     ("mu_k", "<=", operator.le, "mu_s"),
@@ -233,7 +238,23 @@ class Parameters(Strict):
         damping. A rule on a parameter that is absent, as in `SomeParameters`, does not count."""
         raise_faults([*self._surface_faults(), *self._pad_faults()])
         raise_faults([*self._unused_faults(), *self._order_faults(), *self._rigidity_faults()])
+        for text in self._doubts():
+            warnings.warn(text, ImplausibleValue, stacklevel=READER)
         return self
+
+    def _doubts(self) -> Iterator[str]:
+        """Yield what is implausible of the plate and the damping, which mistaken units make so."""
+        damping = [self.damping_ratio or 0.0]
+        if self.disc is not None:
+            damping = [*self.disc.damping_ratio]
+        if max(damping) > MOST_DAMPED:
+            yield f"damping ratio above {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
+        if self.disc is not None or None in (self.a, self.b, self.h, self.E):
+            return
+        if self.h > 0.2 * (self.b - self.a):
+            yield "h is more than a fifth of b - a: the disc is modelled as a thin plate"
+        if self.E < SOFTEST:
+            yield f"E is below {SOFTEST:g} Pa: Young's modulus is a number in Pa, or has a unit, as in '150 GPa'"
 
     def _surface_faults(self) -> Iterator[Fault]:
         """Yield the fault of friction on the surface of a disc whose motion there is not known."""

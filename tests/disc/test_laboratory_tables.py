@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model.disc import plausibility
 from disc_model.disc.given import DiscReport, ModeOrigin
 from tests.refusals import refusal
 
@@ -145,9 +144,6 @@ def test_a_report_says_how_each_column_was_understood(tmp_path: Path) -> None:
     ]
     poles = read(tmp_path, "diameters,amplitude_per_sqrt_kg,pole (rad/s)\n2,0.5,-3+400i\n")
     assert "'pole (rad/s)' as damping ratio, 0.0074998" in str(poles.report)
-    case = dm.Parameters(N=8000, Omega=80, disc=disc, r_0=0.1)
-    with refusal("does not come from a file with both halves"):
-        dm.split_growth(case)
 
 
 DAMPED = np.array(RATIOS)
@@ -287,20 +283,6 @@ def test_halves_that_differ_more_than_tests_err_are_doubted(
         assert not said
 
 
-def test_damping_in_per_cent_is_doubted(tmp_path: Path) -> None:
-    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio\n1,300,1,0.2\n2,400,1,0.3\n"
-    (tmp_path / "disc.csv").write_text(text)
-    both = "2 of 2 modes of the disc have damping ratios of up to 0.3, .* not per cent"
-    with pytest.warns(dm.ImplausibleValue, match=both):
-        dm.Disc.from_csv(tmp_path / "disc.csv")
-    (tmp_path / "one.csv").write_text(text.replace("0.2", "0.001"))
-    with pytest.warns(dm.ImplausibleValue, match="mode 2 .* damping ratio 0.3, .* not per cent"):
-        dm.Disc.from_csv(tmp_path / "one.csv")
-    doubts = plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.2))
-    assert doubts.keys() == {"damping_ratio"}
-    assert not plausibility.doubts(dm.Parameters(N=385, Omega=15, damping_ratio=0.05))
-
-
 @pytest.mark.parametrize(
     ("comment", "value"),
     [
@@ -376,38 +358,3 @@ def test_what_cannot_be_understood_is_said(text: str, phrase: str, tmp_path: Pat
     with pytest.raises(dm.ParameterError) as error:
         read(tmp_path, text)
     assert phrase in str(error.value)
-
-
-@pytest.mark.parametrize(
-    ("frequencies", "phrase"),
-    [
-        ((551, 929, 1.212, 1760), "mode 3 of the disc has 1.212 Hz, and the others 551 to 1760 Hz"),
-        (
-            (0.551, 0.929, 1212, 1.76),
-            "mode 3 of the disc has 1212 Hz, and the others 0.551 to 1.76 Hz",
-        ),
-        ((0.551, 0.929, 1.212, 1.76), "the lowest mode of the disc has 0.551 Hz"),
-    ],
-)
-def test_a_frequency_in_another_unit_is_doubted(
-    frequencies: tuple[float, ...], phrase: str, tmp_path: Path
-) -> None:
-    """At each reading, and a table whose modes are far apart is not."""
-    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg\n"
-    path = tmp_path / "disc.csv"
-    path.write_text(text + rows((1, 2, 3, 4), frequencies, (1, 1, 1, 1)))
-    for _ in range(2):
-        with pytest.warns(dm.ImplausibleValue, match=phrase):
-            dm.Disc.from_csv(path)
-    read(tmp_path, text + rows((1, 2, 3, 4), (12, 100, 2000, 9000), (1, 1, 1, 1)))
-
-
-def test_frequencies_in_two_units_are_doubted(tmp_path: Path) -> None:
-    """Two modes of kHz in a column of Hz were read without a word, or one was called too low."""
-    path = tmp_path / "disc.csv"
-    for low in ("1.2", "13"):
-        rows = [f"2; {low}; 0.5", "3; 2.1; 0.5", "4; 3900; 0.5", "5; 5900; 0.5"]
-        path.write_text("\n".join(["diameters; f (Hz); amplitude (kg^-1/2)", *rows]))
-        with pytest.warns(dm.ImplausibleValue, match="lie far apart, .* kHz among others") as told:
-            dm.Disc.from_csv(path)
-        assert len(told) == 1

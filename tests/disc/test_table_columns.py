@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import disc_model as dm
 from disc_model import Disc
 from tests.disc.test_uff import MODES, R_0
 from tests.disc.universal import Dialect, halves
@@ -55,26 +54,6 @@ def test_splits_are_kept_in_a_table(pairs: Disc, tmp_path: Path) -> None:
     assert np.nanmax(splits) == pytest.approx(0.004, rel=0.1)
     assert splits_of(again) == pytest.approx(splits, rel=1e-9, nan_ok=True)
     assert again == pairs
-
-
-def test_growth_with_splits_is_that_of_a_disc_from_a_table(pairs: Disc, tmp_path: Path) -> None:
-    case = dm.Parameters(
-        N=8000,
-        Omega=80,
-        disc=pairs,
-        r_0=0.1,
-        k=1e6,
-        k_p=1e6,
-        c_p=50,
-        m=0.5,
-        mu_s=0.45,
-        mu_k=0.35,
-        friction_offset="surface",
-    )
-    again = case.replace(disc=written_and_read(pairs, tmp_path))
-    expected = dm.split_growth(case)
-    found = dm.split_growth(again)
-    assert found.growth_rate == pytest.approx(expected.growth_rate, rel=1e-6)
 
 
 def test_a_split_that_is_no_number_is_refused(tmp_path: Path) -> None:

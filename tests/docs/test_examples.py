@@ -13,7 +13,6 @@ from matplotlib import pyplot
 
 import disc_model
 from disc_model import Parameters
-from disc_model.disc import plausibility
 from disc_model.studies.study import load_study
 from tests.disc.table import disc_table
 from tests.disc.universal import MODES, Dialect, halves
@@ -122,7 +121,6 @@ def test_examples_of_docstrings_print_what_they_say(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(plausibility, "_reported", set())  # each doubt is told once in a process
     runner = doctest.DocTestRunner(optionflags=OPTIONS)
     thing = resolve_name(f"disc_model.{name}")
     tests = doctest.DocTestFinder().find(thing, name, globs={})

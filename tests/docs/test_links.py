@@ -2,7 +2,6 @@
 
 import pydoc
 import re
-import sys
 from pathlib import Path
 
 import pytest
@@ -15,9 +14,6 @@ SOURCES = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rg
 TEXTS = PAGES + [path for path in SOURCES if "__pycache__" not in path.parts]
 ARCHITECTURE = (DOCS / "architecture.md").read_text(encoding="utf-8")
 PATHS = sorted(set(re.findall(r"`([\w./-]+(?:/|\.(?:py|yaml|smk|toml)))`", ARCHITECTURE)))
-sys.path.insert(0, str(DOCS / "drawings"))
-import layers  # noqa: E402
-
 NO_MODULES = {"yaml", "mplstyle", "post", "egg"}
 """What follows the package's name in names of files."""
 DOTTED = re.compile(r"\bdisc_model(?:\.[A-Za-z_]\w*)+")
@@ -88,12 +84,3 @@ def test_every_path_exists(path: str) -> None:
         if place.is_dir() if path.endswith("/") else place.is_file():
             return
     pytest.fail(f"{path}: there is no such path")
-
-
-def test_every_layer_is_in_the_picture() -> None:
-    """In the order in which `lint-imports` holds them; `make drawings` draws it anew."""
-    picture = (DOCS / "drawings" / "layers.svg").read_text(encoding="utf-8")
-    names = r'class="name"[^>]*>(\w+)<'
-    drawn = re.findall(names, picture)
-    assert drawn == [part for layer in layers.layers() for part in layer]
-    assert drawn == re.findall(names, layers.draw())

@@ -9,7 +9,7 @@ import xarray as xr
 
 from disc_model.explorer import Stated
 from disc_model.explorer import study_contents as contents_of
-from disc_model.figures.classes import AT_BOUND, NOT_NEAR, UNSETTLED
+from disc_model.figures.classes import AT_BOUND, UNSETTLED
 from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_pieces import open_steps
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
@@ -52,11 +52,8 @@ def cycles() -> xr.Dataset:
 
 
 def line() -> xr.Dataset:
-    """One preload of the cycles, of which the last two points are not near the motion."""
-    study = cycles().isel(N=0, drop=True)
-    near = np.ones(8)
-    near[6:] = 0
-    return study.assign(near_motion=("Omega", near))
+    """One preload of the cycles."""
+    return cycles().isel(N=0, drop=True)
 
 
 def shares() -> xr.Dataset:
@@ -91,17 +88,6 @@ def test_lines_are_open_where_those_of_figures_are(name: str) -> None:
     assert not told["Omega"][:, -1].any(), "no step begins at the last point"
     across = open_steps(study, heights, "Omega", log=False)
     np.testing.assert_array_equal(told["N"][:-1], np.array([*across.values()]).T)
-
-
-def test_lines_to_cycles_that_the_motion_is_not_near_are_open() -> None:
-    """Such points are marked as well."""
-    rate = variable(line(), "growth_rate")
-    [steps] = rate["open"]
-    assert steps["reason"] == OPEN
-    assert np.flatnonzero(numbers(steps, "u1")).tolist() == [ENDS_AT, 5]
-    [doubt] = rate["doubts"]
-    assert doubt["look"]["label"] == NOT_NEAR.label
-    assert np.flatnonzero(numbers(doubt, "u1")).tolist() == [6, 7]
 
 
 def borders() -> xr.Dataset:
@@ -161,28 +147,8 @@ def test_an_open_line_is_seen_and_named(opened: Open) -> None:
         shown.page.prefer("light")
         joined = [shown.page.run(JOINED, n) for n in range(7)]
         legend = shown.text("legend")
-        shown.page.run("choose({Omega: 7})")
-        said = shown.text("point")
-    assert joined == [True, True, True, True, False, False, True]
+    assert joined == [True, True, True, True, False, True, True]
     assert OPEN in legend
-    assert NOT_NEAR.label in legend
-    assert said.endswith(NOT_NEAR.label)
-
-
-@pytest.mark.slow
-@needs.BROWSER.mark
-def test_maps_mark_cycles_that_the_motion_is_not_near(opened: Open) -> None:
-    """They had the colours of the others, and figures a pattern."""
-    study = cycles()
-    study["near_motion"] = (study["growth_rate"] < 0.03).astype(float)
-    with opened([contents_of("map", study)]) as shown:
-        shown.choose("Up", "N")
-        shown.choose("Variable", "growth_rate")
-        legend = shown.text("legend")
-        patterned = shown.ask("coloursOf", 3, 1)
-        plain = shown.ask("coloursOf", 6, 0)
-    assert NOT_NEAR.label in legend.split("\n")
-    assert len(patterned) > len(plain) == 1
 
 
 @pytest.mark.slow
@@ -204,7 +170,7 @@ def campbell() -> xr.Dataset:
     """Frequencies of three modes over the speed."""
     modes = {"long_name": "number of the mode, lowest frequency first"}
     frequencies = np.add.outer(np.array(SPEEDS), [60.0, 140.0, 240.0])
-    study = line().drop_vars(["period", "near_motion"])
+    study = line().drop_vars("period")
     study = study.assign_coords(mode=("mode", [1, 2, 3], modes))
     for name in ("sliding_frequency", "cycle_frequency"):
         study[name] = (["Omega", "mode"], frequencies, {"long_name": name, "units": "Hz"})

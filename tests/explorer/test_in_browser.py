@@ -16,7 +16,7 @@ from PIL import Image
 import disc_model as dm
 from disc_model.explorer import LEVELS, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.figures.classes import LOOKS, NOT_NEAR, STABLE, UNRESOLVED, lightness
+from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED, lightness
 from disc_model.figures.colours import growth_colours, growth_norm
 from tests import needs
 from tests.explorer.test_page import FAILED, MESSAGE, WITHOUT_CYCLE, contents, force, motions, plane
@@ -591,22 +591,6 @@ def shows_motions(shown: Explorer) -> None:
     assert shown.text("motion-hovered").startswith(
         "0 ms, Contact force P 385 N, Slider u −8.8 mm from the undeformed disc, Angle ψ 0 rad"
     )
-
-
-def test_a_motion_that_is_not_near_the_cycle_is_named_once(tmp_path: Path) -> None:
-    """The mark of the map and the doubt about the value are the same."""
-    study = plane().drop_vars(["outcome", "message"])
-    rate = study["growth_rate"]
-    study["near_motion"] = (rate.dims, np.where(rate.values > 0, 0.0, np.nan))
-    explorer_path = tmp_path / "explorer.html"
-    stated = Stated("The cycle.", axes=("N", "Omega"), variable="growth_rate")
-    told = contents_of("plane", study, stated=stated)
-    explorer_path.write_text(page("Made up", [told], []), encoding="utf-8")
-    with browser(tmp_path / "profile") as opened:
-        opened.open(explorer_path)
-        opened.wait_for(READY)
-        entries = Explorer(opened).text("legend").split("\n")
-    assert entries.count(NOT_NEAR.label) == 1
 
 
 @pytest.mark.parametrize("values", [[385.0, 385.0], [-9.695, -9.6949], [0.0, 1.0], [-3e-5, 4e-5]])

@@ -12,9 +12,9 @@ from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.figures import campbell
-from disc_model.figures.campbell_looks import CROSSINGS, Crossing
+from disc_model.figures.campbell_looks import CROSSINGS, NOT_NEAR, Crossing
 from disc_model.figures.campbell_peaks import Peak, peaks
-from disc_model.figures.classes import NOT_NEAR, lightness
+from disc_model.figures.classes import lightness
 from disc_model.figures.sizes import COLUMN, PAGE
 from disc_model.studies.quantities.campbell import EFFECTS
 from tests.figures.described import campbell_study, drawn
@@ -180,7 +180,7 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     away[[4, 5]] = 0.0
     study["near_motion"] = ("Omega", away)
     top, bottom = dm.plot_campbell(study)
-    assert NOT_NEAR.label in labels(top.figure)
+    assert NOT_NEAR in labels(top.figure)
     rings = [line for line in bottom.lines if line.get_markerfacecolor() == "white"]
     heights = [rate for line in rings for rate in np.ravel(line.get_ydata()).tolist()]
     assert heights == [0.2]
@@ -189,7 +189,7 @@ def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
     assert [peak.place for peak in peaks(study)] == [12]
     assert_fit_for_print(top.figure)
     without = dm.plot_campbell(campbell_study())[0].figure
-    assert NOT_NEAR.label not in labels(without)
+    assert NOT_NEAR not in labels(without)
     pyplot.close("all")
 
 

@@ -13,7 +13,6 @@ from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.kinds.base import key_of, unknown
 from disc_model.figures.render import render
-from tests.figures.reading import assert_fit_for_print
 from tests.refusals import refusal
 
 SPEEDS = np.linspace(10.0, 15.0, 6)  # rad/s
@@ -50,27 +49,6 @@ def names_in(figure: Figure) -> list[str]:
 
 
 # ---- Room
-
-
-@pytest.mark.parametrize("width", ["column", "page"])
-def test_the_legend_of_many_lines_leaves_their_panel_room(width: str) -> None:
-    """It lay over the panel, which had no height."""
-    loads = np.linspace(300.0, 400.0, 11)
-    doubtful = np.zeros((6, 11), dtype=int)
-    data = study(*loads)
-    data["near_motion"] = (PLANE, doubtful)
-    figure = drawn(data, width=width)
-    assert_fit_for_print(figure)
-
-    names = names_in(figure)
-    assert len(names) == 12
-
-    [ax] = figure.axes
-    [legend] = figure.legends
-    label = ax.xaxis.label.get_window_extent()
-    box = legend.get_window_extent()
-    assert ax.bbox.height > 1.1 * figure.dpi
-    assert box.y1 <= label.y0
 
 
 def test_a_label_beside_a_panel_ends_below_a_long_title() -> None:

@@ -529,20 +529,6 @@ def critical_stiffness() -> Critical:
     return dm.critical(P.replace(Omega=12), "k_p", bounds, points=5, precision=10.0)
 
 
-@pytest.mark.parametrize(
-    ("rate", "said"),
-    [
-        (-0.006, "there the motion is near another cycle"),
-        (np.nan, "there the motion is not near this cycle"),
-    ],
-)
-def test_a_critical_value_says_that_the_motion_is_elsewhere(rate: float, said: str) -> None:
-    found = critical_stiffness()
-    away = replace(found, near_motion=False, other_growth_rate=rate)
-    assert said in all_words_of(away.plot())
-    assert said not in all_words_of(found.plot())
-
-
 def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:
     """The picture had a legend, and nothing else."""
     found = dm.critical(RIG, "Omega", (1, 2), points=3)

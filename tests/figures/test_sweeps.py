@@ -16,7 +16,6 @@ import disc_model as dm
 from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import GROWING, UNKNOWN_STARTS, name_of
-from disc_model.figures.curve_looks import MARKS
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
@@ -823,26 +822,6 @@ def test_filled_marks_and_open_ones_of_other_lines_are_both_seen() -> None:
     assert up.get_markersize() > down.get_markersize()
 
 
-def test_points_of_a_cycle_that_the_motion_is_not_near_are_marked() -> None:
-    """They stood on the line as any other."""
-    speeds = [7.3, 7.35, 7.4]
-    found = dm.sweep(dm.floquet, CASE.replace(N=375), Omega=speeds, N=[370, 375])
-    assert (found["near_motion"] == 0).values.T.tolist() == [3 * [False], [False, True, False]]
-    words = "the motion is not near this cycle"
-    for variable in ("growth_rate", "period"):
-        ax = dm.plot_sweep(found.sel(N=375), variable)
-        filled = [line for line in ax.lines if line.get_markerfacecolor() != "none"]
-        places = [[*line.get_xdata()] for line in filled if line.get_marker() in MARKS]
-        assert places == [[], [7.35]], "the first is the legend's"
-        assert labels(ax.figure) == [f"filled: {words}"]
-        steps = [place for rows in rows_above(ax) for row in rows.rows for place in row.get_xdata()]
-        assert steps == pytest.approx([7.325, 7.375])  # to rounding
-        assert not labels(dm.plot_sweep(found.sel(N=370), variable).figure)
-        lines = dm.plot_sweep(found, variable)
-        assert f"filled: {words}" in labels(lines.figure)
-        pyplot.close("all")
-
-
 def test_a_smooth_line_of_growth_rates_is_not_open() -> None:
     """Nor are points without order, steady sliding, which is one equilibrium, or a logarithmic scale
     of rates of one sign."""
@@ -1411,10 +1390,9 @@ def test_lines_of_all_variables_of_a_cycle_are_open_at_the_same_steps() -> None:
 
 
 def test_counts_and_verdicts_of_a_point_without_a_cycle_are_missing() -> None:
-    """Its sticks were 0, and the motion was near the cycle that it does not have."""
+    """Its sticks were 0."""
     found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
     assert found["status"].values.tolist() == ["ok", "no_cycle"]
-    assert found["near_motion"].isnull().all(), "a stable cycle and none"
     for name in ("sticks", "releases", "stable"):
         assert found[name].values.tolist() == pytest.approx([1, np.nan], nan_ok=True)
         assert said_above(dm.plot_sweep(found, name)) == ["no cycle found"]

@@ -138,15 +138,6 @@ def test_a_variable_beside_the_grid_is_refused() -> None:
         dm.plot_sweep(study, "crossing_frequency")
 
 
-def test_stable_cycles_are_not_examined_for_a_motion_near_them() -> None:
-    """They had no value for no reason."""
-    meaning = {"comment": "1 for True, 0 for False, nan where there is neither"}
-    study = grid(Omega=[10.0, 12]).assign(near_motion=("Omega", [1.0, np.nan], meaning))
-    study.attrs["function"] = "floquet"
-    ax = dm.plot_sweep(study, "near_motion", ax=small_axes())
-    assert [text.get_text() for text in ax.texts] == ["stable: not examined"]
-
-
 # ---- Words
 
 

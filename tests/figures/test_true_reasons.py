@@ -6,45 +6,23 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.data.missing import reason_of
 from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.selection import classes_of_gaps, gaps
 from tests.explorer.test_page import flagged
-
-NOT_ANOTHER = "stable, near the cycle, or no other found"
 
 
 def samples() -> xr.Dataset:
     """Four samples: a stable cycle, an unstable one, no cycle, and one that was simulated."""
     nothing = np.full(4, np.nan)
-    long_name = f"rate, nan {reason_of('sensitivity', 'other_growth_rate')}"
     cycles = np.array([0, 1, 2, 0], np.int8)
     outcomes = np.array([0, 0, 0, 1], np.int8)
     data: dict[str, Any] = {
         "status": ("sample", np.zeros(4, np.int8), flagged("ok failed")),
         "cycle": ("sample", cycles, flagged("stable unstable no_cycle")),
         "outcome": ("sample", outcomes, flagged("not_simulated quiet")),
-        "other_growth_rate": ("sample", nothing, {"long_name": long_name}),
-        "near_motion": ("sample", nothing),
         "first_separation": ("sample", nothing),
     }
     return xr.Dataset(data, {"sample": range(4)}, {"quantity": "sensitivity"})
-
-
-@pytest.mark.parametrize("name", ["other_growth_rate", "near_motion"])
-def test_a_rate_of_a_sample_does_not_wait_for_its_simulation(name: str) -> None:
-    """It was "not simulated", though no simulation gives it; and where there is no cycle, no other
-    one can be near."""
-    study = samples()
-    found = classes_of_gaps(study, study[name])
-    assert found.tolist() == ["no_value", "no_value", "no_cycle", "no_value"]
-    masks = gaps(study, study[name])
-    assert masks["no cycle found"].values.tolist() == [False, False, True, False]
-
-
-def test_the_reason_of_another_rate_holds_of_stable_cycles() -> None:
-    """It did not: nothing else is looked for beside them."""
-    assert missing_text(samples(), "other_growth_rate") == NOT_ANOTHER
 
 
 def test_a_time_of_a_sample_waits_for_its_simulation() -> None:

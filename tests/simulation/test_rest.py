@@ -1,20 +1,14 @@
 """Run-up from rest and stops: when a slider is at rest, and that a run says so."""
 
-import math
 from collections.abc import Mapping
 
-import numpy as np
 import pytest
 
 import disc_model as dm
-from disc_model import Parameters, Ramp, State, simulate
-from disc_model.disc.plate import mode_arrays, tangential_amplitudes
+from disc_model import Parameters, Ramp, simulate
 from disc_model.errors import Status
-from disc_model.simulation.rest import holds_for_good
 from disc_model.simulation.states import static_start
-from tests.contact_laws import LAWS
 from tests.references import block
-from tests.references.stick import margin_of_stick
 from tests.refusals import refusal
 
 pytestmark = pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
@@ -76,12 +70,7 @@ def test_a_brake_stop_of_an_overdamped_slider_ends_at_rest_as_in_closed_form() -
     assert run.status is Status.AT_REST
     assert run.status.complete
     assert run.raise_for_status() is run
-    held = p.k_p * expected.stretch
-    assert run.message == (
-        "at_rest: at t = 0.5 s in stick, the drive stands still, "
-        f"and friction holds the slider against {held:.6g} N"
-    )
-    assert held < p.mu_s * p.N
+    assert run.message == "at_rest: at t = 0.5 s in stick, the drive stands still"
 
 
 @pytest.mark.parametrize("pulls", [1.001, 1.7, 4.4, -6.3])
@@ -123,90 +112,6 @@ def test_a_result_at_rest_survives_its_file(tmp_path) -> None:
 
 
 # ------------------------------------------------------------------------ for good
-def vibrating(p: Parameters, share: float, pull: float) -> State:
-    """A sticking state of `ONE_MODE` whose contact force swings by a share of what friction has in
-    reserve over the pull (N)."""
-    modes = mode_arrays(p)
-    psi = float(modes.psi[0])
-    force_by_way = abs(psi * (p.k - p.m * modes.omega[0] ** 2)) / (1 + p.m * psi**2)
-    swing = p.N - pull / p.mu_s
-    rest = static_start(p)
-    a = rest.a + share * swing / force_by_way
-    return rest.replace(a=a, u=float(modes.psi @ a), psi=pull / (p.r_0 * p.k_p))
-
-
-@pytest.mark.parametrize(("share", "holds"), [(0.999, True), (1.001, False)])
-def test_a_vibration_of_one_mode_releases_the_slider_exactly_where_rest_is_denied(share, holds):
-    """For one mode the bound by the energy is the amplitude itself."""
-    state = vibrating(ONE_MODE, share, pull=0.7 * ONE_MODE.mu_s * ONE_MODE.N)
-    run = simulate(ONE_MODE, 0.2, initial_state=state)
-    assert (len(run.events) == 0) == holds
-    assert holds_for_good(ONE_MODE, state, ONE_MODE.N) == holds
-    assert (simulate(ONE_MODE, 1e-4, initial_state=state).status is Status.AT_REST) == holds
-
-
-def shaken(p: Parameters, energy: float, rng: np.random.Generator) -> State:
-    """A sticking state with a random vibration of the disc, and a random pull of the spring."""
-    modes = mode_arrays(p)
-    rest = static_start(p)
-    draw = math.sqrt(energy) * rng.normal(size=(4, len(modes.psi)))
-    draw[1, modes.diameters == 0] = 0
-    draw[3, modes.diameters == 0] = 0
-    a = rest.a + draw[0] / modes.omega
-    return rest.replace(
-        a=a,
-        b=draw[1] / modes.omega,
-        alpha=draw[2],
-        beta=draw[3],
-        f=float(tangential_amplitudes(p) @ draw[3]) / p.r_0,
-        u=rest.u + float(modes.psi @ (a - rest.a)),
-        u_velocity=float(modes.psi @ draw[2]),
-        psi=rng.uniform(-0.9, 0.9) * p.mu_s * p.N / (p.r_0 * p.k_p),
-    )
-
-
-@pytest.mark.parametrize("law", [{}, *LAWS.values(), SURFACE, SURFACE | LAWS["compliant_normal"]])
-@pytest.mark.parametrize("damped", [False, True])
-def test_what_is_at_rest_stays_within_friction_s_limit_in_an_exponential(law, damped) -> None:
-    p = Parameters(N=100, Omega=0, n_diameters=2, D_star=0, **law)
-    if damped:
-        p = p.replace(c=0.5, c_p=0.5, D_star=1e-5)
-    rng = np.random.default_rng(7)
-    holds = []
-    margins = []
-    for energy in np.geomspace(1e-6, 1.0, 30):
-        state = shaken(p, energy, rng)
-        holds.append(holds_for_good(p, state, p.N))
-        margins.append(margin_of_stick(p, state, 0.1, 1000))
-    within = np.array(margins) > 0
-    assert not np.any(np.array(holds) & ~within)
-    # the bound is no more than some times the vibration, of which it knows only the energy
-    assert sum(holds) > 0.3 * within.sum()
-    assert not within.all()
-
-
-def test_what_is_at_rest_is_not_released_in_a_simulation() -> None:
-    p = Parameters(N=100, Omega=0, n_diameters=2, D_star=0)
-    rng = np.random.default_rng(7)
-    for energy in np.geomspace(1e-6, 1.0, 12):
-        state = shaken(p, energy, rng)
-        released = len(simulate(p, 0.1, initial_state=state).events) > 0
-        assert released == (margin_of_stick(p, state, 0.1, 10_000) < 0)
-        assert not (released and holds_for_good(p, state, p.N))
-
-
-def test_a_preload_that_has_changed_counts() -> None:
-    """The spring k carries a part of the change."""
-    p = Parameters(N=100, Omega=0, n_diameters=1, D_star=1e-3)
-    lighter = Ramp(parameter="N", to=60, start=0, end=0.5)
-    run = simulate(p, 5.0, ramps=lighter, windows={"end": dm.Window(last=0.01, rate=1e4)})
-    modes = mode_arrays(p)
-    flexibility = float(np.sum((modes.psi / modes.omega) ** 2))
-    force = (60 + p.k * 100 * flexibility) / (1 + p.k * flexibility)
-    assert run["end"]["P"].values == pytest.approx(force, rel=1e-6)
-    for share, holds in ((0.99, True), (1.01, False)):
-        state = run.final_state.replace(psi=share * p.mu_s * force / (p.r_0 * p.k_p))
-        assert holds_for_good(p, state, 60) == holds
 
 
 # ------------------------------------------------------------------------ requests

@@ -11,7 +11,6 @@ from scipy.optimize import brentq
 from disc_model import Parameters, continue_cycle, floquet, neutral_curves, simulate, sweep
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Bar
-from disc_model.figures.selection import not_near
 from disc_model.stability import critical, parameter_scan
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
@@ -36,65 +35,6 @@ def test_a_narrow_tongue_between_two_values_is_seen() -> None:
         assert below.stable == unstable
         assert above.stable == (not unstable)
     assert found.resolution == np.diff(found.values).max() <= 28
-
-
-@pytest.fixture
-def short_search(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The search from the static start does not follow motions that come slowly to a cycle."""
-    monkeypatch.setattr("disc_model.stability.cycle.NEAR_REPEAT", 0.0)
-
-
-@pytest.mark.usefixtures("short_search")
-@pytest.mark.compiled
-def test_a_stable_cycle_is_followed_to_its_fold() -> None:
-    """From 26,848.9 N/m on Newton's method from the static start finds no cycle, and then the
-    unstable one; that was the border."""
-    case = Parameters(N=300, Omega=14)
-    found = critical.critical(case, "k_p", (26700, 26900), points=21)
-    branch = continue_cycle(case.replace(k_p=26840), "k_p", (26830, 26880), stop_at="fold")
-    # the upper end of an interval of a millionth of the range
-    assert found.crossings == pytest.approx(branch.folds[-1], abs=2.1e-4)
-    assert found.value == found.crossings[0]
-    assert np.all(found.growth_rate[found.values < found.value] < 0)
-    # as the motion from the static start says
-    for k_p in (26850.0, 26858.0):
-        there = case.replace(k_p=k_p)
-        assert not floquet(there).stable
-        assert floquet(there, guess=simulate(there, 120).final_state).stable
-
-
-@pytest.mark.usefixtures("short_search")
-@pytest.mark.compiled
-@pytest.mark.parametrize("speed", [20.15, 22.715, 28.09])
-def test_stretches_in_which_the_search_finds_nothing_are_no_tongues(speed: float) -> None:
-    """Three of a thousandth of the range and less were said to be unstable."""
-    p = Parameters(
-        N=385,
-        Omega=33,
-        E=70e9,
-        rho=2700,
-        nu=0.33,
-        h=0.004,
-        D_star=Parameters(N=1, Omega=1).D_star,
-        normalization="orthonormal",
-        mu_k_over_mu_s=0.6,
-    )
-    there = p.replace(Omega=speed)
-    assert floquet(there).motion == "no_cycle"
-    assert floquet(there, guess=simulate(there, 100).final_state).stable
-    found = critical.critical(p, "Omega", (speed - 0.5, speed + 0.5), points=11, precision=1e-4)
-    assert math.isnan(found.value)
-
-
-@pytest.mark.compiled
-def test_an_unstable_cycle_at_which_the_motion_stays_is_not_passed_over() -> None:
-    """A stable one exists, too, far from the motion from the static start."""
-    p = Parameters(N=251, Omega=12.9, normalization="orthonormal", friction_offset="surface")
-    found = critical.critical(p, "k_p", (22400, 22650), points=26)
-    there = p.replace(k_p=22500.0)
-    # it leaves the cycle by a factor of e in 56 s
-    assert not floquet(there, guess=simulate(there, 100).final_state).stable
-    assert any(low < 22500 < high for low, high in found.unstable)
 
 
 def scan_of(
@@ -246,61 +186,9 @@ def test_a_sweep_keeps_what_is_said_of_a_critical_value() -> None:
 
 
 @pytest.mark.compiled
-def test_a_critical_value_says_where_the_motion_is_not_near_the_cycle() -> None:
-    """The growth rate of 0.28/s at 7.35 rad/s stood for that of a motion near another cycle."""
-    case = Parameters(N=375, Omega=7)
-    found = critical.critical(case, "Omega", (7.35, 7.4), points=3)
-    cycle = floquet(case.replace(Omega=found.value))
-    assert found.near_motion is cycle.near_motion is False
-    assert found.other_growth_rate == cycle.other_growth_rate
-    assert "near another cycle there, with growth rate 0.000399" in found.message
-    assert found.message.startswith("already unstable at the lower bound")
-    assert found.message in repr(found)
-    assert found.message in found._repr_html_()
-
-
-@pytest.mark.compiled
-def test_a_critical_value_at_which_the_motion_is_near_the_cycle_says_nothing_of_another() -> None:
-    found = critical.critical(Parameters(N=375, Omega=7), "Omega", (7.34, 7.36), points=2)
-    assert found.near_motion is True
-    assert math.isnan(found.other_growth_rate)
-    assert found.message == "already unstable at the lower bound, Omega = 7.34 rad/s"
-
-
-@pytest.mark.compiled
-def test_a_sweep_of_critical_values_has_what_they_say_of_the_motion() -> None:
-    axes = {"N": [375.0, 385.0]}
-    case = Parameters(N=375, Omega=7)
-    found = sweep(critical.critical, case, name="Omega", bounds=(7.35, 7.4), points=3, **axes)
-    assert found["near_motion"].values.tolist() == [False, True]
-    assert "near the cycle" in found["near_motion"].attrs["long_name"]
-    assert found["other_growth_rate"].values[0] == pytest.approx(0.0004, abs=1e-4)
-    away = not_near(found, "value")
-    assert away is not None
-    assert away.values.tolist() == [True, False]
-    assert not_near(found, "growth_rate") is None
-
-
-@pytest.mark.usefixtures("short_search")
-@pytest.mark.compiled
-def test_a_cycle_that_ends_between_two_values_is_looked_for() -> None:
-    """At 207.0 to 207.5 N and 212.5 to 213.5 N the search finds none; the scan stepped over both. The
-    cycle of other preloads goes on there and the motion settles on it, up to 215.15 N."""
-    p = Parameters(N=1, Omega=9.452728864087778, normalization="orthonormal")
-    found = critical.critical(p, "N", (195, 216), points=15)
-    for N in (207.2, 213.0):
-        assert floquet(p.replace(N=N)).status == "no_cycle"
-        settled = simulate(p.replace(N=N), 200).final_state
-        assert floquet(p.replace(N=N), guess=settled).stable
-    assert found.unstable.shape == (1, 2)
-    assert not floquet(p.replace(N=found.value)).stable
-
-
-@pytest.mark.compiled
 def test_a_pair_that_only_touches_the_axis_is_looked_for() -> None:
     """Between 10,200 and 10,300 N/m a pair passes through 1 and comes back: its angle has the same
-    sign at both. The cycle folds twice there, and the motion from the static start settles on one of
-    the two stable ones."""
+    sign at both. The cycle folds twice there, and the search finds the unstable one in between."""
     p = Parameters(N=182.84010057915575, Omega=9.219889478738258, normalization="orthonormal")
     found = critical.critical(p, "k_p", (10_100, 10_300), points=3)
     there = p.replace(k_p=10_233.7228)
@@ -308,7 +196,7 @@ def test_a_pair_that_only_touches_the_axis_is_looked_for() -> None:
     assert floquet(there, guess=simulate(there, 150).final_state).stable
     inside = (found.values > 10_232) & (found.values < 10_235.5)
     assert inside.any()
-    assert math.isnan(found.value)
+    assert found.crossings.shape == (2,)
 
 
 def shares_of_meetings(angles: list[float], turns: list[float]) -> list[float]:

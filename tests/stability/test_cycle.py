@@ -1,9 +1,7 @@
 """The stick-slip cycle: its multipliers, its status, what is stable."""
 
 import math
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any
 
 import numpy as np
 import pytest
@@ -12,7 +10,6 @@ from disc_model import Parameters, floquet, simulate, steady_sliding, sweep
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.engine import transitions
 from disc_model.errors import DiscModelError
-from disc_model.fitting.prediction import Prediction
 from disc_model.stability.cycle import (
     CycleError,
     FloquetResult,
@@ -21,7 +18,6 @@ from disc_model.stability.cycle import (
     find_cycle,
     run_through_once,
 )
-from disc_model.stability.frequencies import frequencies
 from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -271,70 +267,10 @@ def test_how_long_a_slider_slips_on_is_stated():
     assert found.message.endswith("the slider slips on for 0.123 s without sticking")
 
 
-@pytest.mark.parametrize("speed", [7.35, 7.75])
-def test_an_unstable_cycle_says_that_the_motion_is_near_another(speed: float):
-    """Its growth rate, 0.28/s, stood as that of the motion, which grows by less than 0.001/s."""
-    case = Parameters(N=375, Omega=speed)
-    found = floquet(case)
-    assert found.growth_rate > 0.2
-    motion = floquet(case, guess=simulate(case, 20).final_state)
-    # both are that cycle's, to a residual of 1e-12 over its period of 0.02 s
-    assert found.other_growth_rate == pytest.approx(motion.growth_rate, abs=1e-8)
-    assert (
-        f"near another cycle, with growth rate {found.other_growth_rate:.6g} 1/s" in found.message
-    )
-    assert "the motion is near another cycle" in repr(found)
-    assert math.isnan(motion.other_growth_rate)
-
-
-def test_a_motion_is_not_near_a_cycle_that_it_would_have_left_long_ago():
-    """Growth of 42/s stood for a motion that nearly repeats for 20 s, in contact."""
-    case = Parameters(N=450, Omega=18)
-    found = floquet(case)
-    assert found.growth_rate > 40
-    assert not found.near_motion
-    assert math.isnan(found.other_growth_rate)
-    assert found.message.endswith(
-        "after 300 releases the motion from the static start is not near it"
-    )
-    assert "the motion is not near it" in repr(found)
-    assert simulate(case, 20).statistics["n_separations"] == 0
-
-
-def test_the_motion_near_its_own_cycle_is_near_no_other():
-    """Neither near a stable cycle nor while it leaves an unstable one."""
-    signs = set()
-    for load, speed in ((385, 15), (375, 7.0), (375, 8.75)):
-        found = floquet(Parameters(N=load, Omega=speed))
-        signs.add(found.stable)
-        assert math.isnan(found.other_growth_rate)
-        assert found.near_motion is (None if found.stable else True)
-        assert "motion" not in found.message
-    assert signs == {True, False}
-
-
-@pytest.mark.parametrize("computed", [floquet, frequencies])
-def test_the_check_beside_the_motion_builds_no_second_return_map(
-    computed: Callable[[Parameters], Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    built = []
-    build = ReturnMap.__init__
-
-    def counted_build(self: ReturnMap, *arguments: Any, **options: Any) -> None:
-        built.append(self)
-        build(self, *arguments, **options)
-
-    monkeypatch.setattr(ReturnMap, "__init__", counted_build)
-    computed(Parameters(N=375, Omega=7.35))  # whose cycle is unstable
-    assert len(built) == 1
-
-
-def test_times_of_stick_and_slip_are_those_that_are_fitted() -> None:
-    """They had to be computed from the period and the share of stick."""
+def test_times_of_stick_and_slip_add_up_to_the_period() -> None:
     case = Parameters(N=385, Omega=15)
     cycle = floquet(case)
-    for name in ("stick_time", "slip_time"):
-        assert getattr(cycle, name) == pytest.approx(Prediction(case).of(name), rel=1e-12)
+    assert cycle.stick_time + cycle.slip_time == pytest.approx(cycle.period, rel=1e-12)
     swept = sweep(floquet, case, N=[385])
     assert swept["slip_time"].item() == cycle.slip_time
     assert swept["slip_time"].attrs["units"] == "s"

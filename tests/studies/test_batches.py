@@ -191,15 +191,6 @@ def test_a_mark_has_the_place_of_its_value_to_rounding(value: float, place: int 
     assert parts_of._index_of(value, (0.1, 0.3, 5.0)) == place
 
 
-def test_implausible_values_are_looked_for_at_both_ends_of_an_axis() -> None:
-    raw = {"study": "s", "quantity": "floquet", "base": {"N": 200, "Omega": 20}}
-    usual = parse_grid({**raw, "axes": {"D_star": [1e-5, 2e-5, 3e-5]}})
-    assert not [*usual.doubts]
-    thick = parse_grid({**raw, "axes": {"h": [0.002, 0.01, 0.05]}})
-    [told] = thick.doubts
-    assert "h = 0.05 m" in told
-
-
 CROSSED = {
     "study": "s",
     "quantity": "campbell",

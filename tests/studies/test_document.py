@@ -28,6 +28,7 @@ def test_what_is_shipped_is_made_from_the_models() -> None:
     jsonschema.Draft202012Validator.check_schema(SCHEMA)
 
 
+@pytest.mark.filterwarnings("error::disc_model.ImplausibleValue")
 @pytest.mark.parametrize(
     "path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem
 )
@@ -41,7 +42,7 @@ def test_a_shipped_file_is_right(path: Path) -> None:
     assert (path.parent / named[1]).resolve() == SHIPPED
     study = load_study(path)
     assert study.name == path.stem
-    assert not [*study.doubts, *(study.grid.doubts if study.grid else ())]
+    assert not (study.grid and [*study.grid.doubts])
     if study.grid and not study.cases:  # what its figures show besides is found beside it
         grids, names = study.grids([Path(), path.parent])
         assert names == (study.name,)

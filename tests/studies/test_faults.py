@@ -230,7 +230,6 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: disc(circles=[0, 0, 0]), "omega.2=1820 axisymmetric"),
     (lambda: dm.simulate(p(), 1.0, ramps=(ramp(), ramp(start=0.02))), "ramps.1.start=0.02 0.03"),
     (lambda: from_state(phase="stick", f=1.0), "initial_state.f=1 0 stick"),
-    (lambda: dm.split_growth(p(n_diameters=-1)), "n_diameters=-1 modes"),
     (lambda: dm.basins(p(n_diameters=-1), [1e-3]), "energies rigid"),
     (lambda: lyapunov_exponents(p(), 1.0, count=9), "count=9 8"),
     (lambda: dm.Window(rate=1, start=2, stop=1), "start=2 < stop=1"),

@@ -192,7 +192,6 @@ SWEPT: dict[str, dict[str, Any]] = {
     "pinned_range": {"frequency": 135.0},
     "residual_flexibility": {},
     "simulate": {"t_end": 0.1},
-    "split_growth": {"split": 0.0},
     "steady_sliding": {},
 }
 """Functions whose results a sweep gathers, with few options."""
@@ -623,7 +622,6 @@ VARIED = (
     "outcome",
     "pinned_range",
     "simulate",
-    "split_growth",
 )
 """Functions of a case whose arguments vary in sweeps."""
 
@@ -735,7 +733,7 @@ def test_other_numbers_of_a_table_stay_beside_its_samples(tmp_path: Path) -> Non
     with pytest.warns(dm.ImplausibleValue) as caught:
         found = sweep(products, P, zip=LABORATORY)
     assert [str(each.message) for each in caught] == [
-        "temperature and Unnamed_0 are no numbers of the case: kept beside the samples, without effect"
+        "temperature and Unnamed_0: no number of the case, kept beside the samples"
     ]
     assert found["temperature"].dims == ("N_mu_k",)
     assert found["temperature"].values.tolist()[::2] == [20.5, 22]

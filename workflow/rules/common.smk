@@ -121,7 +121,7 @@ except DiscModelError as error:
     raise WorkflowError(str(error)) from None
 
 if MAIN:
-    for checked in [STUDY, *(GRIDS[name] for name in ASKED)]:
+    for checked in (GRIDS[name] for name in ASKED):
         for doubt in checked.doubts:
             logger.warning(f"{checked.name}: warning: {doubt}")
 

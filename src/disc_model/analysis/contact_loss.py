@@ -3,7 +3,6 @@ exceeds it (docs/model.md, The range at which contact is lost)."""
 
 import math
 
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 
@@ -44,7 +43,6 @@ def pinned_range(case: Parameters, frequency: float) -> float:
     positive = isinstance(frequency, int | float) and 0 < frequency < math.inf
     rule = "must be a number > 0, in Hz"
     raise_faults([*foreign_case(case), *violations((positive, "frequency", frequency, rule))])
-    warn_of_doubts(case)
     omega = 2 * math.pi * frequency
     stiffness = abs(complex(case.k - case.m * omega**2, case.c * omega))
     if stiffness == 0:

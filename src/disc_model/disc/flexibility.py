@@ -18,7 +18,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.disc.plate import Array, mode_arrays, pad_factors
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import Fault, ModeError, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import RESIDUAL, Parameters, foreign_case
 
@@ -86,7 +85,6 @@ def residual_flexibility(case: Parameters) -> Flexibility:
     '3.17e-07 m/N'
     """
     raise_faults(foreign_case(case))
-    warn_of_doubts(case)
     found = _flexibility(case)
     if not is_modal_sum(case):
         return found

@@ -8,7 +8,6 @@ import numpy as np
 
 from disc_model.arrays import Array
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import raise_faults
 from disc_model.parameters import Parameters, foreign_case
 
@@ -59,7 +58,6 @@ def plate_modes(case: Parameters) -> pd.DataFrame:
     import pandas as pd
 
     raise_faults(foreign_case(case))
-    warn_of_doubts(case)
     return pd.DataFrame(vars(mode_arrays(case)))
 
 
@@ -92,6 +90,5 @@ def coupled_natural_frequencies(case: Parameters) -> Array:
     array([ 850.86, 1492.55, 1516.76])
     """
     raise_faults(foreign_case(case))
-    warn_of_doubts(case)
     modes = mode_arrays(case)
     return np.sort(np.concatenate([coupled_frequencies(case), modes.omega[modes.diameters > 0]]))

@@ -2,8 +2,12 @@
 
 from typing import Any
 
-from disc_model.disc.plausibility import MEASURES, STATED_WITH_MEASURES
 from disc_model.parameters import RATIOS, Parameters
+
+MEASURES = ("a", "b", "h", "E", "nu", "rho")
+"""Numbers of the plate by which it is another than the paper's."""
+STATED_WITH_MEASURES = ("normalization", "D_star", "damping_ratio")
+"""What a case of another plate has to state."""
 
 
 def names_of_calls() -> dict[str, Any]:

@@ -20,7 +20,7 @@ def open_along(study: xr.Dataset, name: str) -> dict[str, Mask]:
     is_open = name in OF_CYCLES or has_ranges(study, name)
     if not is_open and border_alone(study, name) is None:
         return {}
-    needed = (name, RATE, "near_motion", "border", "at_lower_bound", "crossing", "crossing_kind")
+    needed = (name, RATE, "border", "at_lower_bound", "crossing", "crossing_kind")
     part = study[[other for other in needed if other in study]]
     _, heights = heights_of(part, name)
     found = {}

@@ -70,13 +70,10 @@ def _marks_over(study: xr.Dataset, name: str, axes: tuple[str, str]) -> Mapping[
 
 
 def _beside(study: xr.Dataset, variable: xr.DataArray) -> xr.Dataset:
-    """A variable with what is said of its points: of their cycle, if that has its dimensions, and of the
-    motion."""
+    """A variable with what is said of the cycle of its points, if that has its dimensions."""
     names = [str(variable.name)]
     if "cycle" in study and {*study["cycle"].dims} == {*variable.dims}:
         names.append("cycle")
-    if "near_motion" in study and {*study["near_motion"].dims} <= {*variable.dims}:
-        names.append("near_motion")
     return study[names].assign(status_words=statuses(study))
 
 

@@ -8,6 +8,7 @@ from disc_model.figures.campbell_bands import entries_of_bands
 from disc_model.figures.campbell_counts import entries_of_counts
 from disc_model.figures.campbell_crossings import SYMBOLS, meeting_of, symbol_of_line
 from disc_model.figures.campbell_looks import (
+    NOT_NEAR,
     beyond_look,
     dot_look,
     elsewhere_look,
@@ -16,11 +17,17 @@ from disc_model.figures.campbell_looks import (
     speed_look,
 )
 from disc_model.figures.campbell_multiples import entries_of_crossings, shows_multiples
-from disc_model.figures.campbell_peaks import Column, Peak, followed_rates, growing_modes, unjoined
+from disc_model.figures.campbell_peaks import (
+    Column,
+    Peak,
+    elsewhere_of,
+    followed_rates,
+    growing_modes,
+    unjoined,
+)
 from disc_model.figures.cut import entries_of_left_out, entry_of_cut, modes_cut
 from disc_model.figures.drawing import BLACK, open_line, open_ring, sample, wide
 from disc_model.figures.rate_scale import ANOTHER_CYCLE, opens
-from disc_model.figures.selection import doubts
 from disc_model.figures.symbols import seen
 from disc_model.figures.types import Array, Artist
 
@@ -74,8 +81,8 @@ def _entries_of_rates(studies: Sequence[xr.Dataset], found: Sequence[Peak]) -> l
     """Entries of a legend for points of other cycles, by themselves or beside open steps, and gaps."""
     followed = [followed_rates(study) for study in studies]
     handles = _entries_of_other_cycles(followed, any(peak.is_open for peak in found))
-    for name in {look.label for study in studies for look in doubts(study, "growth_rate")}:
-        handles.append(sample(label=name, **elsewhere_look()))
+    if any(elsewhere_of(study).any() for study in studies):
+        handles.append(sample(label=NOT_NEAR, **elsewhere_look()))
     return handles + entries_of_bands(studies)
 
 

@@ -28,6 +28,9 @@ def dot_look(alone: bool, crossed: bool = True) -> dict[str, Any]:
     return look
 
 
+NOT_NEAR = "the motion is not near this cycle"
+
+
 def elsewhere_look() -> dict[str, Any]:
     """Look of a point of a cycle that the motion is not near."""
     return {

@@ -10,7 +10,7 @@ from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.figures.campbell_crossings import meeting_of, places_of
 from disc_model.figures.growth import ROUNDING
 from disc_model.figures.rate_scale import LINEAR, on_scale, opens
-from disc_model.figures.selection import doubts, stretches
+from disc_model.figures.selection import stretches
 from disc_model.figures.types import Array, Mask
 
 MOST = 5  # number of peaks that are named at most
@@ -59,10 +59,9 @@ def followed_rates(study: xr.Dataset) -> Array:
 
 def elsewhere_of(study: xr.Dataset) -> Mask:
     """Speeds at which the motion is not near the cycle."""
-    away = np.zeros(study["growth_rate"].shape, dtype=bool)
-    for mask in doubts(study, "growth_rate").values():
-        away |= mask.values
-    return away
+    if "near_motion" not in study:
+        return np.zeros(study["growth_rate"].shape, dtype=bool)
+    return np.asarray(study["near_motion"] == 0)
 
 
 def followed_frequency(study: xr.Dataset) -> xr.DataArray:

@@ -48,13 +48,11 @@ UNSETTLED = Look("not settled", "none", 4 * "\\")
 """Of a value that rests on a stay of a sweep at whose end the motion had not settled."""
 GROWING = Look("still growing, or undecided", "none", 4 * "\\")
 """Of a value late in a motion that has not shown what it comes to."""
-NOT_NEAR = Look("the motion is not near this cycle", "none", 3 * "x")
-"""Of a value of an unstable cycle that was sought near the static start, where the motion from there is elsewhere."""
 UNKNOWN_STARTS = Look("outcome of some starts unknown", "none", 3 * "|")
 """Of a value that rests on starts some of which are undecided or failed."""
 NOT_CONVERGED = Look("not converged", "none", 4 * "\\")
 """Of an average over a time that was too short for it."""
-DOUBTS = (UNSETTLED, GROWING, NOT_NEAR, UNKNOWN_STARTS, NOT_CONVERGED)
+DOUBTS = (UNSETTLED, GROWING, UNKNOWN_STARTS, NOT_CONVERGED)
 """Marks of values that may be others than those of all motions, once they have settled."""
 FILLED_MARK = "filled: {}"
 """What legends of marks say of one in doubt, where all others are open."""

@@ -94,24 +94,14 @@ def _draw_alone(page: Page, curve: Curve) -> None:
 
 
 def _note_of(critical: Critical, curve: Curve) -> str:
-    """From where on the motion is unstable, and what may have been overlooked."""
+    """From where on the motion is unstable, and what may be missed."""
     factor = curve.factor
     unit = curve.unit
     step = f"{critical.resolution * factor:.2g} {unit}".strip()
-    overlooked = f"tongues narrower than {step} may be missed"
+    missed = f"tongues narrower than {step} may be missed"
     if np.isnan(critical.value):
-        return overlooked
+        return missed
     first = f"unstable from {critical.value * factor:.5g} {unit}".strip()
     if critical.at_lower_bound:
         first = "already unstable at the lower bound"
-    lines = [first, _place_of_motion(critical), overlooked]
-    return "\n".join(filter(None, lines))
-
-
-def _place_of_motion(critical: Critical) -> str:
-    """Where the motion is at the critical value, if it is not near the unstable cycle; else ""."""
-    if critical.near_motion is not False:
-        return ""
-    if np.isnan(critical.other_growth_rate):
-        return "there the motion is not near this cycle"
-    return "there the motion is near another cycle"
+    return f"{first}\n{missed}"

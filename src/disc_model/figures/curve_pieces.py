@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.figures.rate_scale import RATE, are_of_cycles, are_rates, opens
-from disc_model.figures.selection import at_lower_bound, border_alone, not_near, opened, parts_along
+from disc_model.figures.selection import at_lower_bound, border_alone, opened, parts_along
 from disc_model.figures.tongues import has_ranges, steps_between_ranges
 from disc_model.figures.types import Array, Axes, Mask
 
@@ -37,8 +37,8 @@ def open_steps(
 ) -> dict[str, Mask]:
     """The steps at which each line of a variable is open: of critical values, those to or from the main
     border of stability; of critical speeds, those to another range of separation; of a variable of
-    cycles, those at which the growth rate says that they may lead to another cycle, and those to or from
-    a cycle that the motion is not near; none of other variables."""
+    cycles, those at which the growth rate says that they may lead to another cycle; none of other
+    variables."""
     on_border = border_alone(study, str(array.name))
     if on_border is not None:
         parts = parts_along(on_border, by)
@@ -48,14 +48,7 @@ def open_steps(
     rates = array if array.name == RATE else study.get(RATE, array)
     if not are_of_cycles(array, rates) or (array.name == RATE and not are_rates(array, log)):
         return {}
-    other = not_near(study, str(array.name))
-    if other is None:
-        other = array.copy(data=np.zeros(array.shape, dtype=bool))
-    found = {}
-    of_lines = zip(parts_along(rates, by), parts_along(other, by), strict=True)
-    for part, apart in of_lines:
-        found[part.name] = opens(part.data.values) | np.diff(apart.data.values)
-    return found
+    return {part.name: opens(part.data.values) for part in parts_along(rates, by)}
 
 
 def pieces_of(along: Array, heights: Array, is_open: Mask | None) -> list[Array]:

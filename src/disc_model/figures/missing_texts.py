@@ -40,7 +40,6 @@ _NO_CYCLE = "no cycle is followed"
 _NOT_ON_RECORD = "the record shows none"
 _NO_ATTRACTOR = "no further attractor, or not periodic"
 _NO_EFFECT = "no further crossing, or not known"
-_NOT_ANOTHER = "stable, near the cycle, or no other found"
 GONE: Mapping[str, Mapping[str, str]] = {
     "basins": {
         **dict.fromkeys(("critical_energy", "critical_energy_sampled"), _NO_START),
@@ -63,7 +62,6 @@ GONE: Mapping[str, Mapping[str, str]] = {
         **dict.fromkeys(("crossing_growth_rate", "crossing_rise"), _NO_EFFECT),
     },
     "critical_speed": {"scan_first_separation": "no separation, or not timed"},
-    "floquet": {"near_motion": "stable: not examined"},
     "locking": {
         **dict.fromkeys(("period", "period_residual"), _NO_PERIOD),
         **dict.fromkeys(("leading_multiplier", "growth_rate"), _NO_LOCK),
@@ -107,8 +105,6 @@ WITHOUT = {
     "unless every step is audited": "not every step is audited",
     "unless friction acts on a surface that moves": "friction acts on no surface that moves",
     "if friction acts on no surface that moves": "friction acts on no surface that moves",
-    "if the motion is near the cycle, or no other was found": _NOT_ANOTHER,
-    "if the cycle is stable, the motion is near it, or no other was found": _NOT_ANOTHER,
 }
 """What figures say for what long names say after "nan"."""
 

@@ -7,7 +7,6 @@ import numpy as np
 from matplotlib.colors import Normalize
 
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.errors import raise_faults, require, violations
 from disc_model.figures.canvas import Wishes, page_for
 from disc_model.figures.disc import draw_plane, plane_of
@@ -34,7 +33,6 @@ def plot_modes(
     """Draw the modes of a case, as `disc_model.plot_modes` describes."""
     counts = (is_whole(most) and most >= 1, "most", most, "must be a whole number >= 1")
     raise_faults(foreign_case(p) + violations(counts))
-    warn_of_doubts(p)
     drawable = p.n_diameters >= 0 or p.disc is not None
     require((drawable, "n_diameters", p.n_diameters, "must be >= 0: a rigid disc has no modes"))
     radial_range(p)  # raises an error without shapes

@@ -12,7 +12,6 @@ from disc_model.data.variables import EXCLUDED, Outcome, flag_names, stated_in
 from disc_model.figures.classes import (
     GROWING,
     NOT_CONVERGED,
-    NOT_NEAR,
     UNKNOWN_STARTS,
     UNSETTLED,
     Look,
@@ -71,8 +70,6 @@ OF_CYCLES = (
 
 OF_SLIDING_MODES = ("sliding_frequency", "sliding_growth_rate", "forward_wave_fraction")
 """Variables of the modes of steady sliding, which need no cycle."""
-BESIDE_MOTION = ("near_motion", "other_growth_rate")
-"""Variables of the cycle beside the motion from the static start."""
 ALONE = 0.1
 """Half the width of a cell over its value, where this is the only one along an axis."""
 
@@ -262,8 +259,6 @@ def statuses_of(study: xr.Dataset, array: xr.DataArray) -> xr.DataArray:
     name = str(array.name)
     if name in OF_SLIDING_MODES and "mode" in array.dims:
         return words.where(~words.isin(WITHOUT_CYCLE), "ok")
-    if name in BESIDE_MOTION:
-        return _with_flag(words, study.get("cycle"), (*WITHOUT_CYCLE, "failed"))
     if name == TIME_OF_SEPARATION:
         return _with_flag(words, study.get("outcome"), (NOT_SIMULATED,))
     return words
@@ -426,17 +421,6 @@ def still_growing(study: xr.Dataset, variable: str) -> xr.DataArray | None:
     return outcome.copy(data=open_end).broadcast_like(study[variable]) & study[variable].notnull()
 
 
-def not_near(study: xr.Dataset, variable: str) -> xr.DataArray | None:
-    """Points whose value is that of an unstable cycle which the motion from the static start is not
-    near, or the critical value at which it is found; None of other variables and studies."""
-    searched = "crossings" in study  # by `critical`, whose growth rates are those at all values
-    of_cycle = variable == "value" if searched else variable in OF_CYCLES
-    if not of_cycle or "near_motion" not in study:
-        return None
-    away = study["near_motion"] == 0
-    return away.broadcast_like(study[variable])
-
-
 def companion_of(study: xr.Dataset, variable: str, name: str) -> xr.DataArray | None:
     """Another variable of the points of a variable, along the dimensions of this one; None if a study does
     not have it for them."""
@@ -469,7 +453,6 @@ def doubts(study: xr.Dataset, variable: str) -> dict[Look, xr.DataArray]:
     masks = {
         UNSETTLED: unsettled(study, variable),
         GROWING: still_growing(study, variable),
-        NOT_NEAR: not_near(study, variable),
         UNKNOWN_STARTS: rest_on_unknown(study, variable),
         NOT_CONVERGED: not_converged(study, variable),
     }

@@ -1,10 +1,10 @@
 """A warning of panels on a reader's figure that labels, legends and strips leave no room."""
 
+import warnings
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 from weakref import WeakKeyDictionary, WeakSet
 
-from disc_model.disc.plausibility import warn_reader
 from disc_model.figures.places import has_collapsed
 from disc_model.figures.sizes import INCH
 from disc_model.figures.types import Axes
@@ -43,7 +43,7 @@ def warn_of_small_panels(figure: Any) -> None:
     shortage = next(filter(None, shortages), "")
     if shortage:
         _WARNED.add(figure)
-        warn_reader(f"the panel is {shortage}: {REASON}; {ADVICE}", UserWarning)
+        warnings.warn(f"the panel is {shortage}: {REASON}; {ADVICE}", stacklevel=2)
 
 
 def _shortage(ax: Axes) -> str:

@@ -22,7 +22,6 @@ from disc_model.simulation import states
 from disc_model.simulation.case import SampleTimes, angle_of_drive, pieces
 from disc_model.simulation.collector import Collector
 from disc_model.simulation.request import Request
-from disc_model.simulation.rest import holds_for_good, spring_pull
 from disc_model.simulation.result import Result, Totals
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
@@ -188,14 +187,11 @@ class Run:
             drive_angle=angle_of_drive(self.pieces, self.time) + self.lead,
         )
         stopped = status is Status.OK and self._drive_stands_still()
-        if stopped and holds_for_good(request.parameters, final_state, self.pieces[-1].N):
+        if stopped and final_state.phase == "stick":
             status = Status.AT_REST
         message = f"{status.value}: at t = {self.time:.9g} s in {final_state.phase}"
         if stopped:
             message += ", the drive stands still"
-        if status is Status.AT_REST:
-            pull = abs(spring_pull(request.parameters, final_state))
-            message += f", and friction holds the slider against {pull:.6g} N"
         if status is Status.PARADOX:
             end = states.read_state(self.case, self.state)
             slope = slope_under_slider(self.model, self.state)

@@ -28,7 +28,6 @@ from disc_model.disc.plate import (
     radial_range,
     tangential_amplitudes,
 )
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import html_table
 from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
@@ -391,7 +390,6 @@ def deflection(
     import xarray as xr
 
     raise_faults(foreign_case(case))
-    warn_of_doubts(case)
     modes = mode_arrays(case)
     low, high = radial_range(case)
     radii = finite_numbers(listed_in_si(r, "m", "r"))
@@ -465,7 +463,6 @@ class EngineCase:
 @lru_cache(maxsize=32)  # with their workspaces tens of kilobytes each, megabytes with 1000 modes
 def engine_case(p: Parameters) -> EngineCase:
     """The engine's constants of a case, cached for equal parameters."""
-    warn_of_doubts(p)
     modes = mode_arrays(p)
     tangential = tangential_amplitudes(p)
     model = build_model(

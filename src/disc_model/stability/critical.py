@@ -13,10 +13,8 @@ from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.stability.continuation import free_faults, interval_in_si
 from disc_model.stability.critical_values import MOTIONS, Critical
 from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
-from disc_model.stability.floquet import beside_motion
-from disc_model.stability.overlooked import follow_stable_cycles
 from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
-from disc_model.stability.sliding import SteadySliding, check_modes
+from disc_model.stability.sliding import SteadySliding
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
 MOST_POINTS = 100_000  # largest number of values: an hour of work
@@ -45,18 +43,14 @@ def critical(
     changes above it; or those of steady sliding.
 
     The motion near the static start is the stick-slip cycle that `floquet` finds, or steady sliding
-    or rest if there is no cycle. Beside a fold that search may find no cycle, or the unstable one:
-    a stable cycle is followed from neighbouring values to its fold. Where an unstable one was found,
-    the motion from the static start must settle on the stable one within 10,000 releases. Where a
-    stable one was found, it counts, though between two folds the start may lead to another cycle:
-    `outcome` simulates the motion. At the least unstable value, `near_motion` says whether that motion
-    may be near the unstable cycle, as `floquet` does. Where no cycle is found and stick-slip goes on, the motion counts
-    as unstable.
+    or rest if there is no cycle. Beside a fold that search may find no cycle, or the unstable one,
+    where a stable one exists: `continue_cycle` follows it to its fold, and `outcome` simulates the
+    motion. Where no cycle is found and stick-slip goes on, the motion counts as unstable.
 
-    It is computed at equal steps, which alone limit what can be overlooked. Instability often lies
-    in much narrower tongues, where multipliers meet on the unit circle. Their angles change
-    smoothly, so that these places are predicted from neighbouring values, and computed as well. Of
-    steady sliding, the greatest growth rates between values are looked for.
+    It is computed at equal steps, between which a window may be missed. Instability often lies in much
+    narrower tongues, where multipliers meet on the unit circle. Their angles change smoothly, so that
+    these places are predicted from neighbouring values, and computed as well. Of steady sliding, the
+    greatest growth rates between values are looked for.
 
     Parameters
     ----------
@@ -75,8 +69,8 @@ def critical(
     Returns
     -------
     Critical
-        `value`, `border`, `crossings`, and `resolution`, beyond which nothing can have been overlooked; a
-        `message` where the motion is unstable at the lower bound already, or nowhere.
+        `value`, `border`, `crossings`, and `resolution`, the largest step between values; a `message` where
+        the motion is unstable at the lower bound already, or nowhere.
 
     Raises
     ------
@@ -120,7 +114,6 @@ def critical(
     values = np.linspace(low, high, points).tolist()
     for value in values:
         case.replace(**{name: value})  # must be a case, which is found before any work is done
-    check_modes(case.replace(**{name: high}))
 
     shortest = SHORTEST * (high - low)
     if precision is not None:
@@ -143,7 +136,6 @@ def _search(scan: Scan, values: Sequence[float], shortest: float, progress: bool
         scan.refine(narrowest, bar)
         if not isinstance(scan, SlidingScan):
             scan.located_changes(shortest)
-            follow_stable_cycles(scan, shortest)
 
 
 def _rule_of_kind(kind: object) -> str:
@@ -159,7 +151,6 @@ def _result(scan: Scan, kind: str, shortest: float) -> Critical:
     crossings, unstable_above = scan.located_changes(shortest)
     computed = sorted(scan.motions)
     first = next((value for value in computed if not scan.is_stable(value)), math.nan)
-    compared = _compared_with_motion(scan, first)
     return Critical(
         parameters=scan.p,
         name=scan.name,
@@ -170,8 +161,6 @@ def _result(scan: Scan, kind: str, shortest: float) -> Critical:
         growth_rate=np.array([scan.motions[value].growth_rate for value in computed]),
         resolution=float(np.diff(computed).max()),
         kind=kind,
-        near_motion=compared.near_motion if compared else None,
-        other_growth_rate=compared.other_growth_rate if compared else math.nan,
         _sliding_growth_rate=np.array(
             [_rate_of_sliding(scan.motions[value]) for value in computed]
         ),
@@ -183,10 +172,3 @@ def _rate_of_sliding(motion: FloquetResult | SteadySliding) -> float:
     if isinstance(motion, FloquetResult) and motion.motion in SLIDING_MOTIONS:
         return float(motion.sliding.growth_rate)
     return math.nan
-
-
-def _compared_with_motion(scan: Scan, value: float) -> FloquetResult | None:
-    """The cycle of a scan at a value, and whether the motion from the static start is near it; None without
-    a cycle."""
-    cycle = scan.motions.get(value)
-    return beside_motion(cycle) if isinstance(cycle, FloquetResult) else None

@@ -30,19 +30,8 @@ RATES = {
     "sliding_growth_rate": Variable(
         "s-1", "growth rate of steady sliding where this is the motion near the static start"
     ),
-    "other_growth_rate": Variable(
-        "s-1",
-        "growth rate of another cycle at the critical value, near the motion from the static start",
-    ),
 }
-VERDICTS = {
-    "unstable_above": Variable(
-        "1", "whether the motion is unstable just above the change of stability"
-    ),
-    "near_motion": Variable(
-        "1", "whether the motion from the static start may be near the unstable cycle"
-    ),
-}
+UNSTABLE_ABOVE = Variable("1", "whether the motion is unstable just above the change of stability")
 UNSTABLE = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
 """What names of variables call the kinds of motion whose stability is followed."""
 OF_PARAMETER = {
@@ -74,21 +63,16 @@ class Critical(Drawn, EqualByValue):
     border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
         stable there, or unstable at all values. Tongues of instability may lie below it
     at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
-    message : says so if `value` is the lower bound or nan, where steady sliding is unstable instead of a cycle, or if
-        the motion from the static start is elsewhere; else ""
-    near_motion : whether the motion from the static start may be near the unstable cycle at `value`, as in
-        `FloquetResult`; None, which sweeps have as nan, without such a cycle. Where it is False, that motion may be
-        stable at `value`
-    other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
+    message : says so if `value` is the lower bound or nan, or where steady sliding is unstable instead of a cycle;
+        else ""
     kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
         or "sliding", steady sliding
     crossings : shape (n,), all values at which stability was seen to change, ascending
     unstable_above : bool, (n,), whether that motion is unstable just above each
     values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
         sliding (1/s; nan without). Where steady sliding takes the place of a cycle, `sliding_growth_rate` has its own
-    resolution : the largest step between neighbouring values computed. No stretch of stability or
-        of instability that is wider has been overlooked. Most narrower ones are seen, because they
-        are looked for where multipliers meet
+    resolution : the largest step between neighbouring values computed. Narrower stretches of stability or of
+        instability may be missed, though they are looked for where multipliers meet
 
     Examples
     --------
@@ -111,21 +95,19 @@ class Critical(Drawn, EqualByValue):
     growth_rate: Array
     resolution: float
     kind: str = STICK_SLIP
-    near_motion: bool | None = None
-    other_growth_rate: float = math.nan
     _sliding_growth_rate: Array = field(default_factory=lambda: np.zeros(0))
 
     def __repr__(self) -> str:
         unit = unit_of_parameter(self.name)
         found = self._without_loss or f"unstable from {self.value:.6g} {unit}".rstrip()
-        first = "; ".join(filter(None, (found, self._in_sliding, self._elsewhere)))
+        first = "; ".join(filter(None, (found, self._in_sliding)))
         crossings = counted(len(self.crossings), "crossing")
         steps = f"{self.resolution:.2g} {unit}".rstrip()
         seen = f"{len(self.values)} values, steps of at most {steps}"
         return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
 
     def _repr_html_(self) -> str:
-        """The intervals of one stability in a notebook, and what may have been overlooked."""
+        """The intervals of one stability in a notebook, and the largest step between values."""
         unit = unit_of_parameter(self.name)
         edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
         unstable = {float(low) for low, _ in self.unstable}
@@ -137,16 +119,14 @@ class Critical(Drawn, EqualByValue):
             rows.append((f"{low:.9g}", f"{high:.9g}", stability))
         if self.message:
             rows.append((self.message, "", ""))
-        rows.append(
-            ("tongues overlooked", f"narrower than {self.resolution:.2g} {unit}".strip(), "")
-        )
+        rows.append(("tongues missed", f"narrower than {self.resolution:.2g} {unit}".strip(), ""))
         upper = f"to ({unit})" if unit else "to"
         return html_table((f"{self.name} from", upper, MOTIONS[self.kind]), rows)
 
     @property
     def message(self) -> str:
         """Why `value` is no value at which the motion loses stability, in words; "" where it is one."""
-        said = (self._without_loss, self._in_sliding, self._elsewhere)
+        said = (self._without_loss, self._in_sliding)
         return "; ".join(filter(None, said))
 
     @property
@@ -187,9 +167,8 @@ class Critical(Drawn, EqualByValue):
         """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
 
         Along the parameter, by its name: `growth_rate` and `sliding_growth_rate` (1/s). Along `crossing`:
-        `crossings` and `unstable_above`. Alone: `value`, `border`, `resolution`, `other_growth_rate`, and
-        `near_motion`, nan where this is not examined. Attributes: `kind`, `message`, and the case's
-        `parameters` in JSON.
+        `crossings` and `unstable_above`. Alone: `value`, `border` and `resolution`. Attributes:
+        `kind`, `message`, and the case's `parameters` in JSON.
 
         Examples
         --------
@@ -200,16 +179,6 @@ class Critical(Drawn, EqualByValue):
         ('mu_s',)
         """
         return _dataset_of(self)
-
-    @property
-    def _elsewhere(self) -> str:
-        """Where the motion is, if it is not near the unstable cycle; else ""."""
-        if self.near_motion is not False:
-            return ""
-        if math.isnan(self.other_growth_rate):
-            return "the motion from the static start is not near the unstable cycle there"
-        rate = f"with growth rate {self.other_growth_rate:.6g} 1/s"
-        return f"the motion from the static start is near another cycle there, {rate}"
 
     @property
     def _without_loss(self) -> str:
@@ -272,14 +241,8 @@ def _dataset_of(found: Critical) -> xr.Dataset:
         variables[name] = _variable(getattr(found, name), "crossing", attrs)
     for name in ("growth_rate", "sliding_growth_rate"):
         variables[name] = _variable(getattr(found, name), found.name, RATES[name].attributes)
-    other = found.other_growth_rate
-    variables["other_growth_rate"] = _variable(other, "", RATES["other_growth_rate"].attributes)
-    near = math.nan if found.near_motion is None else float(found.near_motion)
-    variables["near_motion"] = _variable(near, "", VERDICTS["near_motion"].attributes)
     above = found.unstable_above
-    variables["unstable_above"] = _variable(
-        above, "crossing", VERDICTS["unstable_above"].attributes
-    )
+    variables["unstable_above"] = _variable(above, "crossing", UNSTABLE_ABOVE.attributes)
     attrs = {
         "kind": found.kind,
         "message": found.message,

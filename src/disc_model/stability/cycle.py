@@ -60,9 +60,6 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         slips all the time
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
-    near_motion : whether the motion from the static start may be near the cycle; None, which sweeps have as nan, where
-        this is not examined: of a stable cycle, which that motion need not reach, and of one near a given state
-    other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
     stick_fraction : share of the period in stick
     stick_time, slip_time : s, durations of stick and of slip, means of the period's releases, as `fit` takes them; a
         `slip_time` of nan where contact is lost
@@ -85,8 +82,6 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     multipliers: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
     exponents: ComplexArray = field(default_factory=lambda: np.zeros(0, complex))
     growth_rate: float = math.nan
-    near_motion: bool | None = None
-    other_growth_rate: float = math.nan
     stick_fraction: float = math.nan
     state: State | None = None
     bifurcation_type: str = ""
@@ -104,10 +99,6 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         if self.status is CycleStatus.OK:
             numbers = f"growth rate {self.growth_rate:.6g} 1/s, period {self.period:.9g} s"
             summary = f"{numbers}, {len(self.multipliers)} multipliers"
-            if not math.isnan(self.other_growth_rate):
-                summary += f"; the motion is near another cycle, {self.other_growth_rate:.6g} 1/s"
-            elif self.near_motion is False:
-                summary += "; the motion is not near it"
         return f"FloquetResult(N={p.N:g} N, Omega={p.Omega:g} rad/s: {summary})"
 
     def _summary(self) -> Iterator[tuple[str, object]]:
@@ -160,12 +151,6 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         if self.status is CycleStatus.NO_STICK_SLIP:
             return "steady_sliding" if self.sliding.stable else "unstable_sliding"
         return self.status.value
-
-    @property
-    def attractors(self) -> tuple[str, ...]:
-        """Those of "stick_slip", or "slipping", and "steady_sliding" that exist and are stable."""
-        motions = ((self.kind, self.stable), ("steady_sliding", self.sliding.stable))
-        return tuple(name for name, stable in motions if stable)
 
     def raise_for_status(self) -> "FloquetResult":
         """Return self if a cycle was found; otherwise raise `CycleError`."""

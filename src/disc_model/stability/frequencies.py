@@ -15,24 +15,30 @@ from disc_model.disc.plate import mode_arrays
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.floquet import search_near_start
-from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.cycle import SAME_POINT, FloquetResult, find_cycle
+from disc_model.stability.return_map import ReturnMap, newton
 from disc_model.stability.sliding import split_rows
 from disc_model.stability.sliding_modes import SlidingModes, sliding_modes
+
+SETTLED = 300
+"""Releases after which the motion is compared with a cycle: after fewer it may still be on its way."""
+GROWTH = 37.0
+"""Growth rate times the time of these releases, beyond which even a difference by rounding, 1e-16, would have
+taken a motion away from the cycle."""
 
 
 @compiling()
 def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, SlidingModes, Array]:
-    """The stick-slip cycle near the static start, compared with the motion, and the modes of steady sliding. Of the
+    """The stick-slip cycle near the static start, and the modes of steady sliding. Of the
     multipliers matched to each mode, (3, n): frequency (Hz), larger growth rate of two (1/s) and
     MAC of the shapes; nan without a cycle, and for the slider's in-plane motion."""
-    cycle, map_ = search_near_start(p, tol)
+    cycle = find_cycle(p, tol)
     modes = sliding_modes(p, cycle.sliding)
     columns = np.full((3, len(modes.frequency)), math.nan)
     disc = modes.diameters >= 0
-    if cycle.state is None or map_ is None or not disc.any():
+    if cycle.state is None or not disc.any():
         return cycle, modes, columns
+    map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(orbit.jacobian)
     shapes = _shapes_on_section(map_, cycle.state, modes.shapes[:, disc])
@@ -56,6 +62,27 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     values[:, (first < 0) | (other < 0)] = math.nan
     columns[:, disc] = values
     return cycle, modes, columns
+
+
+def may_be_near(cycle: FloquetResult) -> bool | None:
+    """Whether the motion from the static start may be near an unstable cycle, by `SETTLED` releases: its
+    crossings are then those of the motion. None of a stable cycle, and without one."""
+    if cycle.state is None or cycle.stable or cycle.releases > 1:
+        return None
+    map_ = ReturnMap(cycle.parameters, cycle.tol)
+    if not map_.first_release.reached:
+        return True
+    motion = map_.evaluate(map_.first_release.x, releases=SETTLED, tangent=False)
+    own = map_.point(cycle.state)
+    apart = SAME_POINT * np.linalg.norm(own)
+    distance = np.linalg.norm(motion.end - own)
+    if not motion.returned or distance <= apart:
+        return True
+    other = newton(map_, motion.end)
+    if other is not None and np.linalg.norm(other.start - own) > apart:
+        is_nearer = np.linalg.norm(other.start - motion.end) < distance
+        return not is_nearer and bool(cycle.growth_rate * motion.period < GROWTH)
+    return bool(cycle.growth_rate * motion.period < GROWTH)
 
 
 def _assign(mac: Array) -> NDArray[np.intp]:

@@ -28,12 +28,6 @@ from disc_model.display import Drawn, Summarised, number_text
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
-from disc_model.stability.few_modes import (
-    Growth,
-    check_few_modes,
-    doubt_of_modes,
-    may_have_few_modes,
-)
 from disc_model.stability.python_laws import LAWS
 
 _MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
@@ -166,12 +160,6 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     ParameterError
         If `case` is not a `Parameters`, or has no modes.
 
-    Warns
-    -----
-    ImplausibleValue
-        If friction acts on the surface of a plate, other than the paper's, that clearly has too few modes: sliding
-        grows more than 1.5 times as fast with half as many nodal diameters again and one circle more.
-
     Examples
     --------
     >>> import disc_model as dm
@@ -182,31 +170,7 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     found = linearised(case)
     if isinstance(found, SlidingStatus):
         return absent(case, found)
-    sliding = described(case, found, np.linalg.eigvals(found.jacobian))
-    if may_have_few_modes(case):  # few cases may: the growth of others is not looked at
-        check_few_modes(case, _growth_of, _growth(sliding))
-    return sliding
-
-
-def check_modes(case: Parameters) -> None:
-    """Warn if steady sliding of a case grows much faster with more modes, as `steady_sliding` does."""
-    check_few_modes(case, _growth_of)
-
-
-def modes_in_doubt(case: Parameters) -> str:
-    """What `steady_sliding` warns of if a case has too few modes; "" if it does not."""
-    return doubt_of_modes(case, _growth_of)
-
-
-def _growth_of(case: Parameters) -> Growth:
-    """How fast the mode of steady sliding of a case grows that grows fastest."""
-    return _growth(steady_sliding(case))
-
-
-def _growth(sliding: SteadySliding) -> Growth:
-    """How fast the mode grows that grows fastest."""
-    frequencies = sliding.growing.imag / math.tau
-    return Growth(sliding.growth_rate, float(next(iter(frequencies), math.nan)))
+    return described(case, found, np.linalg.eigvals(found.jacobian))
 
 
 class Linearised(NamedTuple):

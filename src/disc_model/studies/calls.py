@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import inspect
+import warnings
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
 from disc_model.data.swept_branches import name_beside
-from disc_model.disc.plausibility import warn_of_doubts, warn_without_effect
 from disc_model.errors import (
     Fault,
+    ImplausibleValue,
     ParameterError,
     as_text,
     raise_faults,
@@ -153,7 +154,6 @@ def checked_call(
     rule = "must be a function, such as disc_model.floquet"
     faults = [*foreign_case(case), *violations((callable(function), "function", function, rule))]
     raise_faults(faults)
-    warn_of_doubts(case)
 
     title = getattr(function, "__name__", type(function).__name__)
     # what is named is a number of the case, or an argument of the function
@@ -186,7 +186,11 @@ def checked_call(
     defaults = _defaults(arguments, named, over, faults)
     raise_faults(faults)
     for dimension in together:
-        warn_without_effect([*dimension.beside])
+        if dimension.beside:
+            text = (
+                f"{' and '.join(dimension.beside)}: no number of the case, kept beside the samples"
+            )
+            warnings.warn(text, ImplausibleValue, stacklevel=4)
     return Call(
         title,
         arguments.ours,

@@ -17,15 +17,7 @@ from disc_model.simulation.result import Result
 from disc_model.stability.critical_values import Critical
 from disc_model.studies.result_attributes import attributes_of
 
-OF_A_CYCLE = (
-    "releases",
-    "backward_releases",
-    "reversals",
-    "separations",
-    "sticks",
-    "stable",
-    "near_motion",
-)
+OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
 BY_METHODS = ("stable", "at_lower_bound", "border", "stick_time", "slip_time")
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
@@ -97,8 +89,6 @@ def _values_of_fields(result: Any) -> dict[str, Any]:
         values["message"] = message_of(result)
     if _lacks_cycle(result):
         values |= dict.fromkeys(OF_A_CYCLE, math.nan)
-    if "near_motion" in values and values["near_motion"] is None:
-        values["near_motion"] = math.nan
     if hasattr(result, "sliding"):
         values["sliding_growth_rate"] = result.sliding.growth_rate
     return values

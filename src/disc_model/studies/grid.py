@@ -5,7 +5,7 @@ inside a block: a finer axis adds batches and keeps the others.
 """
 
 import math
-from collections import ChainMap, Counter, defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import chain, pairwise, product
@@ -16,7 +16,6 @@ import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
 from disc_model.data.variables import PERTURBATIONS, START, attributes, values_text
-from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
 from disc_model.figures.words import factors_of
@@ -33,7 +32,6 @@ from disc_model.parameters import (
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
-from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.studies.unused_units import unused_units
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
@@ -450,12 +448,7 @@ class GridStudy:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings about implausible corners of the grid, one by each rule, and about units of what
-        figures do not show."""
-        corners = self.points_along([dim.thinned(2) for dim in self.dims])
-        cases = [*map(self._case_at, corners)]
-        yield from ChainMap(*map(doubts, cases)).values()
-        yield from doubts_of_modes(cases[-1:])
+        """Warnings about units of what figures do not show."""
         yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says

@@ -24,7 +24,6 @@ from pydantic import (
 from pydantic.json_schema import SkipJsonSchema
 
 from disc_model.data.variables import (
-    OF_RESULTS,
     OUTCOMES_TO_HORIZON,
     SCALARS,
     CycleStatus,
@@ -194,11 +193,6 @@ TIMED_SEPARATION = SCALARS["first_separation"]._replace(
     long_name="time of the first separation, where no departure was extrapolated"
 )
 CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
-BESIDE_MOTION = {
-    "near_motion": OF_RESULTS["FloquetResult"]["near_motion"]._replace(truth=True),
-    "other_growth_rate": OF_RESULTS["FloquetResult"]["other_growth_rate"],
-}
-"""Whether the motion from the static start may be near an unstable cycle, and the growth rate of another one."""
 
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
@@ -263,11 +257,6 @@ def tried(
 def along(*dims: str) -> Callable[..., Variable]:
     """What makes variables along dimensions of a quantity's own."""
     return partial(Variable, dims=dims)
-
-
-def beside_motion_columns(cycle: FloquetResult) -> dict[str, Any]:
-    """The columns of `BESIDE_MOTION`."""
-    return {"near_motion": cycle.near_motion, "other_growth_rate": cycle.other_growth_rate}
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:

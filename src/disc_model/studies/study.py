@@ -6,8 +6,7 @@ right.
 
 import json
 import os
-from collections import ChainMap
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
@@ -26,7 +25,6 @@ from pydantic import (
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
 from disc_model.disc.files.table import read_disc
-from disc_model.disc.plausibility import doubts
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
 from disc_model.mode_request import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
@@ -52,7 +50,6 @@ from disc_model.studies.grid import (
     described,
 )
 from disc_model.studies.mending import all_faults
-from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
@@ -457,13 +454,6 @@ class Study(Strict):
             caption=f"{caption} {values}; everything else as in Table 1; {modes}.",
             titles={case: self.cases[case].title for case in plot.cases if self.cases[case].title},
         )
-
-    @property
-    def doubts(self) -> Iterator[str]:
-        """Warnings about implausible cases, one by each rule."""
-        cases = [spec.parameters for spec in self.specs.values() if not spec.modes]
-        yield from ChainMap(*(doubts(spec.parameters) for spec in self.specs.values())).values()
-        yield from doubts_of_modes(cases)
 
     def grids(
         self, folders: Sequence[Path] = (Path(),)

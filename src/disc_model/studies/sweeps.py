@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Mapping, Sequence
-from contextlib import suppress
 from functools import partial
 from typing import Any
 
@@ -16,7 +15,6 @@ from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
 from disc_model.sources import versions_text
-from disc_model.stability.sliding import check_modes
 from disc_model.studies.calls import Call, are_recorded, checked_call
 from disc_model.studies.gathering import variables_of_result
 from disc_model.studies.quantity import NUMERICAL
@@ -121,7 +119,6 @@ def sweep(  # noqa: PLR0913
     records = are_recorded(errors)
     points = [*call.points()]
     first = _first_possible(case, call, points)
-    _check_modes_at(call.changes(points[-1]), case)
     row = partial(_row, partial(function, **call.options), case, call, records)
     numbered = [(number == first, point) for number, point in enumerate(points)]
     rows = calls.results(row, numbered, call.title)
@@ -220,12 +217,6 @@ def _first_possible(case: Parameters, call: Call, points: Sequence[Mapping[str, 
         return number
     place = _place(call.changes(points[0]))
     raise ParameterError(f"no point of the sweep makes a case: at the first, {place}: {faults[0]}")
-
-
-def _check_modes_at(point: Mapping[str, Any], case: Parameters) -> None:
-    """Warn of too few modes at a point, if its values make a case."""
-    with suppress(*NUMERICAL):
-        check_modes(case.replace(**point))
 
 
 def _place(point: Mapping[str, Any]) -> str:

@@ -325,4 +325,3 @@ def test_a_study_says_where_the_motion_is_not_near_the_cycle() -> None:
     found = computed(quantity="campbell", options={}, base={"N": 375}, axes=axes)
     assert (found["near_motion"] == 0).values.tolist() == [False, True, False]
     assert found["growth_rate"].values[1] == pytest.approx(0.2789, abs=1e-4)
-    assert found["other_growth_rate"].values[1] == pytest.approx(0.0004, abs=1e-4)

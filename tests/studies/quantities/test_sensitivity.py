@@ -12,7 +12,7 @@ from scipy import stats
 from disc_model.parameters import Parameters
 from disc_model.studies.distributions import BLOCK, TruncatedNormal, quantile, unit_draws
 from disc_model.studies.quantities import sensitivity
-from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity, evaluate
+from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
 from disc_model.studies.quantity import Row
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
@@ -163,13 +163,3 @@ def test_motions_of_samples_are_timed_only_where_they_are_simulated(extrapolate:
     if not extrapolate:
         # the spring's share of the stiffness changes the growth rate by less than a thousandth
         assert times == pytest.approx(273.0, rel=0.01)
-
-
-@pytest.mark.compiled
-def test_a_sample_says_whether_the_motion_is_near_its_cycle() -> None:
-    """A cycle that grows at 0.28/s stood for a motion near another, which hardly grows."""
-    row, message = evaluate(Parameters(N=375, Omega=7.35), 1e-12)
-    assert row["cycle"] == "unstable"
-    assert row["near_motion"] is False
-    assert row["other_growth_rate"] == pytest.approx(0.0004, abs=1e-4)
-    assert message == ""

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 
 from disc_model.arrays import Array
 from disc_model.disc.files.mesh import pieces_of
-from disc_model.disc.plausibility import warn_of_doubts
 from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.parameters import Disc, Parameters
@@ -95,7 +94,6 @@ def disc_of_section(
         (len(held) > 0, "clamped", len(held), rule),
         (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
     )
-    warn_of_doubts(checked)
 
     iron = Material(checked.E, checked.nu, checked.rho)
     modes = _modes(basis, iron, held, points, math.tau * highest_Hz)

@@ -20,7 +20,6 @@ from disc_model.arrays import Array, Mask
 from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.data.variables import EXCLUDED, Variable, flag_names, message_of
 from disc_model.studies.quantity import (
-    BESIDE_MOTION,
     CYCLE_STATUSES,
     Coordinate,
     Dataset,
@@ -28,7 +27,6 @@ from disc_model.studies.quantity import (
     Quantity,
     UnitCosts,
     along,
-    beside_motion_columns,
     listed,
 )
 from disc_model.units import Count, CycleTolerance, Positive, Unit
@@ -75,7 +73,11 @@ class Campbell(Quantity):
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
-        **BESIDE_MOTION,
+        "near_motion": Variable(
+            "1",
+            "whether the motion from the static start may be near the unstable cycle",
+            truth=True,
+        ),
         "stick_slip_frequency": Variable(
             "Hz", "releases of stick per second on the stick-slip cycle, f_s"
         ),
@@ -146,7 +148,7 @@ class Campbell(Quantity):
         return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.frequencies import frequencies
+        from disc_model.stability.frequencies import frequencies, may_be_near
 
         cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
         values: dict[str, Any] = {
@@ -159,7 +161,7 @@ class Campbell(Quantity):
             "diameters": np.maximum(modes.diameters, 0), "forward_wave_fraction": modes.forward,
             "sliding_frequency": modes.frequency, "sliding_growth_rate": modes.growth_rate,
             "cycle_frequency": frequency, "cycle_growth_rate": growth_rate, "mac": mac,
-            **beside_motion_columns(cycle),
+            "near_motion": may_be_near(cycle),
         }  # fmt: skip
         return values, message_of(cycle)
 

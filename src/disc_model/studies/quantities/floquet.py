@@ -5,15 +5,7 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable, message_of
-from disc_model.studies.quantity import (
-    BESIDE_MOTION,
-    CYCLE_STATUSES,
-    Point,
-    Quantity,
-    State,
-    UnitCosts,
-    beside_motion_columns,
-)
+from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State, UnitCosts
 from disc_model.units import CycleTolerance
 
 FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
@@ -40,7 +32,6 @@ class Floquet(Quantity):
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
         "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
-        **BESIDE_MOTION,
         "period": Variable("s", "period of the stick-slip cycle"),
         "stick_fraction": Variable("1", "share of the period spent sticking"),
         "multiplier_re": Variable("1", "real part of the leading multiplier"),
@@ -53,9 +44,9 @@ class Floquet(Quantity):
         return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.floquet import cycle_near_start
+        from disc_model.stability.cycle import find_cycle
 
-        cycle = cycle_near_start(point.parameters, self.tol)
+        cycle = find_cycle(point.parameters, self.tol)
         leading = (
             complex(cycle.multipliers[0])
             if cycle.status is CycleStatus.OK
@@ -64,7 +55,7 @@ class Floquet(Quantity):
         values = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate, "period": cycle.period,
             "stick_fraction": cycle.stick_fraction, "multiplier_re": leading.real, "multiplier_im": leading.imag,
-            "sliding_growth_rate": cycle.sliding.growth_rate, **beside_motion_columns(cycle),
+            "sliding_growth_rate": cycle.sliding.growth_rate,
         }  # fmt: skip
         return values, message_of(cycle)
 

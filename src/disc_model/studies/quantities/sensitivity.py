@@ -27,7 +27,6 @@ from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
 from disc_model.studies.distributions import BLOCK, Distribution, quantile, unit_draws
 from disc_model.studies.quantity import (
-    BESIDE_MOTION,
     NUMBERS,
     STATUS,
     TIMED_SEPARATION,
@@ -38,7 +37,6 @@ from disc_model.studies.quantity import (
     Quantity,
     Row,
     UnitCosts,
-    beside_motion_columns,
     tried,
     with_ends,
 )
@@ -104,7 +102,6 @@ class Sensitivity(Quantity):
         "growth_rate": Variable(
             "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"
         ),
-        **BESIDE_MOTION,
         "outcome": Variable(
             "1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES
         ),
@@ -250,11 +247,10 @@ def _own_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
-    from disc_model.stability.floquet import cycle_near_start
+    from disc_model.stability.cycle import find_cycle
 
-    cycle = cycle_near_start(p, tol)
+    cycle = find_cycle(p, tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
-    row.update(beside_motion_columns(cycle))
     if cycle.motion in SAMPLE_CYCLES:
         return row, ""
     return {**row, "cycle": FAILED}, with_advice(cycle.message, cycle.status)
