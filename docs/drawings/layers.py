@@ -19,7 +19,7 @@ WHAT = {
     "explorer": "one page to look at datasets, motions, figures",
     "attached": "methods of discs and results that need the rooms below",
     "studies": "YAML to jobs, jobs to results, results to one dataset",
-    "fitting": "parameters of a case from measurements",
+    "fit": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
     "mode_measures": "quantities of the motion that tell it",
     "mode_request": "what a study file asks of the number of modes",

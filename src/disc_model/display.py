@@ -17,7 +17,6 @@ if TYPE_CHECKING:
     from disc_model.attached.drawing import draw  # which `disc_model.attached` puts here
 
 WRITTEN_OUT = 1e6  # numbers below it have no power of ten
-DEVIATION_DIGITS = 2  # significant digits of standard deviations
 
 
 def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:

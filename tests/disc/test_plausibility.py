@@ -105,7 +105,10 @@ ARGUMENTS: dict[str, dict[str, Any]] = {
     "critical": {"name": "Omega", "bounds": (19, 20), "points": 2},
     "critical_speed": {"bounds": (19, 20), "horizon": 0.1},
     "deflection": {"states": [], "r": 0.1, "theta": 0.0},
-    "fit": {"vary": ["E"], "measured": {"frequency_0_0": (2390.0, 1.0)}},
+    "fit": {
+        "vary": ["E"],
+        "data": [{"quantity": "frequency_0_0", "value": 2390.0, "uncertainty": 1.0}],
+    },
     "hysteresis": {"bounds": (19, 20), "dwell": 5, "max_dwell": 5},
     "lyapunov_exponents": {"duration": 0.1, "count": 1},
     "neutral_curves": PLANE,

@@ -27,11 +27,6 @@ TOO_HIGH = 0.1  # relative excess of a frequency of the thin plate from which a 
 APART = 20.0  # ratio of a frequency to the nearest other one beyond which its unit is doubted
 WIDE = 50.0  # ratio of neighbouring frequencies beyond which those below are taken for kHz
 
-FAR = 100.0  # ratio of a measured value to a computed one, or the inverse, beyond which its unit is doubted
-NEAR = 4.0  # and up to which one with another unit would be near it
-PREFIXES = {"m": 1e-3, "µ": 1e-6, "n": 1e-9}  # of seconds and metres
-
-
 MEASURES = ("a", "b", "h", "E", "nu", "rho")
 """Numbers of the plate by which it is another than the paper's."""
 STATED_WITH_MEASURES = ("normalization", "D_star", "damping_ratio")
@@ -114,72 +109,12 @@ def warn_of_disc(disc: Disc) -> None:
             _warn(text)
 
 
-def warn_of_measured(measured: Sequence[tuple[str, float, str]], computed: Sequence[float]) -> None:
-    """Warn of measured values that are far from what a case gives, of the first of them.
-
-    Parameters
-    ----------
-    measured : name, value and unit of each, "" for an unknown one
-    computed : what the case gives of each
-    """
-    if text := doubt_of_measured(measured, computed):
-        _warn(f"measured.{text}")
-
-
-def doubt_of_measured(measured: Sequence[tuple[str, float, str]], computed: Sequence[float]) -> str:
-    """What is implausible of the first measured value that is far from what a case gives, and how many
-    others are; "" where none is. The arguments are those of `warn_of_measured`."""
-    texts = []
-    for (name, value, unit), given in zip(measured, computed, strict=True):
-        if text := _out_of_reach(value, given, unit):
-            texts.append(f"{name} = {text}")
-    if not texts:
-        return ""
-    others = len(texts) - 1
-    more = f"; {counted(others, 'other measured value')} alike" if others else ""
-    return f"{texts[0]}{more}"
-
-
 def warn_without_effect(names: Sequence[str]) -> None:
     """Warn of columns of a table of samples, if any, that are no numbers of the case."""
     if names:
         are = "is no number" if len(names) == 1 else "are no numbers"
         kept = "kept beside the samples, without effect"
         _warn(f"{' and '.join(names)} {are} of the case: {kept}")
-
-
-def _out_of_reach(value: float, given: float, unit: str) -> str:
-    """What is implausible of a measured value beside the computed one; "" of what may be small or
-    have either sign, such as growth rates and damping ratios."""
-    if unit not in ("s", "m", "Hz") or min(value, given) <= 0:
-        return ""
-    ratio = value / given
-    if 1 / FAR <= ratio <= FAR:
-        return ""
-    how = f"{_rounded(ratio)} times"
-    if ratio < 1:
-        how = f"1/{_rounded(1 / ratio)} of"
-    text = f"{value:.6g} {unit} is {how} the {given:.4g} {unit} that the case gives"
-    meant = value / 1000.0 ** round(math.log10(ratio) / 3)
-    hundredth = value / 100.0 ** math.copysign(1, ratio - 1)
-    if unit == "m" and abs(math.log(hundredth / given)) < abs(math.log(meant / given)):
-        meant = hundredth
-    if 1 / NEAR <= meant / given <= NEAR:
-        return f"{text}: was {_in_usual_unit(meant, unit)} meant?"
-    return f"{text}: check its unit, or start from another case"
-
-
-def _rounded(ratio: float) -> str:
-    """A ratio of 100 or more in two digits, and zeros."""
-    return f"{float(f'{ratio:.2g}'):.0f}"
-
-
-def _in_usual_unit(value: float, unit: str) -> str:
-    """A value with its unit; below 1 s or 1 m with a prefix."""
-    for prefix, size in PREFIXES.items():
-        if unit != "Hz" and size <= value < 1000 * size:
-            return f"{value / size:.6g} {prefix}{unit}"
-    return f"{value:.6g} {unit}"
 
 
 def warn_if(text: str) -> None:

@@ -64,7 +64,7 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         this is not examined: of a stable cycle, which that motion need not reach, and of one near a given state
     other_growth_rate : 1/s, of another cycle near which that motion then is; nan if none was found
     stick_fraction : share of the period in stick
-    stick_time, slip_time : s, durations of stick and of slip, means of the period's releases, as `fit` takes them; a
+    stick_time, slip_time : s, durations of stick and of slip, means of the period's releases; a
         `slip_time` of nan where contact is lost
     state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
     bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
