@@ -12,7 +12,7 @@ SYNC := $(if $(filter output-sync,$(.FEATURES)),--output-sync=target)
 # The quick tests in parts that cores share, the longest first. Ramps and another law of contact have kernels of their
 # own: what needs them is in one part, so that they are compiled once.
 PARTS := test-figures test-others test-stability test-validation test-engine test-studies
-TESTED_figures := tests/figures tests/fitting
+TESTED_figures := tests/figures
 TESTED_validation := tests/validation tests/simulation
 TESTED_stability := tests/stability
 TESTED_engine := tests/engine tests/benchmarks tests/analysis

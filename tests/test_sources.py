@@ -159,7 +159,6 @@ STARRED = {
 """Several parts at once, by the words of a rule."""
 UNDECISIVE = {  # imported, but deciding no content of a file, with the reason
     **ASIDE,
-    "fitting.result": "is shown by a figure of no study",
     "simulation.named_case": "is run before",
     "studies.whole_study": "computes without files",
 }

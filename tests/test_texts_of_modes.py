@@ -87,21 +87,3 @@ def test_bounds_of_a_ratio_may_be_in_percent() -> None:
 def test_a_push_may_be_in_percent() -> None:
     branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
     assert branch.state(0, "1 %") == branch.state(0, 0.01)
-
-
-def thickness(case: dm.Parameters) -> float:
-    """A quantity of one's own, in m."""
-    return case.h
-
-
-def test_a_measured_function_takes_texts_with_units() -> None:
-    measured = dm.Measurement(thickness, "2.1 mm", "100 µm")
-    assert (measured.value, measured.uncertainty) == pytest.approx((2.1e-3, 1e-4))
-    assert dm.Measurement(thickness, 0.002, "0.1 mm").uncertainty == pytest.approx(1e-4)
-    found = dm.fit(dm.Parameters(N=385, Omega=14), ["h"], [measured])
-    assert found.case.h == pytest.approx(2.1e-3)
-
-
-def test_a_value_and_its_uncertainty_are_of_one_kind() -> None:
-    with refusal(re.escape("uncertainty='0.1 s': must be a number in m")):
-        dm.Measurement(thickness, "2.1 mm", "0.1 s")

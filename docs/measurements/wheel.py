@@ -168,7 +168,16 @@ def plate(body: str, lowest: float, diameters: int, nu: float) -> dm.Parameters:
         normalization="orthonormal",
         **known,
     )
-    return dm.fit(start, ["h"], {"frequency_2_0": (lowest, 0.1)}).case
+    return fitted(start, "h", "frequency_2_0", lowest, 0.1)
+
+
+def fitted(
+    start: dm.Parameters, name: str, quantity: str, value: float, uncertainty: float
+) -> dm.Parameters:
+    """Return a case with one parameter fitted to one measured value."""
+    measured = [{"quantity": quantity, "value": value, "uncertainty": uncertainty}]
+    result = dm.fit(start, [name], measured)
+    return start.replace(**result.params.valuesdict())
 
 
 def damping(ratios: dict[int, float] | None = None) -> list[Comparison]:
@@ -183,14 +192,14 @@ def damping(ratios: dict[int, float] | None = None) -> list[Comparison]:
         table["damping_ratio"] = pd.Series(ratios)
     lowest = table.loc[2]
     start = plate("wheel", lowest["frequency_Hz"], 5, PLATES["wheel"]["nu"]).replace(D_star=1.0)
-    fitted = dm.fit(start, ["D_star"], {"damping_ratio_2_0": (lowest["damping_ratio"], 1e-5)})
+    damped = fitted(start, "D_star", "damping_ratio_2_0", lowest["damping_ratio"], 1e-5)
     found = []
     for diameters, row in table.iterrows():
         if diameters == 2:
             continue
         value = row["damping_ratio"]
         # D_star damps a mode in proportion to its frequency, here the measured one
-        rising = fitted.parameters["D_star"].value / (2 * start.D) * math.tau * row["frequency_Hz"]
+        rising = damped.D_star / (2 * start.D) * math.tau * row["frequency_Hz"]
         for law, expected in (("D_star", rising), ("damping_ratio", lowest["damping_ratio"])):
             agrees = within(value, expected, DAMPING)
             what = f"{diameters} nodal diameters, by {law}"

@@ -32,9 +32,7 @@ _NAMES = {
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite "
         "ImplausibleValue"
     ),
-    "fitting.fit": "fit",
-    "fitting.measured": "Measurement",
-    "fitting.result": "Fit",
+    "fit": "fit",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
     "simulation.api": "simulate snapshots Execution",
@@ -90,9 +88,7 @@ if TYPE_CHECKING:
     )
     from disc_model.figures.branch_pictures import plot_branches
     from disc_model.figures.pictures import plot_campbell, plot_modes, plot_sweep
-    from disc_model.fitting.fit import fit
-    from disc_model.fitting.measured import Measurement
-    from disc_model.fitting.result import Fit
+    from disc_model.fit import fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
     from disc_model.simulation.api import Execution, simulate, snapshots

@@ -15,7 +15,6 @@ from types import ModuleType
 from typing import Any
 
 WRITTEN_OUT = 1e6  # numbers below it have no power of ten
-DEVIATION_DIGITS = 2  # significant digits of standard deviations
 
 
 def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:

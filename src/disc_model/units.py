@@ -196,26 +196,6 @@ def size_of_unit(unit: str, target: str) -> float:
     return size if isinstance(size, float) and not faults else 0.0
 
 
-def si_unit_of(value: Any) -> str:
-    """The SI unit of the kind of a text with a unit or of a quantity of pint, Hz where it is
-    written in these; "" where there is none that is known."""
-    try:
-        if is_quantity(value):
-            units = value.units
-        elif isinstance(value, str) and (
-            match := _WITH_UNIT.fullmatch(value.translate(_SPELLINGS))
-        ):
-            units = _units().Unit(_checked_unit(match[2], ""))
-        else:
-            return ""
-        if "hertz" in str(units):
-            return "Hz"
-        base = (1 * units).to_base_units()
-    except Exception:  # of pint and of Python's tokenizer, which have no common base
-        return ""
-    return format(base.units, "~C") or "1"
-
-
 def is_quantity(value: object) -> bool:
     """Whether a value is a quantity of pint."""
     return hasattr(value, "magnitude") and hasattr(value, "units") and hasattr(value, "to")

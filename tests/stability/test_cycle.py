@@ -267,9 +267,10 @@ def test_how_long_a_slider_slips_on_is_stated():
     assert found.message.endswith("the slider slips on for 0.123 s without sticking")
 
 
-def test_times_of_stick_and_slip_add_up_to_the_period() -> None:
+def test_times_of_stick_and_slip_make_up_the_period() -> None:
     case = Parameters(N=385, Omega=15)
     cycle = floquet(case)
+    assert cycle.stick_time == pytest.approx(cycle.stick_fraction * cycle.period, rel=1e-12)
     assert cycle.stick_time + cycle.slip_time == pytest.approx(cycle.period, rel=1e-12)
     swept = sweep(floquet, case, N=[385])
     assert swept["slip_time"].item() == cycle.slip_time

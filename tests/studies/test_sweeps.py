@@ -248,7 +248,7 @@ def test_what_a_sweep_would_leave_out_is_refused() -> None:
     with refusal(r"function=neutral_curves: a sweep keeps no curves"):
         sweep(dm.neutral_curves, P, N=[300], bounds=plane, lines=[0.25])
     with refusal(r"function=fit: a sweep keeps no fitted parameters"):
-        sweep(dm.fit, P, N=[300], vary=["mu_s"], measured={"period": (0.015, 1e-5)})
+        sweep(dm.fit, P, N=[300], vary=["mu_s"], data=[])
     assert sweep(dm.simulate, P, N=[300], t_end=0.2, windows=None)["status"].item() == "ok"
 
 

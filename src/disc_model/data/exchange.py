@@ -29,7 +29,7 @@ WRITTEN = (*SUFFIXES, TABLE)
 
 
 class HasDataset(Protocol):
-    """A result that becomes a dataset, such as a `Fit`, a `Branch` or a `Critical`."""
+    """A result that becomes a dataset, such as a `Branch` or a `Critical`."""
 
     def to_dataset(self) -> xr.Dataset: ...
 
@@ -50,7 +50,7 @@ def save(
     Parameters
     ----------
     data : of numbers and words; discs along a dimension are written as text, in JSON, and None beside them, the
-        plate, as "plate". A `Fit`, a `Branch` and
+        plate, as "plate". A `Branch` and
         what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
         has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc or .mat,
         and read by its method `load`

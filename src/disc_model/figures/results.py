@@ -6,7 +6,6 @@ from disc_model.figures.critical import plot_critical
 from disc_model.figures.eigenvalues import plot_eigenvalues
 from disc_model.figures.exponents import plot_exponents
 from disc_model.figures.film import animate, film_writer
-from disc_model.figures.fit import plot_fit
 from disc_model.figures.history import plot_run
 from disc_model.figures.modes import plot_modes
 from disc_model.figures.multipliers import plot_multipliers
@@ -25,7 +24,6 @@ __all__ = [
     "plot_critical",
     "plot_eigenvalues",
     "plot_exponents",
-    "plot_fit",
     "plot_modes",
     "plot_multipliers",
     "plot_neutral_curves",

@@ -61,7 +61,7 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
     exponents : 1/s, complex, log(multipliers) / period
     growth_rate : 1/s, largest real part of the exponents
     stick_fraction : share of the period in stick
-    stick_time, slip_time : s, durations of stick and of slip, means of the period's releases, as `fit` takes them; a
+    stick_time, slip_time : s, durations of stick and of slip, means of the period's releases; a
         `slip_time` of nan where contact is lost
     state : on the section, at the end of stick; of a cycle that slips all the time, where the spring is longest
     bifurcation_type : bifurcation if the leading multiplier crosses the unit circle: "fold" (real, positive),
