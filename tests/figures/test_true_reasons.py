@@ -11,8 +11,6 @@ from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.selection import classes_of_gaps, gaps
 from tests.explorer.test_page import flagged
 
-NOT_ANOTHER = "stable, near the cycle, or no other found"
-
 
 def samples() -> xr.Dataset:
     """Four samples: a stable cycle, an unstable one, no cycle, and one that was simulated."""
@@ -40,20 +38,6 @@ def test_a_rate_of_a_sample_does_not_wait_for_its_simulation(name: str) -> None:
     assert found.tolist() == ["no_value", "no_value", "no_cycle", "no_value"]
     masks = gaps(study, study[name])
     assert masks["no cycle found"].values.tolist() == [False, False, True, False]
-
-
-def test_the_reason_of_another_rate_holds_of_stable_cycles() -> None:
-    """It did not: nothing else is looked for beside them."""
-    assert missing_text(samples(), "other_growth_rate") == NOT_ANOTHER
-
-
-def test_a_time_of_a_sample_waits_for_its_simulation() -> None:
-    """Curves said that contact is kept."""
-    study = samples()
-    found = classes_of_gaps(study, study["first_separation"])
-    assert found.tolist() == ["not_simulated", "not_simulated", "not_simulated", "no_value"]
-    masks = gaps(study, study["first_separation"])
-    assert masks["not simulated"].values.tolist() == [True, True, True, False]
 
 
 def test_modes_of_steady_sliding_need_no_cycle() -> None:
