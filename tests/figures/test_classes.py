@@ -67,6 +67,7 @@ def test_what_is_unresolved_is_marked_over_its_class_and_keeps_it() -> None:
         "heat_map", kinds(column), variable="kind", x="perturbation_u", y="perturbation_f"
     )
     assert labels(figure)[:3] == ["quiet", "undecided", UNRESOLVED.label]
+    figure.draw_without_rendering()
     face = figure.axes[0].collections[0].get_facecolor().reshape(3, 3, 4)[1, 1]
     np.testing.assert_allclose(face[:3], to_rgb(LOOKS["quiet"].face), atol=1e-6)
     [mark] = [patch for patch in figure.axes[0].patches if patch.get_hatch() == UNRESOLVED.hatch]
