@@ -25,10 +25,9 @@ THICKNESS = 0.012
 
 
 class RangeLawCounts(NamedTuple):
-    """Numbers of motions: all, those with 95 % of height and contact force at one frequency, and of
-    these the ones whose range is within 5 % of the law, without and with the excess of flights."""
+    """Numbers of motions with 95 % of height and contact force at one frequency, and of these the
+    ones whose range is within 5 % of the law, without and with the excess of flights."""
 
-    all: int
     single: int
     within: int
     explained: int
@@ -156,7 +155,6 @@ class Sources:
         deviation = study["deviation"]
         rest = abs(deviation - study["flight_excess"])
         return RangeLawCounts(
-            all=int(lost.sum()),
             single=int(single.sum()),
             within=int((single & (abs(deviation) <= 0.05)).sum()),
             explained=int((single & (rest <= 0.05)).sum()),
@@ -217,12 +215,6 @@ class Sources:
         """Return the percentage of the points of this map that are inferred from neighbours."""
         method = self.grid("map_N")["method"].sel(normalization=normalization)
         return float(100 * np.mean(flag_names(method) == "inferred"))
-
-    def counted(self, study: str, *methods: str) -> int:
-        """Return how many points of a map are known by one of these methods, or by any."""
-        found = flag_names(self.grid(study)["method"])
-        wanted = np.isin(found, methods) if methods else found != "none"
-        return int(np.sum(wanted))
 
     def map_against_scan(self) -> tuple[int, int, int]:
         """Return numbers of points that this map shares with the scan of critical speeds.
@@ -412,10 +404,6 @@ class Sources:
         """Return by how much the growth rate with 48 modes differs from that with 138, percent."""
         rates = [self.two_pads(disc).sel(Omega=Omega) for disc in ("48 modes", "138 modes")]
         return 100 * abs(float(rates[0] / rates[1]) - 1)
-
-    def escaped(self, N: float) -> int:
-        """Return how many of the starts 1 nm apart separate."""
-        return int(self.grid("escape")["first_separation"].sel(N=N).notnull().sum())
 
     def stress(self, share: float) -> float:
         """Return what 1 m/s of the surface of this disc means in this share of it or more, MPa."""

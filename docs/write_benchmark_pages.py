@@ -29,7 +29,7 @@ SPEED = {"work_precision", "work_precision_avx2", "answers"}
 """Measurements for the passages on speed."""
 PAGES = ("README.md", "docs/method.md", "docs/benchmark.md")
 """Pages with passages."""
-FIGURES = ("overview", "failure_maps", "prices", "scaling")
+FIGURES = ("overview",)
 """Figures that are shown in docs/gallery."""
 LETTERS = dict(zip(JUDGED, "ab", strict=True))
 """Panel letters of the scenes in the overview."""

@@ -16,7 +16,7 @@ from disc_model import Parameters, cli, simulate
 from disc_model.cli import option_name
 from disc_model.stability.sliding_modes import sliding_modes
 from disc_model.studies.study import load_study
-from tests.figures.described import campbell_study
+from tests.figures.made_up import campbell_study
 from tests.processes import run
 
 BASE = ("--N", "385", "--Omega", "15.1")

@@ -16,7 +16,7 @@ from disc_model.figures.style import styled
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
-GALLERY = DOCS / "gallery"
+PICTURE = DOCS.parent / "results" / "measured_slips.png"
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -230,4 +230,4 @@ def main() -> None:
         content = build()
         text = marked(name).sub(lambda _, content=content: content, text)
     PAGE.write_text(text, encoding="utf-8")
-    draw_slips().savefig(GALLERY / "measured_slips.png", dpi=130)
+    draw_slips().savefig(PICTURE, dpi=130)

@@ -115,6 +115,9 @@ def test_noise_may_decide_how_the_last_digit_is_rounded(value: float) -> None:
         ("first_separation('S43c12')", "1793", 1740.0, "", False),
         # before any irregular motion
         ("first_separation('F13')", "54.42", 54.43, ".2f", False),
+        ("round(range_law().single, -1)", "250", 240.0, "", True),
+        ("ratios().max()", "11", 11.97, ".2g", True),
+        ("ratios().max()", "11", 13.0, ".2g", False),
         ("chance(...)", "0.45 (0.34 to 0.57)", "0.47 (0.36 to 0.59)", "s", True),
         ("chance(...)", "0.45 (0.34 to 0.57)", "0.50 (0.38 to 0.62)", "s", False),
         ("most_changing(...)", "h 0.64, E 0.50", "h 0.65, E 0.51", "s", True),

@@ -56,17 +56,3 @@ def test_a_call_of_the_papers_plate_states_no_more(opened: Open) -> None:
     """The call stays as short as it was."""
     with opened([contents_of_study("floquet", {}, axes={"m": [0.1, 0.11]})]) as shown:
         assert "normalization" not in shown.text("call")
-
-
-def test_the_page_says_what_a_simulated_time_is_not(opened: Open) -> None:
-    """It was 63.8 s beside a call that reached 78.9 s: a departure was extrapolated."""
-    base = {"n_diameters": 1}
-    axes = {"N": [200, 210], "Omega": [40, 41]}
-    contents = contents_of_study("regions", {"horizon": 2.0}, base=base, axes=axes)
-    with opened([contents]) as shown:
-        rows = shown.text("values").split("\n")
-        [row] = [row for row in rows if row.startswith("simulated_time")]
-        assert "time_reached" in row
-        times = "one => one.name === 'simulated_time'"
-        shown.page.run(f"view.variable = view.study.variables.find({times}); redraw()")
-        assert "not that of the motion" in shown.text("call-says")

@@ -7,13 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model.explorer import Stated
 from disc_model.explorer import study_contents as contents_of
 from disc_model.figures.classes import AT_BOUND, UNSETTLED
 from disc_model.figures.curve_heights import heights_of
 from disc_model.figures.curve_pieces import open_steps
-from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
-from disc_model.studies.point_calls import HEADLINES
 from disc_model.studies.run import describe
 from tests import needs
 from tests.explorer.test_finding import Open, opened
@@ -26,14 +23,6 @@ RATES = [-0.01, -0.007, -0.01, -0.018, -0.106, 0.06, 0.021, 0.0186]
 """Growth rates at these speeds, of two cycles: the smaller one ends between 9 and 10 rad/s."""
 ENDS_AT = 4
 """Place of its last point."""
-JOINED = """
-const middle = (along) => (along(arguments[0]) + along(arguments[0] + 1)) / 2;
-const [x, y] = [middle((n) => drawn.horizontal(drawn.xs.at[n])), middle((n) => drawn.heights[n])];
-const ink = document.getElementById("map").getContext("2d");
-const seen = ink.getImageData(Math.round(x) - 1, Math.round(y) - 1, 3, 3).data;
-return seen.some((channel, n) => n % 4 < 3 && channel < 200);
-"""
-"""Whether a line is drawn on white paper halfway between a point and the next one."""
 
 
 def cycles() -> xr.Dataset:
@@ -90,34 +79,6 @@ def test_lines_are_open_where_those_of_figures_are(name: str) -> None:
     np.testing.assert_array_equal(told["N"][:-1], np.array([*across.values()]).T)
 
 
-def borders() -> xr.Dataset:
-    """Critical speeds over friction: the first two begin a tongue, the last but one is at the lower
-    bound of the search."""
-    data = {
-        "value": ("mu_k", [9.1, 9.2, 12.6, 9.5, 9.0, 9.7, np.nan]),
-        "border": ("mu_k", [15.7, np.nan, 12.6, 9.5, 9.0, 9.7, np.nan]),
-        "at_lower_bound": ("mu_k", np.arange(7) == 4),
-    }
-    coords = {"mu_k": ("mu_k", np.linspace(0.2, 0.32, 7), describe("mu_k"))}
-    return xr.Dataset(data, coords, {"title": "Borders"})
-
-
-def test_lines_between_a_tongue_and_the_main_border_are_open() -> None:
-    """A line joined them, with a greatest value that there is not."""
-    [steps] = variable(borders(), "value")["open"]
-    assert steps["reason"] == ANOTHER_BORDER
-    assert np.flatnonzero(numbers(steps, "u1")).tolist() == [1]
-    assert variable(borders(), "border")["open"] == []
-
-
-def test_other_variables_have_no_open_steps() -> None:
-    """Equilibria are one family, and words are not joined."""
-    study = cycles().rename(growth_rate="largest_growth_rate")
-    assert variable(study, "largest_growth_rate")["open"] == []
-    words = cycles().assign_coords(N=["low", "middle", "high"])
-    assert [one["axis"] for one in variable(words, "growth_rate")["open"]] == ["Omega"]
-
-
 def test_doubts_of_other_studies_are_told() -> None:
     """Figures mark motions that had not settled, and values at the bound of a search."""
     settled = np.array([[0, 2, 2]], np.int8)
@@ -142,17 +103,6 @@ def test_doubts_of_other_studies_are_told() -> None:
 
 @pytest.mark.slow
 @needs.BROWSER.mark
-def test_an_open_line_is_seen_and_named(opened: Open) -> None:
-    with opened([contents_of("line", line())]) as shown:
-        shown.page.prefer("light")
-        joined = [shown.page.run(JOINED, n) for n in range(7)]
-        legend = shown.text("legend")
-    assert joined == [True, True, True, True, False, True, True]
-    assert OPEN in legend
-
-
-@pytest.mark.slow
-@needs.BROWSER.mark
 def test_shares_have_their_interval(opened: Open) -> None:
     """A curve of shares said nothing of how many starts there were."""
     with opened([contents_of("shares", shares())]) as shown:
@@ -164,24 +114,3 @@ def test_shares_have_their_interval(opened: Open) -> None:
     assert said.endswith("0.5, 90 % interval 0.25 to 0.75")
     assert legend == "90 % interval"
     assert ends, "the ends of all intervals are within the frame"
-
-
-def campbell() -> xr.Dataset:
-    """Frequencies of three modes over the speed."""
-    modes = {"long_name": "number of the mode, lowest frequency first"}
-    frequencies = np.add.outer(np.array(SPEEDS), [60.0, 140.0, 240.0])
-    study = line().drop_vars("period")
-    study = study.assign_coords(mode=("mode", [1, 2, 3], modes))
-    for name in ("sliding_frequency", "cycle_frequency"):
-        study[name] = (["Omega", "mode"], frequencies, {"long_name": name, "units": "Hz"})
-    return study
-
-
-@pytest.mark.slow
-@needs.BROWSER.mark
-def test_a_campbell_study_opens_on_its_diagram(opened: Open) -> None:
-    """It opened on colours over the number of the mode."""
-    stated = Stated(call={"quantity": "campbell", "headlines": [*HEADLINES["campbell"]]})
-    with opened([contents_of("campbell", campbell(), stated=stated)]) as shown:
-        seen = shown.page.run("return [view.x, view.y, view.spread, view.variable.name]")
-    assert seen == ["Omega", "", "mode", "sliding_frequency"]

@@ -72,28 +72,6 @@ def told_of_branches() -> dict[str, object]:
     return contents_of("branches", branches(), stated=Stated(call=call))
 
 
-def test_samples_have_the_marks_of_the_figure_and_a_strip_of_kinds(opened: Open) -> None:
-    """Releases and losses of contact had the same blue squares."""
-    told = contents_of("sampled", sampled())
-    with opened([told]) as shown:
-        shown.choose("Variable", "psi")
-        legend = shown.text("legend").split("\n")
-        marks = shown.page.run(
-            "return places().map(({ place }) => { const { shape, isFilled } = lookOfSample(place);"
-            "return [shape, isFilled]; })"
-        )
-        rows = shown.page.run("return kindsAlong(places()).map((mark) => mark.kind)")
-    assert legend[:3] == [
-        "at release of stick",
-        "at loss of contact",
-        "at loss of contact, not settled",
-    ]
-    assert legend[3] == "on the grey strip: kind of motion"
-    assert legend[4:] == ["another cycle in contact", "separating", "undecided"]
-    assert marks == [["x", True]] * 2 + [["^", True]] * 2 + [["^", False]] * 2
-    assert rows == ["other_cycle", "separating", "undecided"]
-
-
 def test_branches_are_lines_over_the_parameter_when_their_study_opens(opened: Open) -> None:
     """They were drawn over the number of the point along the branch only."""
     with opened([told_of_branches()]) as shown:
@@ -122,16 +100,6 @@ def test_branches_are_lines_over_the_parameter_when_their_study_opens(opened: Op
     assert "Ω = 12 rad/s" in point
     assert "Omega=12" in call.split("\n")[0]
     assert across.endswith(" along the branch")
-
-
-def test_a_motion_of_another_point_is_named_at_its_plot(opened: Open) -> None:
-    """The plot of a case of 440 N had a contact force of about 600 N, and no title."""
-    with opened([contents_of("plane", plane(), motions())]) as shown:
-        shown.page.run("choose({N: 0, Omega: 0, normalization: 0})")
-        assert shown.text("motion-title") == "The motion"
-        shown.page.run("choose({N: 0, Omega: 1, normalization: 0})")
-        title = shown.text("motion-title")
-        assert title.startswith("Motion of another point: N = 100 N, Ω = 5 rad/s")
 
 
 def test_no_motion_from_far_away_is_drawn(tmp_path: Path) -> None:

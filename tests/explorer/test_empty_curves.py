@@ -37,18 +37,6 @@ def contents() -> dict[str, Any]:
     return contents_of("sliding", dm.run_study(GRID), run_motions(text), stated)
 
 
-def test_a_curve_without_a_value_says_why_in_a_sentence(opened: Open) -> None:
-    """It was a panel of fine stripes, above a legend with an entry "stable"."""
-    with opened([contents()]) as shown:
-        shown.choose("Variable", "growth_rate")
-        lack = shown.text("map-lack")
-        assert lack.startswith("No point of this curve has a value: ")
-        assert "steady sliding" in lack
-        assert shown.text("legend") == ""
-        shown.choose("Variable", "sliding_growth_rate")
-        assert shown.page.run("return document.getElementById('map-lack').hidden")
-
-
 def test_a_point_of_unstable_sliding_has_its_motion(opened: Open) -> None:
     """No motion of this kind was stored."""
     with opened([contents()]) as shown:
@@ -58,12 +46,3 @@ def test_a_point_of_unstable_sliding_has_its_motion(opened: Open) -> None:
         note = shown.text("motion-note")
         assert note.startswith("At this point. The motion from the static start")
         assert "unstable" in note
-
-
-def test_phases_of_a_motion_are_told_apart_without_colours(opened: Open) -> None:
-    """Stick and separation have nearly the same grey."""
-    with opened([contents()]) as shown:
-        hatches = shown.page.run(
-            "return ['stick', 'slip', 'separation'].map((word) => lookOfPhase(word).hatch)"
-        )
-    assert [bool(hatch) for hatch in hatches] == [True, False, False]

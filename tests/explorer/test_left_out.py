@@ -6,8 +6,6 @@ import pytest
 
 from disc_model.explorer import Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.explorer.beginning import usual_place
-from disc_model.explorer.rules import rule_of
 from tests import needs
 from tests.explorer.left_out import CALL, RULE, ruled
 from tests.explorer.test_in_browser import READY, Explorer
@@ -50,36 +48,3 @@ def test_a_point_that_is_left_out_has_no_call(shown: Explorer, variable: str) ->
     assert shown.text("message") == f"left out: by the study's rule “{RULE}”"
     assert shown.text("call") == ""
     assert shown.page.run("return element('motion-by-call').hidden")
-
-
-@pytest.mark.slow
-@needs.BROWSER.mark
-def test_what_is_left_out_has_a_pattern(shown: Explorer) -> None:
-    """It was white beside "quiet", which is nearly white."""
-    shown.choose("Variable", "outcome")
-    shown.page.run("choose({Omega: 0, N: 0, mu_s: 1})")
-    assert len(shown.ask("coloursOf", 2, 1)) > 1
-    assert len(shown.ask("coloursOf", 2, 0)) == 1
-
-
-@pytest.mark.parametrize(
-    ("rule", "said"), [("(mu_k <= mu_s)", RULE), ("(N > 1) and (k > 2)", "(N > 1) and (k > 2)")]
-)
-def test_a_single_rule_has_no_brackets(rule: str, said: str) -> None:
-    assert rule_of(ruled().assign_attrs(where=rule)) == said
-
-
-def test_a_study_without_a_rule_says_none() -> None:
-    study = ruled()
-    del study.attrs["where"]
-    assert rule_of(study) == ""
-
-
-def test_a_study_opens_at_the_value_of_a_figure_or_of_the_usual_case() -> None:
-    """It opened at the first word in alphabetical order, "bilateral"."""
-    study = ruled().rename(mu_s="contact")
-    study = study.assign_coords(contact=["bilateral", "unilateral"])
-    assert usual_place(study, "contact", {}) == 1
-    assert usual_place(study, "contact", {"contact": "bilateral"}) == 0
-    assert usual_place(study, "Omega", {}) == 0
-    assert usual_place(study, "Omega", {"Omega": 15}) == 1

@@ -18,13 +18,11 @@ from PIL import Image
 from disc_model.data.variables import PHASES, TRUTH
 from disc_model.explorer import PAGE_WIDTH, PICTURE_WIDTH, Picture, Stated, page
 from disc_model.explorer import study_contents as contents_of
-from disc_model.explorer.contents import _gaps, _named, runs
+from disc_model.explorer.contents import _named
 from disc_model.figures.classes import LOOKS, STABLE, UNRESOLVED
-from disc_model.figures.colours import growth_norm
 from disc_model.figures.growth import isolated
 from disc_model.studies.motions import SAMPLES, Motions
-from disc_model.studies.point_calls import HEADLINES
-from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.registry import quantity_of
 from disc_model.studies.run import describe
 
 AXES: dict[str, list[Any]] = {"N": [100.0, 200.0, 385.0], "Omega": [5.0, 10.0, 15.1, 20.0]}
@@ -243,44 +241,6 @@ def test_a_sample_that_was_not_simulated_has_no_time_for_this_reason() -> None:
     assert [look["label"] for look in gaps["looks"]] == ["none within 500 s", "not simulated"]
 
 
-@pytest.mark.parametrize("before", ["", "scan_"])
-def test_a_separation_without_a_time_is_not_timed(before: str) -> None:
-    """A point with the outcome "separation" was said to have "none within 1000 s, or not timed"."""
-    study = plane().isel(normalization=0, drop=True)
-    study = study.drop_vars("outcome")
-    words = ["quiet", "growing", "separation", "separating", "undecided", "irregular"]
-    expected = [*2 * ["none within 1000 s"], *2 * ["not timed"]]
-    expected += 2 * ["none within 1000 s, or not timed"]
-    outcomes = xr.DataArray(
-        np.arange(12, dtype=np.int8).reshape(3, 4) % 6,
-        dims=("N", "Omega"),
-        attrs=flagged(" ".join(words)),
-    )
-    study[f"{before}outcome"] = outcomes
-    study["status"] = outcomes.copy(data=np.zeros((3, 4), np.int8))
-    study["status"].attrs = flagged("ok failed")
-    study[f"{before}first_separation"] = outcomes.copy(data=np.full((3, 4), np.nan))
-    study[f"{before}first_separation"].attrs = {"units": "s"}
-    study.attrs["options"] = '{"horizon": 1000, "extrapolate": true}'
-    gaps = _gaps(study, study[f"{before}first_separation"])
-    assert gaps is not None
-    labels = [gaps["looks"][code - 1]["label"] for code in numbers(gaps, "u1")]
-    assert labels == 2 * expected
-    hatches = {look["hatch"] for look in gaps["looks"]}
-    assert len(hatches) == 3, "each has a pattern of its own"
-
-
-def test_a_motion_that_did_not_separate_is_called_as_in_figures() -> None:
-    study = plane()
-    rates = study["growth_rate"]
-    nowhere = rates.copy(data=np.full(rates.shape, np.nan)).rename("first_separation")
-    study["first_separation"] = nowhere.assign_attrs(units="s")
-    gaps = _gaps(study, study["first_separation"])
-    assert gaps is not None
-    said = [look["label"] for look in gaps["looks"]]
-    assert "none within 200 s" in said
-
-
 def marked(variable: dict[str, Any], shape: tuple[int, ...]) -> dict[tuple[str, ...], np.ndarray]:
     """The points that a page marks, by the label of the mark and the axes of the map."""
     found = {}
@@ -322,34 +282,6 @@ def test_unresolved_cells_are_those_of_each_plane_of_numbers() -> None:
             cells.isel(normalization=i).transpose("N", "Omega"), isolated(chosen, "growth_rate")
         )
     assert (UNRESOLVED.label, "N", "normalization") not in marks, "nothing lies between words"
-
-
-def test_samples_are_no_neighbours_of_each_other() -> None:
-    """The page hatched "unresolved" between random samples: nothing lies between them."""
-    numbered = ("sample", np.arange(3), {"long_name": "number of the sample"})
-    study = plane().isel(normalization=0, drop=True).isel(Omega=slice(3)).rename(Omega="sample")
-    study = study.drop_vars("sample", errors="ignore").assign_coords(sample=numbered)
-    study["growth_rate"].values[:] = 1.0
-    study["growth_rate"].values[1, 1] = -1.0
-    variables = {one["name"]: one for one in contents_of("plane", study)["variables"]}
-    for name in ("growth_rate", "outcome"):
-        words = [mark["look"]["label"] for mark in variables[name]["marks"]]
-        assert UNRESOLVED.label not in words
-
-
-def test_a_line_has_the_mark_of_its_stable_points() -> None:
-    """There were marks only for pairs of dimensions."""
-    study = plane().isel(N=2, normalization=0, drop=True)
-    study["growth_rate"].values[:] = [-0.02, 0.3, np.nan, -3.0]
-    variables = {one["name"]: one for one in contents_of("line", study)["variables"]}
-    found = marked(variables["growth_rate"], (4,))
-    assert [*found] == [(STABLE.label, "Omega")]
-    assert found[STABLE.label, "Omega"].tolist() == [True, False, False, True]
-    assert variables["outcome"]["marks"] == []
-
-
-def test_the_page_says_what_it_needs_without_scripts() -> None:
-    assert re.search(r"<noscript><p>[^<]*JavaScript[^<]*</p></noscript>", page("One", [], []))
 
 
 def test_a_page_opens_on_the_axes_of_a_figure() -> None:
@@ -396,15 +328,6 @@ def test_ranges_and_periods_of_all_quantities_have_the_units_of_figures(
     assert _named(name, column.attributes)["unit"] == unit
 
 
-@pytest.mark.parametrize("quantity", quantity_names())
-def test_no_length_is_in_metres(quantity: str) -> None:
-    """Stored motions have mm beside them."""
-    of_grid = quantity_of(quantity)
-    columns = {**of_grid.COLUMNS, **of_grid.SUMMARY_COLUMNS}
-    units = {name: _named(name, column.attributes)["unit"] for name, column in columns.items()}
-    assert "m" not in units.values(), units
-
-
 def test_values_of_a_parameter_have_its_name_and_unit() -> None:
     """The axis of a study of branches was "Omega in the sweep, SI units"."""
     swept = {"long_name": "m in the sweep, SI units"}
@@ -424,54 +347,6 @@ def test_values_of_a_parameter_have_its_name_and_unit() -> None:
     study = xr.Dataset(curves, {}, {"quantity": "stability_curves", "options": options})
     labels = [one["label"] for one in contents_of("curves", study)["variables"]]
     assert labels == ["Speed Ω", "Preload N"]
-
-
-def test_words_of_parameters_say_what_they_are_of() -> None:
-    """A heading said "bilateral", and the place of a zip "k = 20000"."""
-    coords = {
-        "contact": ["bilateral", "unilateral"],
-        "N": ("N_k", [200.0], describe("N")),
-        "k": ("N_k", [2e4], describe("k")),
-    }
-    attrs = {"base": json.dumps({"friction_offset": "surface"})}
-    study = xr.Dataset({"range": (["contact", "N_k"], np.ones((2, 1)))}, coords, attrs)
-    told = contents_of("words", study)
-    dims = {dim["name"]: dim for dim in told["dims"]}
-    assert dims["contact"]["shown"] == ["bilateral contact", "unilateral contact"]
-    assert dims["contact"]["values"] == ["bilateral", "unilateral"], "those of a call"
-    assert dims["N_k"]["shown"] == ["N = 200 N, k = 20 kN/m"]
-    assert dims["N_k"]["label"] == "Preload N, Spring k"
-    [offset] = told["fixed"]
-    assert (offset["value"], offset["shown"]) == ("surface", "friction on the surface")
-
-
-def test_every_quantity_has_a_headline() -> None:
-    """Pages of `critical_speed` opened without the critical speed."""
-    for name in quantity_names():
-        quantity = quantity_of(name)
-        headlines = HEADLINES[name]
-        assert headlines
-        assert {*headlines} <= {*quantity.COLUMNS, *quantity.SUMMARY_COLUMNS}
-
-
-def test_no_label_ends_within_a_sentence() -> None:
-    """ "... coefficient of J_l equal to 1, or Eq. (17)" lost its number, which was taken for a
-    unit."""
-    dims = {dim["name"]: dim for dim in contents()[0]["dims"]}
-    label = dims["normalization"]["label"]
-    assert label == "Scale of the mode shapes: coefficient of Jₗ equal to 1, or Eq. (17)"
-
-
-def test_the_first_run_of_phases_begins_at_the_first_point() -> None:
-    phases = np.array([0, 0, 2, 2, 0])
-    assert runs(phases) == [[0, 0], [2, 2], [4, 0]]
-
-
-def test_growth_rates_have_the_colours_of_figures() -> None:
-    variables = {variable["name"]: variable for variable in contents()[0]["variables"]}
-    norm = growth_norm(plane()["growth_rate"].values)
-    assert variables["growth_rate"]["scale"] == {"width": norm.linear_width, "end": norm.vmax}
-    assert variables["releases"]["scale"] is None
 
 
 def test_an_axis_that_ends_at_infinity_is_told_in_words() -> None:
@@ -557,13 +432,3 @@ def test_verdicts_have_the_words_and_classes_of_figures() -> None:
     assert words == ["yes", "no", "no_value"]
     looks = dict(zip(told["near_motion"]["flags"], told["near_motion"]["looks"], strict=True))
     assert looks["no_value"]["label"] == "stable: not examined"
-
-
-def test_exponents_are_called_by_their_place() -> None:
-    """It said "number of the exponent, largest first = 0"."""
-    study = xr.Dataset(
-        {"exponent": ("exponent_number", [0.1, -0.2], {"units": "s-1", "long_name": "exponent"})},
-        {"exponent_number": [0, 1]},
-    )
-    [dim] = contents_of("s", study)["dims"]
-    assert dim["shown"] == ["largest exponent", "exponent 2"]

@@ -12,7 +12,6 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import LONG_TERM_OUTCOMES, OUTCOMES_TO_HORIZON, attributes
-from disc_model.parameters import Parameters
 from disc_model.studies.registry import quantity_of
 from tests.figures.measured import Shown
 from tests.figures.test_cases import simulated
@@ -632,4 +631,3 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         sliding_outcome,
     )
 }
-BASE = Parameters(N=385, Omega=15.1)

@@ -47,9 +47,3 @@ def test_a_single_speed_has_one_panel_over_the_energy(shares: xr.Dataset) -> Non
 def test_what_panels_over_the_energy_need(phrase: dict[str, str], said: str) -> None:
     plot = kind_of("basins").model_validate({"kind": "basins", **phrase})
     assert [str(fault) for fault in plot.faults({"Omega": [12.0, 13.0]})] == [said]
-
-
-def test_more_speeds_than_there_is_room_for_are_refused() -> None:
-    plot = kind_of("basins").model_validate({"kind": "basins", "x": "energy", "by": "Omega"})
-    [fault] = plot.faults({"Omega": [float(i) for i in range(7)]})
-    assert str(fault) == "by='Omega': has 7 values, and there is room for 6"

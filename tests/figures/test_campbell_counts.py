@@ -3,7 +3,6 @@
 import re
 from typing import Any
 
-import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
@@ -12,9 +11,9 @@ from matplotlib.figure import Figure
 import disc_model as dm
 from disc_model.figures.campbell_looks import CROSSINGS
 from disc_model.studies.quantities.campbell import EFFECTS, LINES
-from tests.figures.described import campbell_study, drawn
 from tests.figures.every_kind import flag
-from tests.figures.reading import assert_fit_for_print, labels
+from tests.figures.made_up import campbell_study
+from tests.figures.reading import labels
 
 MARKS = {"o", "D", *(crossing.marker for crossing in CROSSINGS)}
 """Of crossings in a panel of frequencies."""
@@ -94,25 +93,7 @@ def test_crossings_with_a_mark_and_those_counted_are_all(
     """Of 12 crossings, 4 were not marked and 2 not known, and no mark was to be seen."""
     top, _ = dm.plot_campbell(study_of_many(), highest=highest, multiples=multiples)
     assert_counts_add_up(top.figure)
-    assert_fit_for_print(top.figure)
     pyplot.close("all")
-
-
-@pytest.mark.parametrize("width", ["column", "page"])
-@pytest.mark.parametrize(("highest", "multiples"), [(None, []), (150.0, [2.5, 3])])
-def test_crossings_of_several_panels_are_all_counted(
-    highest: float | None, multiples: list[float], width: str
-) -> None:
-    study = study_of_many()
-    fewer = study.copy()
-    for name in ("crossing_Omega", "crossing_frequency", "crossing_multiple"):
-        fewer[name] = study[name].where(study["crossing"] < 6)
-    over = xr.Variable("N", np.array([300.0, 385.0]))
-    both = xr.concat([study, fewer], over, data_vars="all")
-    wishes = {"by": "N", "highest": highest, "multiples": multiples, "width": width}
-    figure = drawn("campbell", both, **wishes)
-    assert count_said(figure)[0] == 15
-    assert_counts_add_up(figure)
 
 
 def said_of_counts(study: xr.Dataset, **wishes: Any) -> list[str]:
@@ -125,18 +106,3 @@ def said_of_counts(study: xr.Dataset, **wishes: Any) -> list[str]:
 def test_crossings_above_the_highest_frequency_are_counted() -> None:
     assert said_of_counts(campbell_study(), highest=150) == ["3 crossings: 1 above 150 Hz"]
     assert said_of_counts(campbell_study(), highest=1) == ["3 crossings: all above 1 Hz"]
-
-
-def test_what_crossings_above_the_highest_frequency_need_is_not_said() -> None:
-    """Steps were asked for that resolve crossings which are not shown."""
-    study = campbell_study()
-    effects = ["rises", "unresolved", "rises"]
-    study["crossing_effect"] = flag(("crossing",), effects, EFFECTS)
-    assert said_of_counts(study, highest=150) == ["3 crossings: 1 above 150 Hz"]
-
-
-def test_crossings_with_a_mark_that_are_not_known_are_said_to_have_one() -> None:
-    study = campbell_study()
-    study["crossing_effect"] = flag(("crossing",), ["unresolved"] * 3, EFFECTS)
-    assert said_of_counts(study) == ["3 crossings: all unresolved (2 marked)"]
-    assert said_of_counts(study, multiples=[3]) == ["3 crossings: all unresolved (marked)"]

@@ -13,17 +13,13 @@ from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.analysis.spectra import TimeFrequency
 from disc_model.data.variables import PHASES, flag_names
-from disc_model.figures import stages
 from disc_model.figures.drawing import PHASE_COLOURS
 from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
-from disc_model.figures.spectrogram import span_of
 from disc_model.figures.stages import SECTIONS, stages_of
 from disc_model.figures.style import save
 from tests.damages import damaged
-from tests.figures.reading import assert_fit_for_print, labels
 
 SPECTRA = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}  # contact is first lost at 54.4 s
 RECORDED = {
@@ -55,9 +51,7 @@ def asked(kind: str, case: xr.DataTree | None = None, **phrase: Any) -> Figure:
     plot = kind_of(kind).model_validate({"kind": kind, "case": "A", **phrase})
     if case is None:
         case = simulated(True)
-    figure = render(plot, {"A": case})
-    assert_fit_for_print(figure)
-    return figure
+    return render(plot, {"A": case})
 
 
 def said_in(figure: Figure) -> list[str]:
@@ -98,19 +92,6 @@ def test_a_history_has_a_panel_for_each_variable() -> None:
     assert ranges.axes[0].get_xlim() == (0, 30)
 
 
-def test_ramps_of_a_case_are_shaded_and_said() -> None:
-    """The title gave the speed at the start for that of the whole run."""
-    ramp = '[{"parameter": "Omega", "to": 20.0, "start": 10.0, "end": 30.0}]'
-    case = simulated(True).copy()
-    case.attrs["ramps"] = ramp
-    figure = asked("history", case, window="history", variables=["P", "psi"])
-    assert figure.get_suptitle() == "N = 385 N, Ω = 15.1 to 20 rad/s"
-    assert "Ω from 15.1 to 20 rad/s, 10 to 30 s" in labels(figure)
-    for ax in figure.axes:
-        [shade] = ax.patches
-        assert (shade.get_x(), shade.get_width()) == (10.0, 20.0)
-
-
 @pytest.mark.parametrize(("window", "phase"), [("spectrum_a", "stick"), ("zoom", "separation")])
 def test_phases_are_shaded_in_their_colours_while_they_last(window: str, phase: str) -> None:
     samples = simulated(True)[window].to_dataset()
@@ -125,33 +106,6 @@ def test_phases_are_shaded_in_their_colours_while_they_last(window: str, phase: 
         begin, end = bar.get_extents().intervalx
         inside |= (time >= begin) & (time < end)
     np.testing.assert_array_equal(inside, flag_names(samples["phase"]) == phase)
-
-
-def test_a_section_small_in_one_direction_only_is_not_enlarged() -> None:
-    """A narrow column of points says that it is narrow."""
-    large = simulated(True)
-    samples = large["poincare"].to_dataset()
-    narrow = 0.01 * samples["w_point"]
-    samples = samples.assign(w_point=narrow)
-    small = damaged(large, lambda groups: groups | {"poincare": samples})
-    plot = kind_of("poincare")(case="A", below=("B",))
-    figure = render(plot, {"A": large, "B": small})
-    said = [text.get_text() for ax in figure.axes for text in ax.texts]
-    assert not any("enlarged" in text for text in said)
-
-
-def test_sections_of_several_cases_share_their_axes() -> None:
-    """Contact is kept in one, whose points take a small part of the axes of the other."""
-    plot = kind_of("poincare")(case="A", below=("B",))
-    figure = render(plot, {"A": simulated(True), "B": simulated(False)})
-    left, right, left_below, right_below = [ax for ax in figure.axes if ax.get_title(loc="left")]
-    assert left.get_xlim() == left_below.get_xlim()
-    assert left.get_ylim() == left_below.get_ylim()
-    # the points of the second take a small part of the axes of the first
-    (note,) = [text.get_text() for text in right_below.texts if "enlarged" in text.get_text()]
-    factor = np.ptp(right.get_xlim()) / np.ptp(right_below.get_xlim())
-    assert note == f"enlarged {factor:.0f} times"
-    assert not [text for text in right.texts if "enlarged" in text.get_text()]
 
 
 def section_of(size: np.ndarray) -> xr.Dataset:
@@ -194,40 +148,6 @@ def test_no_point_is_on_the_way_where_none_is_shown_to_be(size: np.ndarray) -> N
     assert not found.masks["separated on the way"].any()
 
 
-@pytest.mark.parametrize(("of_disc", "since"), [(250.0, 250.0), (np.inf, np.nan)])
-def test_a_motion_has_settled_when_both_its_sections_have(
-    monkeypatch: pytest.MonkeyPatch, of_disc: float, since: float
-) -> None:
-    times = {"psi": 3.0, "w_point": of_disc}
-    monkeypatch.setattr(stages, "_since", lambda samples, window, name: times[name])
-    circles = section_of(np.ones(600))
-    found = stages.settled_since(xr.DataTree(), circles)
-    assert found == pytest.approx(since, nan_ok=True)
-
-
-def test_points_of_a_motion_that_may_have_settled_are_divided_at_a_stated_time() -> None:
-    """They were "first half of the run" up to their mean time, wherever the window was; and a settled
-    cycle was called "not shown to have settled"."""
-    p = Parameters(N=385, Omega=14, n_diameters=1)
-    section = Poincare(start=5)
-    result = simulate(p, 15, windows={"poincare": section})
-    case = result.to_tree()
-    samples = case["poincare"].to_dataset()
-    found = stages_of(case, samples)
-
-    time = samples["time"].values
-    middle = round((time[0] + time[-1]) / 2, 1)
-    early_name, later_name, *_ = found.names
-    assert middle == pytest.approx(10, abs=0.5)
-    assert early_name == f"up to {middle:g} s"
-    assert later_name == f"after {middle:g} s, undecided whether settled"
-
-    early = time[found.masks["early"]]
-    later = time[found.masks["later"]]
-    assert early.max() < middle
-    assert later.min() >= middle
-
-
 def test_a_spectrogram_shows_the_frequency_that_is_there() -> None:
     (mesh,) = (
         asked("spectrogram", window="spectrum_a", variable="psi", highest=400).axes[0].collections
@@ -263,51 +183,3 @@ def test_what_a_case_lacks_is_said(kind: str) -> None:
         assert any(
             "has 0 samples in orbit" in text for text in said_in(asked(kind, early, **phrase))
         )
-
-
-@pytest.mark.parametrize(
-    ("first", "last", "span"),
-    [(0.5, 9.5, (0.0, 9.5)), (0.96, 9.5, (1.0, 9.5)), (38.52, 47.48, (38.5, 47.5))],
-)
-def test_a_spectrum_in_time_at_the_start_of_a_run_begins_at_zero(
-    first: float, last: float, span: tuple[float, float]
-) -> None:
-    time = np.linspace(first, last, 50)
-    frequency = np.zeros(0)
-    spectrum = TimeFrequency(time, frequency, np.zeros((0, 50)))
-    assert span_of(spectrum) == pytest.approx(span)
-
-
-def titled(separates: bool, title: str) -> xr.DataTree:
-    """A case with a title."""
-    case = simulated(separates).copy()
-    case.attrs = dict(case.attrs)
-    case.attrs["title"] = title
-    return case
-
-
-def test_the_title_of_a_case_stands_above_its_figure_before_its_parameters() -> None:
-    """No figure had it, and two cases that stop at different times had the same heading."""
-    case = titled(True, "Until contact is lost")
-    figure = asked("history", case, window="history")
-    first, *further = figure.get_suptitle().splitlines()
-    assert first == "Until contact is lost"
-    assert "385 N" in " ".join(further)
-
-
-def test_the_title_that_a_figure_is_given_stands_in_place_of_that_of_its_case() -> None:
-    case = titled(True, "Until contact is lost")
-    figure = asked("history", case, window="history", title="Seen")
-    first, *further = figure.get_suptitle().splitlines()
-    assert first == "Seen"
-    assert "contact" not in " ".join(further)
-
-
-@pytest.mark.parametrize("alike", [True, False])
-def test_rows_of_cases_with_equal_parameters_have_their_titles(alike: bool) -> None:
-    cases = {"A": titled(True, "Case A"), "B": titled(alike, "Case B")}
-    wish = {"kind": "poincare", "case": "A", "below": ["B"]}
-    plot = kind_of("poincare").model_validate(wish)
-    figure = render(plot, cases)
-    said = " ".join(said_in(figure))
-    assert ("Case B" in said) is alike

@@ -9,7 +9,6 @@ from disc_model.figures.critical_beside import UNSTABLE
 from disc_model.figures.critical_curve import MISSING
 from disc_model.stability.critical_values import Critical
 from tests.figures.test_wishes import legend_texts
-from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=12)
 
@@ -49,33 +48,11 @@ def test_each_of_two_has_a_name_a_look_and_a_mark() -> None:
     assert one.get_ydata()[0] != other.get_ydata()[0]
 
 
-def test_neither_title_nor_note_says_what_is_true_of_one_alone() -> None:
-    first = made(CASE.replace(mu_s=0.5, mu_k=0.3))
-    ax = first.plot()
-    assert ax.get_title(loc="left").startswith("unstable from 11 rad/s")
-    made(CASE.replace(mu_s=0.5, mu_k=0.3, N=450), value=10.0).plot(ax=ax)
-    assert ax.get_title(loc="left") == ""
-    assert "N =" not in ax.figure.get_suptitle()
-    assert "0.5" in ax.figure.get_suptitle()
-
-
 def test_values_without_a_cycle_stay_in_the_legend() -> None:
     ax = made(growth_rate=np.array([-0.1, np.nan, 0.2])).plot()
     made(CASE.replace(N=450)).plot(ax=ax)
     assert "no cycle found" in legend_texts(ax)
     assert len(lines_with(ax, MISSING)) == 1
-
-
-def test_a_reader_names_cases() -> None:
-    ax = made().plot(labels={"case": "first"})
-    made(CASE.replace(N=450)).plot(ax=ax, labels={"case": "second"})
-    assert legend_texts(ax)[:2] == ["first", "second"]
-
-
-def test_both_kinds_of_motion_need_axes_of_their_own() -> None:
-    ax = made().plot()
-    with refusal("something else"):
-        made(kind="sliding").plot(ax=ax)
 
 
 def test_steady_sliding_is_drawn_where_it_takes_the_place_of_a_cycle() -> None:
@@ -84,9 +61,3 @@ def test_steady_sliding_is_drawn_where_it_takes_the_place_of_a_cycle() -> None:
     assert "steady sliding, where no cycle exists" in texts
     assert "no cycle found" not in texts
     assert ax.get_ylabel().replace("\n", " ") == "Growth rate of the cycle, or of sliding (1/s)"
-
-
-def test_critical_values_with_and_without_sliding_share_axes() -> None:
-    ax = made().plot()
-    in_sliding().plot(ax=ax)
-    assert len(lines_with(ax, UNSTABLE)) == 2

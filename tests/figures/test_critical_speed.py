@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures import critical_speed, swept_speeds
-from disc_model.figures.borders import Curve, _resonance_of, curves_of, draw_curves, parts_of
+from disc_model.figures.borders import Curve, _resonance_of, curves_of, parts_of
 from disc_model.figures.drawing import BLUE, SEPARATED
 from disc_model.figures.onsets import branches
-from tests.figures.described import status
 from tests.figures.every_kind import flag
+from tests.figures.made_up import status
 from tests.figures.reading import draw, labels, lines
 from tests.studies.conftest import SCAN, computed, growth_over
 
@@ -217,22 +217,6 @@ def test_speeds_that_rest_on_motions_which_had_not_settled_are_filled() -> None:
     assert "filled: not settled" not in lines(ax)
 
 
-def test_loads_and_speeds_that_were_not_swept_are_not_shaded() -> None:
-    """The cycle is stable everywhere, but the sweep says nothing beyond its loads and speeds."""
-    ax = pyplot.figure().subplots()
-    sweep = swept([12.0, 14.0], lost=False)
-    loads = [100.0, 200, 300, 400, 500]
-    speeds = [11.0, 13, 15, 21]
-    stable = np.full((5, 4), -1.0)
-    cycle = xr.Dataset({"growth_rate": (("N", "Omega"), stable)}, {"N": loads, "Omega": speeds})
-    swept_speeds._stable_cycles(ax, sweep, cycle)
-    [mesh] = [each for each in ax.collections if isinstance(each, QuadMesh)]
-    shaded = ~np.ma.getmaskarray(mesh.get_array()).reshape(5, 4)
-    # from 12 rad/s at 200 N, 13 at 300 N, and 14 at 400 N; up to 20
-    expected = [[0, 0, 0, 0], [0, 1, 1, 0], [0, 1, 1, 0], [0, 0, 1, 0], [0, 0, 0, 0]]
-    assert shaded.astype(int).tolist() == expected
-
-
 @pytest.mark.parametrize(("kind", "drawn"), [("fold", True), ("neutral", False)])
 def test_a_fold_bounds_a_cycle_beyond_which_there_is_none(kind: str, drawn: bool) -> None:
     """Beyond a neutral curve there is an unstable one."""
@@ -279,26 +263,3 @@ def test_two_points_beside_a_stable_cycle_make_a_curve(stable: list[str], drawn:
     )
     found = curves_of(curves)
     assert len(found) == drawn
-
-
-def test_curves_are_numbered_within_the_panel_where_they_are_seen() -> None:
-    """Of curves that leave the panel at the right and at the top, and one that is not seen."""
-    ax = pyplot.figure().subplots()
-    ax.set(xlim=(10, 20), ylim=(100, 400))
-    speeds = np.linspace(12.0, 30.0, 19)
-    right = Curve(speeds, np.linspace(150.0, 330.0, 19), "fold", "2 f_s")
-    steep = Curve(speeds, np.linspace(300.0, 480.0, 19), "fold", "3 f_s")
-    beyond = Curve(speeds + 20, np.linspace(150.0, 330.0, 19), "neutral", "4 f_s")
-    handles = draw_curves(ax, [right, steep, beyond])
-    assert [text.get_text() for text in ax.texts] == ["1", "2"]
-    assert [text.xy for text in ax.texts] == [(20.0, 230.0), (20.0, 380.0)]
-    ax.figure.draw_without_rendering()
-    for text in ax.texts:
-        assert text.get_window_extent().x1 <= ax.bbox.x1
-    named = [str(handle.get_label()) for handle in handles]
-    assert named == ["stable cycle ends (fold)", "2 $f_s$", "3 $f_s$"]
-
-
-def test_a_mark_at_the_lowest_speed_is_whole(chart: Callable[..., Figure]) -> None:
-    onsets = lines(chart().axes[0])["separation begins, within 900 s"]
-    assert not onsets.get_clip_on()

@@ -89,19 +89,6 @@ def test_the_disc_from_above_is_in_millimetres_with_the_slider_at_its_angle() ->
     pyplot.close("all")
 
 
-def test_the_circle_under_the_slider_is_over_its_angle() -> None:
-    shown = motion()
-    _, ax = pyplot.subplots()
-    disc.draw_circle(ax, shown, 2, 6)
-    line, slider = ax.lines
-    angles, heights = line.get_data()
-    expected = 1e3 * dm.deflection(P, states()[2], P.r_0, angles).values.ravel()
-    np.testing.assert_allclose(heights, expected, rtol=0, atol=1e-12)
-    assert slider.get_xdata()[0] == pytest.approx(shown.slider[2] % (2 * np.pi))
-    assert slider.get_ydata()[0] == pytest.approx(1e3 * states()[2].u)
-    pyplot.close("all")
-
-
 @pytest.mark.parametrize(
     ("phase", "colour"), [("stick", SLIDER), ("slip", SLIDER), ("separation", SEPARATED)]
 )

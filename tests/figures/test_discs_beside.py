@@ -51,26 +51,6 @@ def test_table_beside_a_plate(kind: str) -> None:
 
 
 @pytest.mark.parametrize("kind", DRAWN)
-def test_plate_beside_a_table(kind: str) -> None:
-    assert names(kind, PLATE, of_modes(3000)) == ["plate", "disc of 1 mode"]
-
-
-@pytest.mark.parametrize("kind", DRAWN)
-def test_tables_of_as_many_modes_by_frequencies(kind: str) -> None:
-    first, second = names(kind, of_modes(3000, 5000), of_modes(3000, 6000))
-    assert first == "disc of 2 modes of 477.5 to 795.8 Hz"
-    assert second == "disc of 2 modes of 477.5 to 954.9 Hz"
-
-
-@pytest.mark.parametrize("kind", DRAWN)
 def test_equal_tables_are_one_disc(kind: str) -> None:
     cases = (of_modes(3000, 5000).replace(N=load) for load in (300, 385))
     assert names(kind, *cases) == ["N = 300 N", "N = 385 N"]
-
-
-def test_what_differs_of_a_plate_follows() -> None:
-    thick = PLATE.replace(h=0.003, normalization="orthonormal", D_star=1e-6)
-    first, second = names("eigenvalues", of_modes(3000), thick)
-    assert first.startswith("disc of 1 mode")
-    assert second.startswith("plate, ")
-    assert "h = 3 mm" in second

@@ -1,13 +1,12 @@
 """Samples of a sensitivity study that failed."""
 
 import numpy as np
-import pytest
 import xarray as xr
 
 from disc_model.analysis.classify import share
 from disc_model.figures.sensitivity import probabilities
-from tests.figures.described import sensitivity
 from tests.figures.every_kind import flag
+from tests.figures.made_up import sensitivity
 from tests.figures.reading import labels
 
 
@@ -28,9 +27,3 @@ def test_intervals_of_sensitivity_hold_failed_samples() -> None:
     ends = probabilities(failed_samples(["unstable", "stable", "failed"] * 3), "k")
     assert (ends[:, 1] < share(1, 2)[1]).all()
     assert (ends[:, 2] > share(1, 2)[2]).all()
-
-
-def test_intervals_without_failed_samples_say_no_more() -> None:
-    samples = failed_samples(["unstable", "stable"] * 3)
-    ends = probabilities(samples, "k")
-    assert ends[0] == pytest.approx(share(1, 2))

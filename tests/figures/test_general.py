@@ -7,21 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
-from matplotlib.colors import AsinhNorm, BoundaryNorm, LogNorm
 from matplotlib.figure import Figure
 
-from disc_model.figures import cells, line_names, rate_scale, selection
 from disc_model.figures.drawing import PAGE, panels
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
-from disc_model.figures.legends import LEAST_MAP
-from disc_model.figures.outside_limits import NOTE, note_outside, remove_note
+from disc_model.figures.outside_limits import note_outside
 from disc_model.figures.style import save
-from disc_model.studies.study import load_study
-from tests.figures.described import curve
-from tests.figures.reading import assert_fit_for_print, draw, labels, lines
+from tests.figures.reading import draw, labels, lines
 from tests.refusals import refusal
 
 
@@ -53,22 +47,6 @@ def study() -> xr.Dataset:
 
 def mapped(study: xr.Dataset, variable: str, **phrase: Any) -> Figure:
     return draw("heat_map", study, variable=variable, x="c_p", y="mu_k", **phrase)
-
-
-def test_a_map_in_a_column_grows_with_its_title_and_legend(study: xr.Dataset) -> None:
-    """A figure of a fixed height gave what they took from the map."""
-    plain = mapped(study, "status", width="column", at={"normalization": "orthonormal"})
-    words = "A title that says a good deal more than what fits in one line of a column. "
-    titled = mapped(
-        study, "status", width="column", at={"normalization": "orthonormal"}, title=4 * words
-    )
-    for figure in (plain, titled):
-        figure.draw_without_rendering()
-        [ax] = figure.axes
-        # the layout is found to some hundredths of an inch
-        assert ax.bbox.height / figure.dpi > LEAST_MAP - 0.05
-    assert plain.get_figheight() == 2.9, "which has room"
-    assert titled.get_figheight() > 3.2
 
 
 def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None:
@@ -103,21 +81,6 @@ def test_axes_and_titles_have_the_units_of_the_reader(study: xr.Dataset) -> None
 
 def mesh(figure: Figure) -> Any:
     return figure.axes[0].collections[0]
-
-
-def test_scales_of_colours_fit_what_is_shown(study: xr.Dataset) -> None:
-    both = mesh(mapped(study, "drift")).norm
-    assert both.vmin == pytest.approx(-both.vmax)
-    assert isinstance(mesh(mapped(study, "growth_rate")).norm, AsinhNorm), "that of all growth maps"
-    one = mesh(mapped(study, "period")).norm
-    assert (one.vmin, one.vmax) == pytest.approx((1000.0, 1110.0)), "in ms"
-    assert isinstance(mesh(mapped(study, "period", log=True)).norm, LogNorm)
-    assert labels(mapped(study, "status")) == ["ok", "no cycle found", "Status"]
-    study["releases"] = study["status"] + np.int64(1)
-    study["releases"].attrs = {"long_name": "number of releases", "units": "1"}
-    counts = mapped(study, "releases")
-    assert isinstance(mesh(counts).norm, BoundaryNorm)
-    assert [text.get_text() for text in counts.axes[-1].get_yticklabels()] == ["0", "1", "2"]
 
 
 def test_limits_end_the_scale_of_a_map(study: xr.Dataset) -> None:
@@ -189,95 +152,6 @@ def test_a_curve_has_a_line_for_each_value(study: xr.Dataset, tmp_path: Path) ->
     assert titles[1:] == ["(b) 0.1 N s/m", "(c) 1 N s/m", "(d) 10 N s/m"], "named once"
 
 
-def test_panels_of_the_brake_disc_name_law_and_damping_of_their_disc() -> None:
-    """One of four said "included" and another "left out", without what."""
-    study = load_study(Path("config/studies/brake_growth.yaml"))
-    plot = study.figures["brake_growth"]
-    for disc, name in plot.names.items():
-        law, damping = disc.split(", damping ratio ")
-        assert (
-            name == f"friction {('in' if law == 'middle plane' else 'on')} the {law}, ζ = {damping}"
-        )
-
-
-def test_the_peak_of_a_line_has_a_mark_and_a_legend_can_be_asked_for() -> None:
-    speeds = np.linspace(0, 1, 90)
-    rates = np.exp(-((speeds - np.array([[0.51], [0.31]])) ** 2) / 0.01)
-    data = {"period": (("k_p", "Omega"), rates, {"units": "s"})}
-    attrs = {"base": json.dumps({"normalization": "as_published"}), "options": "{}"}
-    study = xr.Dataset(data, {"k_p": [2e4, 5e4], "Omega": speeds}, attrs)
-    figure = draw("curve", study, variable="period", x="Omega", by="k_p", legend=True)
-    for line, rate in zip(figure.axes[0].lines, rates, strict=True):
-        assert int(np.argmax(rate)) in line.get_markevery()
-    assert len(figure.legends[0].get_texts()) == 2
-
-
-@pytest.mark.parametrize(
-    ("rate", "word"),
-    [(-0.1, "steady_sliding"), (0.0, "unstable_sliding"), (0.1, "unstable_sliding")],
-)
-def test_sliding_without_stick_is_told_by_its_growth(rate: float, word: str) -> None:
-    flags = {"flag_meanings": "ok no_stick_slip"}
-    study = xr.Dataset(
-        {
-            "status": ("N", np.array([0, 1], np.int8), flags),
-            "sliding_growth_rate": ("N", [rate, rate]),
-        }
-    )
-    found = selection.statuses(study)
-    assert found.values.tolist() == ["ok", word]
-
-
-@pytest.mark.parametrize(("count", "columns"), [(4, 3), (5, 1)])
-def test_five_lines_have_their_names_beside_the_panel(count: int, columns: int) -> None:
-    figure = Figure(figsize=(7, 3), layout="constrained")
-    ax = figure.subplots()
-    for number in range(count):
-        ax.plot([0, 1], [number, number], label=f"{number} N")
-    line_names.name_lines(figure, [ax], several=False, in_legend=True)
-    [legend] = figure.legends
-    assert legend._ncols == columns
-    assert len(legend.get_texts()) == count
-
-
-@pytest.mark.parametrize(
-    ("lowest", "highest", "text"), [(-0.5, 0.3, "−0.2"), (-50.0, 0.3, ""), (-0.5, 30.0, "")]
-)
-def test_rates_within_a_decade_have_more_numbers(lowest: float, highest: float, text: str) -> None:
-    ax = Figure().subplots()
-    ax.plot([0, 1], [lowest, highest])
-    rate_scale.scale_rates(ax)
-    assert ax.get_yscale() == "symlog"
-    between = ax.yaxis.get_minor_formatter()
-    assert between(-0.2, 0) == text
-    assert between(-0.3, 0) == ""
-
-
-@pytest.mark.parametrize(
-    ("name", "values", "kind"),
-    [
-        ("m", [0.01, 0.1, 1.0], "log"),
-        ("D_star", [0.0, 1e-6, 1e-4], "linear"),
-        ("Omega", [1.0, 10.0, 99.0], "linear"),
-        ("Omega", [1.0, 10.0, 100.0], "log"),
-    ],
-)
-def test_an_axis_that_begins_at_zero_is_linear(name: str, values: list[float], kind: str) -> None:
-    along = xr.DataArray(values, name=name)
-    assert cells.scale_along(along) == kind
-
-
-def test_numbers_of_rates_do_not_meet_in_a_column() -> None:
-    """Rows above the panel leave it so little height that 0.5 and 0.6 lay on each other."""
-    figure = curve("growth_rate", width="column")
-    assert_fit_for_print(figure)
-    figure.draw_without_rendering()
-    ax = figure.axes[0]
-    said = [text.get_text() for text in (*ax.get_yticklabels(), *ax.get_yticklabels(minor=True))]
-    assert "0.6" in said
-    pyplot.close("all")
-
-
 def test_lines_of_a_dimension_of_one_value_are_drawn(study: xr.Dataset) -> None:
     """Names for its value, or panels of it, ended in an error."""
     single = study.isel(normalization=slice(1), c_p=slice(1))
@@ -320,39 +194,6 @@ def test_the_legend_says_which_lines_the_limits_leave_out(
     assert is_noted is is_outside
 
 
-def test_a_single_line_across_the_limits_is_seen() -> None:
-    _figure, [ax] = panels(PAGE, 2.4)
-    ax.plot([0, 1], [14.0, 15.0])
-    is_noted = note_outside([ax], (14.4, 14.6))
-    assert not is_noted
-    assert names_for_legend(ax) == []
-
-
-def test_arrows_show_where_a_line_goes_on_outside_the_limits() -> None:
-    """A line whose last point is outside was cut without a word."""
-    _figure, [ax] = panels(PAGE, 2.4)
-    ax.plot([0, 1, 2, 3, 4, 5], [0.0, 1.0, 3.0, -4.0, np.nan, 9.0], "-s")
-    ax.plot([0, 1, 2], [0.5, 2.5, 0.5], "o")
-    note_outside([ax], (-1.0, 2.0))
-    arrows = {}
-    for line in ax.lines:
-        if line.get_gid() == NOTE:
-            arrows.setdefault(line.get_marker(), []).extend(line.get_xdata())
-            assert not line.get_clip_on()
-    assert arrows["^"] == pytest.approx([1.5, 2 + 1 / 7, 5.0, 1.0])
-    assert arrows["v"] == pytest.approx([2 + 4 / 7])
-    remove_note(ax)
-    assert len(ax.lines) == 2
-
-
-def test_a_single_line_outside_the_limits_is_said() -> None:
-    _figure, [ax] = panels(PAGE, 2.4)
-    ax.plot([0, 1], [14.0, 15.0])
-    is_noted = note_outside([ax], (0.0, 0.2))
-    assert is_noted
-    assert names_for_legend(ax) == ["outside the limits: all values"]
-
-
 def exponents(points: int) -> xr.Dataset:
     """Two exponents at some speeds with errors of 0.1/s, which are not known at the last speed."""
     axes = ["Omega", "exponent_number"]
@@ -385,14 +226,3 @@ def test_curves_of_exponents_show_their_errors(points: int) -> None:
             tops.append(heights.max())
     largest_with_error = study["exponent"][-2].max().item()
     assert max(tops) == pytest.approx(largest_with_error + 0.1)
-
-
-@pytest.mark.parametrize("points", [4, 60])
-def test_errors_of_exponents_have_an_entry(points: int) -> None:
-    study = exponents(points)
-    figure = draw("curve", study, variable="exponent", x="Omega", by="exponent_number")
-    assert [label.replace("\n", " ") for label in labels(figure)] == [
-        "largest exponent",
-        "exponent 2",
-        "± standard error",
-    ]

@@ -1,7 +1,6 @@
 """Figures that are closed leave nothing behind, whatever was known of their axes."""
 
 import gc
-import pickle
 import weakref
 from collections.abc import Callable
 from typing import Any
@@ -49,12 +48,3 @@ def test_a_closed_figure_is_forgotten(name: str) -> None:
     pyplot.close("all")
     gc.collect()
     assert known() is None
-
-
-@pytest.mark.parametrize("name", PICTURES)
-def test_a_copy_of_a_figure_looks_alike(name: str) -> None:
-    figure = drawn_twice(name)
-    copy = pickle.loads(pickle.dumps(figure))
-    for each in (figure, copy):
-        each.draw_without_rendering()
-    assert str(copy.get_tightbbox()) == str(figure.get_tightbbox())

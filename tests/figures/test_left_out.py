@@ -6,14 +6,11 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 from matplotlib.patches import PathPatch
 
 import disc_model as dm
-from disc_model.data.variables import flag_names
 from disc_model.figures.classes import LOOKS
-from disc_model.figures.gap_rows import rows_above
 from tests.figures.reading import as_map
 from tests.figures.test_wishes import legend_texts
 
@@ -81,39 +78,3 @@ def test_masked_points_of_lines_are_left_out(variable: str) -> None:
         heights = np.asarray(line.get_ydata(), dtype=float)
         assert np.isfinite(heights[0])
         assert np.isnan(heights[LEFT_OUT])
-
-
-@pytest.mark.parametrize(
-    ("variable", "reasons"),
-    [("growth_rate", ["no cycle found"]), ("period", ["no cycle found"]), ("status", [])],
-)
-def test_masked_points_of_lines_have_no_reason(variable: str, reasons: list[str]) -> None:
-    ax: Any = dm.plot_sweep(masked(), variable, lines="N")
-    ticks = [text.get_text() for text in ax.get_yticklabels()]
-    assert [row.reason for row in rows_above(ax)] == reasons
-    assert "nan" not in ticks
-
-
-# ---- Words
-
-
-def test_masked_words_are_empty() -> None:
-    words = flag_names(masked()["status"])
-    first, left_out = words[:2]
-    assert first.tolist() == ["ok", "ok", "ok"]
-    assert left_out.tolist() == ["", "", ""]
-
-
-def test_legends_below_maps_have_letters_of_one_size() -> None:
-    """The smaller one stood beside one of usual size."""
-    _, axes = pyplot.subplots(1, 2, figsize=(84 / 25.4, 3), layout="constrained")
-    left, right = axes
-    longer = {
-        word: f"{word}, of several words that need room"
-        for word in ("no cycle found", "left out", "yes")
-    }
-    as_map(masked(), "status", ax=left)
-    as_map(masked(), "stable", ax=right, labels=longer)
-    texts = [text for ax in axes for text in ax.get_legend().get_texts()]
-    sizes = {text.get_fontsize() for text in texts}
-    assert len(sizes) == 1

@@ -11,9 +11,8 @@ from matplotlib.figure import Figure
 from disc_model.data.variables import attributes
 from disc_model.figures.gap_rows import rows_above
 from disc_model.figures.kinds import kind_of
-from disc_model.figures.kinds.base import key_of, unknown
+from disc_model.figures.kinds.base import unknown
 from disc_model.figures.render import render
-from tests.refusals import refusal
 
 SPEEDS = np.linspace(10.0, 15.0, 6)  # rad/s
 PLANE = ("Omega", "N")
@@ -48,25 +47,6 @@ def names_in(figure: Figure) -> list[str]:
     return [text.get_text() for text in legend.get_texts()]
 
 
-# ---- Room
-
-
-def test_a_label_beside_a_panel_ends_below_a_long_title() -> None:
-    """It ran into the title of a figure in one column."""
-    data = study(300.0, 350.0)
-    words = "growth rate of a cycle whose name is nearly as long as its panel"
-    title = "A title that is so long that it spans the whole width of a column"
-    data["growth_rate"].attrs["long_name"] = words
-    figure = drawn(data, width="column", title=title, legend=True)
-    figure.draw_without_rendering()
-
-    [ax] = figure.axes
-    [heading] = figure.texts
-    label = ax.yaxis.label.get_window_extent()
-    box = heading.get_window_extent()
-    assert label.y1 <= box.y0 + 1
-
-
 # ---- Names
 
 
@@ -76,19 +56,6 @@ def three_loads() -> xr.Dataset:
     return study(300.0, 350.0, 400.0)
 
 
-def test_a_line_without_a_point_has_no_name(three_loads: xr.Dataset) -> None:
-    """The legend named a load that is left out."""
-    heavy = three_loads["N"] > 300
-    figure = drawn(three_loads.where(heavy), legend=True)
-    assert names_in(figure) == ["Preload N = 350 N", "400 N"]
-
-
-def test_the_only_line_with_points_has_a_name(three_loads: xr.Dataset) -> None:
-    middle = three_loads["N"] == 350
-    figure = drawn(three_loads.where(middle), legend=True)
-    assert names_in(figure) == ["Preload N = 350 N"]
-
-
 def test_names_are_found_by_value(three_loads: xr.Dataset) -> None:
     """Only the text "300.0" was understood."""
     names = {300: "light", "350": "middle", "4e2": "heavy"}
@@ -96,20 +63,10 @@ def test_names_are_found_by_value(three_loads: xr.Dataset) -> None:
     assert names_in(figure) == ["light", "middle", "heavy"]
 
 
-@pytest.mark.parametrize(("value", "text"), [(0, "0.0"), (0.0, "0.0"), (0.1 + 0.2, "0.3")])
-def test_a_number_and_its_text_have_one_key(value: float, text: str) -> None:
-    assert key_of(value) == key_of(text)
-
-
 @pytest.mark.parametrize(("value", "faults"), [(0, 0), (1, 1)])
 def test_names_of_values_that_there_are_not_are_faults(value: int, faults: int) -> None:
     found = unknown("names", {value: "none"}, "by", [0.0, 0.003])
     assert len([*found]) == faults
-
-
-def test_names_that_are_no_mapping_are_refused(three_loads: xr.Dataset) -> None:
-    with refusal("names"):
-        drawn(three_loads, names=3)
 
 
 def rows_of_gaps(count: int) -> tuple[list[str], int, set[str]]:

@@ -6,30 +6,15 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.collections import LineCollection
-from matplotlib.colors import to_hex, to_rgba
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
-from disc_model.figures import late_range
-from disc_model.figures.cells import (
-    Edges,
-    decades_between,
-    edges_of,
-    lay_over,
-    scale_of,
-    unresolved,
-    unresolved_motions,
-)
-from disc_model.figures.classes import LOOKS, UNRESOLVED
+from disc_model.figures.cells import edges_of, scale_of, unresolved, unresolved_motions
 from disc_model.figures.style import save
 from disc_model.studies.quantities.regions import Regions
-from tests.figures.every_kind import EXAMPLES
 from tests.figures.reading import ON_EACH_SCALE, draw, labels
 
 NORMS = ["as_published", "orthonormal"]
-LOADS = np.linspace(200, 400, 5)
-SPEEDS = np.linspace(5, 18, 9)
 
 # ---- cells
 
@@ -54,24 +39,6 @@ def test_edges_of_cells_are_halfway_on_the_scale_of_the_axis() -> None:
 @pytest.mark.parametrize(
     ("values", "scale"),
     [
-        ([1.0, 2.0, 15.0], "linear"),
-        ([1.0, 2.0, 16.0], "log"),
-        ([0.0, 1.0, 16.0, 20.0, 100.0], "symlog"),
-        ([1.0, 10.0, 16.0], "linear"),
-    ],
-)
-def test_values_over_more_than_a_decade_are_on_a_logarithmic_scale(
-    values: list[float], scale: str
-) -> None:
-    """From a ratio of more than 15 on, if most values lie at the lower end."""
-    places = np.array(values)
-    assert scale_of("m", places) == scale
-    assert scale_of("Omega", places) == "linear"
-
-
-@pytest.mark.parametrize(
-    ("values", "scale"),
-    [
         (np.geomspace(2, 40, 12), "log"),
         (np.geomspace(40, 2, 12), "log"),
         (np.geomspace(1, 10, 3), "log"),
@@ -87,19 +54,6 @@ def test_equal_ratios_over_a_decade_are_on_a_logarithmic_scale(
 ) -> None:
     """Speeds of `numpy.geomspace` stood on a linear axis, most of them at its end."""
     assert scale_of("Omega", values) == scale
-
-
-def test_marks_are_black_on_light_cells_and_white_on_dark_ones() -> None:
-    ax = pyplot.figure().subplots()
-    light = to_rgba(LOOKS["quiet"].face)
-    dark = to_rgba(LOOKS["undecided"].face)
-    nothing = (0.0, 0.0, 0.0, 0.0)  # on the white page
-    edges = Edges(np.arange(4.0), np.arange(2.0))
-    lay_over(ax, edges, np.ones((1, 3), dtype=bool), UNRESOLVED, np.array([[light, dark, nothing]]))
-    inks = [to_hex(patch.get_edgecolor()) for patch in ax.patches]
-    assert inks == ["#000000", "#ffffff"]
-    on_light, on_dark = (centres[:, 1].tolist() for centres in _hatched(ax))
-    assert (on_light, on_dark) == ([0.5, 2.5], [1.5])
 
 
 # ---- outcomes and regions
@@ -163,13 +117,6 @@ def test_regions_have_borders_marks_and_what_does_not_fit(
     assert f"Within 900 s of the static start.\n{contradicted}" in labels(figure)
     path = tmp_path / "map.png"
     save(figure, path)
-
-
-def test_marks_named_by_numbers_are_those_of_figures() -> None:
-    study = made_up("Omega", [5.0, 10, 20], NORMS[:1])
-    marks = {"2": mark(5, 100, "quiet"), "7": mark(20, 400, "separation")}
-    said = labels(draw("region_map", study, x="Omega", y="N", marks=marks))
-    assert {"paper's figure: quiet", "paper's figure: separation"} <= {*said}
 
 
 def test_a_stable_cycle_ends_towards_lower_values_as_well() -> None:
@@ -275,16 +222,6 @@ def test_ranges_late_in_the_motion_are_in_thicknesses() -> None:
     assert not [ax for ax in figure.axes if ax.texts], "lines would lie on it"
 
 
-def test_ticks_of_decades_begin_and_end_at_the_values() -> None:
-    values = np.array([0.01, 0.1, 1.0])
-    ticks = decades_between(values)
-    assert ticks[0] == pytest.approx(0.01)
-    assert ticks[-1] == pytest.approx(1.0)
-    assert len(ticks) == 7
-    from_zero = np.array([0.0, 0.01, 0.1])
-    assert decades_between(from_zero)[0] == pytest.approx(0.01)
-
-
 def test_a_cell_that_none_around_is_like_is_unresolved_unless_it_is_undecided() -> None:
     """A single separation beside two outcomes counted as resolved; a diagonal band is one."""
     q, g, s, u = "quiet", "growing", "separation", "undecided"
@@ -330,29 +267,3 @@ def test_ranges_of_one_model_or_contact_are_drawn(modes: list[str], contacts: li
     drawn = [line for line in figure.axes[0].lines if line.get_linestyle() != "None"]
     assert len(drawn) == len(contacts)
     assert ("separation ignored" in labels(figure)) == (len(contacts) > 1)
-
-
-def test_factors_that_are_equal_are_said_once() -> None:
-    dims = ("Omega", "N", "disc", "contact")
-    axes = {"Omega": [10.0], "N": [8.0], "disc": ["a"], "contact": ["unilateral"]}
-    study = outcomes(dims, axes, np.full((1, 1, 1, 1), 3))
-    study = study.assign(u_max=(dims, np.full((1, 1, 1, 1), 2.0)), u_min=(dims, np.zeros((1,) * 4)))
-    ax = pyplot.figure().subplots()
-    limits = xr.DataArray([1.0], {"N": [8.0]}, ("N",))
-    late_range._say_how_far_beyond(ax, study.sel(disc="a"), limits)
-    assert ax.texts[0].get_text().startswith("with separation: 2 times")
-
-
-@pytest.mark.parametrize("width", ["column", "page"])
-def test_panels_of_regions_are_lettered_as_they_are_read(width: str) -> None:
-    """In a column, growth rates are below their own outcomes."""
-    example = EXAMPLES["region_map"]()
-    [study] = [each for name, each in example.inputs.items() if name == "study"]
-    single = study.squeeze("normalization", drop=True) if "normalization" in study.dims else study
-    models = xr.concat([single.assign_coords(k=value) for value in (2e4, 6e4)], "k")
-    base = {"normalization": "as_published", **json.loads(study.attrs["base"])}
-    models = models.assign_attrs(study.attrs | {"base": json.dumps(base)})
-    figure = draw("region_map", models, by="k", width=width, **example.phrase)
-    lettered = [ax for ax in figure.axes if ax.get_title(loc="left").startswith("(")]
-    lettered.sort(key=lambda ax: (-round(ax.get_position().y0, 2), ax.get_position().x0))
-    assert [ax.get_title(loc="left")[1] for ax in lettered] == list("abcd")

@@ -4,10 +4,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 
 import disc_model as dm
-from tests.figures.reading import labels
 
 LOADS = [200.0, 385.0, 600.0]  # N
 
@@ -25,12 +23,3 @@ def test_a_missing_word_along_an_axis_is_named(nothing: Any) -> None:
     ax = dm.plot_sweep(sizes.assign_coords(word=("N", words)), "size", x="word")
     ax.figure.canvas.draw()
     assert [text.get_text() for text in ax.get_xticklabels()] == ["a", "missing", "c"]
-
-
-@pytest.mark.parametrize("nothing", ["", None, np.nan])
-def test_a_line_of_a_missing_word_is_named(nothing: Any) -> None:
-    """It had no name in the legend, or was an error."""
-    words = np.array(["a", nothing, "c"], dtype=object)
-    sizes = xr.DataArray(np.eye(3), {"word": words, "N": LOADS}, name="size")
-    ax = dm.plot_sweep(sizes.to_dataset(), "size")
-    assert {*labels(ax.figure)[0:3]} == {"a", "missing", "c"}

@@ -1,51 +1,31 @@
 """Figures of motions over one parameter: bifurcation diagrams, basins, ramps; the range law,
 and locking."""
 
-import re
-from collections.abc import Sequence
-
 import numpy as np
 import pytest
 import xarray as xr
 from matplotlib import pyplot
-from matplotlib.colors import to_hex, to_rgb
-from matplotlib.figure import Figure
-from matplotlib.text import Annotation, Text
+from matplotlib.colors import to_rgb
+from matplotlib.text import Annotation
 
-from disc_model.figures import bifurcation_exponents, bifurcation_samples
-from disc_model.figures import campbell as campbell_diagram
+from disc_model.figures import bifurcation_exponents
 from disc_model.figures import ramps as drawn
 from disc_model.figures.basins import LARGEST
-from disc_model.figures.bifurcation_samples import MARKS
 from disc_model.figures.borders import Curve
 from disc_model.figures.branch_lines import stable_segments
-from disc_model.figures.branches import LOWEST, Sweep
-from disc_model.figures.branches import _draw_sweep as draw_sweep
-from disc_model.figures.campbell_peaks import Column, Peak, peaks, unjoined
-from disc_model.figures.classes import LOOKS, lightness
-from disc_model.figures.drawing import BLACK, GREY, OPEN_RING, OPEN_STEP, SEPARATED
-from disc_model.figures.kind_rows import SAMPLES, SHAPES
-from disc_model.figures.late_range import LOAD_COLOURS, LOAD_WIDTHS, LOST
-from disc_model.figures.locking import NEVER_STICKS, TOP, _draw_steps, _Step
-from disc_model.figures.names import Names
-from disc_model.figures.rate_scale import ANOTHER_CYCLE
+from disc_model.figures.campbell_peaks import peaks
+from disc_model.figures.classes import LOOKS
+from disc_model.figures.drawing import BLACK, GREY, SEPARATED
+from disc_model.figures.locking import TOP
 from disc_model.figures.sliding_outcome import percent
 from disc_model.figures.types import Axes
 from disc_model.studies.quantities.branches import Branches
 from disc_model.studies.quantities.ramps import Ramps
 from disc_model.studies.quantity import STATUSES
 from disc_model.studies.reading import StudyError
-from tests.figures.described import bifurcation as bifurcation_of_motions
-from tests.figures.described import (
-    branches,
-    campbell,
-    campbell_study,
-    of_example,
-    sensitivity,
-    sliding_modes,
-)
-from tests.figures.every_kind import flag
-from tests.figures.reading import assert_fit_for_print, crosses, draw, labels, lines
+from tests.figures.made_up import bifurcation as bifurcation_of_motions
+from tests.figures.made_up import campbell, of_example, sensitivity, sliding_modes
+from tests.figures.reading import crosses, draw, labels, lines
 from tests.studies.conftest import computed, made_up_samples, with_failed
 from tests.studies.quantities.test_basins import Made, made
 
@@ -86,16 +66,6 @@ def test_periods_have_no_number_below_one() -> None:
     assert min(axis.get_majorticklocs()) == 1
 
 
-def test_a_gap_between_exponents_is_explained() -> None:
-    samples, exponents = made_up_samples()
-    said = "line open: another motion"
-    assert said not in labels(draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2])
-    exponents["exponent"][:] = [[0.3], [-0.2], [-0.21]]
-    ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
-    assert said in labels(ax)
-    assert lines(ax)[said].get_marker() is OPEN_STEP, "there was no sample of such a line"
-
-
 @pytest.mark.parametrize("seen_by", ["kind", "period_events"])
 def test_all_exponents_are_open_where_samples_show_another_motion(seen_by: str) -> None:
     samples, exponents = made_up_samples()
@@ -109,18 +79,6 @@ def test_all_exponents_are_open_where_samples_show_another_motion(seen_by: str) 
     assert "line open: another motion" in labels(ax)
 
 
-def test_rings_of_motions_that_have_not_settled_do_not_merge() -> None:
-    values = np.array([np.linspace(20.0, 30.0, 200), np.linspace(20.0, 70.0, 200)])
-    chosen = np.ones(values.shape, dtype=bool)
-    chosen[1] = False
-    rings = bifurcation_samples.apart(values, chosen)
-    assert not rings[1].any()
-    heights = values[0, rings[0]]
-    assert heights[0] == 20.0
-    assert np.diff(heights).min() >= bifurcation_samples.RINGS_APART * 50.0
-    assert heights[-1] > 30.0 - 2 * bifurcation_samples.RINGS_APART * 50.0
-
-
 def test_places_between_samples_belong_to_no_side_of_a_change() -> None:
     samples, _ = made_up_samples()
     samples["period_events"][:] = [1, 1, 2]
@@ -129,29 +87,6 @@ def test_places_between_samples_belong_to_no_side_of_a_change() -> None:
         samples, along, np.array([1.0, 2 - 1e-12, 2.5, 2.6, 3])
     )
     assert changes.tolist() == [False, True, True, True]
-
-
-def test_bands_of_exponents_are_as_wide_as_the_legend_says() -> None:
-    samples, exponents = made_up_samples()
-    exponents["exponent_error"] = 0.2 * exponents["exponent_error"]
-    ax = draw("bifurcation", samples, {"lyapunov": exponents}, x="N").axes[2]
-    [errors] = re.findall(r"± (\d+) standard errors", " ".join(labels(ax)))
-    heights = ax.collections[0].get_paths()[0].vertices[:, 1]
-    half_width = 0.2 * int(errors)
-    assert (heights.min(), heights.max()) == pytest.approx((1 - half_width, 1 + half_width))
-
-
-def test_the_height_of_rest_is_no_range_of_its_own() -> None:
-    """Rest and ranges that are not distinguished from it stand at one height, the last tick."""
-    figure = branches()
-    [ax] = figure.axes
-    figure.canvas.draw()
-    shown = [*zip(ax.get_yticks(), ax.get_yticklabels(), strict=True)]
-    texts = {height: text.get_text() for height, text in shown}
-    assert texts[LOWEST].startswith("≤")
-    assert sum(text.startswith("≤") for text in texts.values()) == 1
-    assert min([*ax.get_yticks(), *ax.get_yticks(minor=True)]) == LOWEST
-    assert min(min(line.get_ydata()) for line in ax.lines[:-1]) == LOWEST
 
 
 def test_stable_stretches_are_thick_and_jumps_have_arrows(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -294,14 +229,6 @@ def test_bars_have_intervals_also_where_no_start_or_each_separates(
     assert "95 % interval of the share that separates" in labels(figure)
 
 
-def test_panels_of_shares_in_a_column_have_numbers_below_them(shares: xr.Dataset) -> None:
-    """Below each other, panels of shares had ticks and a name, but no numbers."""
-    figure = draw("basins", shares, x="Omega", width="column")
-    for ax in figure.axes:
-        assert any(text.get_text() for text in ax.get_xticklabels())
-        assert ax.xaxis.get_tick_params()["labelbottom"]
-
-
 # ---- ramps
 
 
@@ -376,27 +303,6 @@ def test_the_limit_of_slow_ramps_is_below_all_onsets(monkeypatch: pytest.MonkeyP
 
 
 # ---- branches and peaks
-
-
-def test_a_sweep_has_an_arrow_where_its_range_jumps_by_more_than_ten() -> None:
-    _, ax = pyplot.subplots()
-    heights = np.array([1.0, 9.0, 1.0, 11.0, 0.9])
-    every = np.ones(5, dtype=bool)
-    draw_sweep(ax, Sweep(np.arange(5.0), heights, ~every, every, "^"))
-    arrows = [text for text in ax.texts if text.arrow_patch is not None]
-    assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(2.0, 3.0), (3.0, 4.0)]
-    pyplot.close("all")
-
-
-def test_a_sweep_has_an_arrow_where_it_leaves_or_reaches_steady_sliding() -> None:
-    """A caption spoke of arrows, and a cycle of some micrometres had none."""
-    _, ax = pyplot.subplots()
-    heights = np.array([4.0, 3.0, 1.0, 1.0, 2.0]) * LOWEST
-    every = np.ones(5, dtype=bool)
-    draw_sweep(ax, Sweep(np.arange(5.0), heights, ~every, every, "^"))
-    arrows = [text for text in ax.texts if text.arrow_patch is not None]
-    assert [(arrow.xyann[0], arrow.xy[0]) for arrow in arrows] == [(1.0, 2.0), (3.0, 4.0)]
-    pyplot.close("all")
 
 
 def test_peaks_are_the_highest_rates_from_a_tenth_on_with_their_crossings() -> None:
@@ -475,42 +381,6 @@ def _said(ax: Axes) -> list[str]:
     return [text.get_text() for text in ax.texts]
 
 
-def test_the_scatter_of_ranges_is_drawn_whole_on_a_linear_axis_and_counted() -> None:
-    """Logarithmic axes of both ranges hid it."""
-    whole, enlarged = draw("range_law", separating_motions()).axes
-    low, high = whole.get_ylim()
-    assert whole.get_yscale() == "linear"
-    assert low < -5 < 90 < high, "nothing is cut, and the band is there"
-    assert _said(whole) == ["within 5 % (grey):\n2 of 2 filled\n0 of 1 hollow"]
-    assert "higher: see (a)" in _said(enlarged)
-
-    inside = separating_motions()
-    inside["deviation"][:] = inside["deviation"] / 10
-    _, enlarged = draw("range_law", inside).axes
-    assert "higher: see (a)" not in _said(enlarged)
-
-
-def test_what_no_motion_is_has_no_mark_in_the_legend_and_no_number() -> None:
-    """All are filled; words stand in a corner without points."""
-    study = separating_motions()
-    single = study["vibration_share"].copy(data=np.ones((2, 2)))
-    figure = draw("range_law", study.assign(vibration_share=single, force_share=single))
-    assert not [name for name in labels(figure) if name.startswith("no frequency")]
-    [note] = figure.axes[0].texts
-    assert note.get_text() == "within 5 % (grey):\n2 of 3 filled"
-    box = note.get_window_extent()
-    for line in figure.axes[0].lines:
-        if line.get_marker() in ("o", "^", "s") and line.get_xdata().size:
-            assert not box.count_contains(line.get_transform().transform(line.get_xydata()))
-
-
-def test_the_curve_of_the_range_law_is_named_in_the_legend() -> None:
-    """Its words in the panel lay on the curve and on motions."""
-    figure = draw("range_law", separating_motions())
-    assert any("from flights" in text.get_text() for text in figure.legends[0].get_texts())
-    assert not any("from flights" in text for text in _said(figure.axes[1]))
-
-
 # ---- locking
 
 
@@ -563,31 +433,6 @@ def test_motions_without_a_release_stand_above_the_axis_of_separations_per_relea
     assert max(max(line.get_ydata()) for line in ax.lines if line.get_marker() == "o") < end
 
 
-def test_zooms_stand_below_each_other_in_a_column() -> None:
-    """Beside each other they had no room for the names of their steps."""
-    study = locked_at([19.8, 19.9, 20.0], [34, 35, 36], [371, 372, 373])
-    phrase = {"x": "Omega", "zooms": [[19.8, 19.85], [19.9, 20.0]]}
-    shapes = {}
-    for width in ("page", "column"):
-        figure = draw("staircase", study, width=width, **phrase)
-        shapes[width] = figure.axes[0].get_subplotspec().get_gridspec().get_geometry()
-    assert shapes == {"page": (2, 2), "column": (3, 1)}
-
-
-def test_a_column_names_motions_that_never_stick_in_its_legend() -> None:
-    """The words above the steps were cut at the figure's edge."""
-    study = locked_at([19.8, 19.9], [34, 35], [371, 372])
-    slipping = locked_at([19.8, 19.9], [0, 0], [0, 0])
-    slipping["motion"][:] = 2
-    for width, in_legend in (("page", False), ("column", True)):
-        figure = draw("staircase", study, {"slipping": slipping}, width=width, x="Omega")
-        words = [text.get_text() for legend in figure.legends for text in legend.get_texts()]
-        assert (words == [NEVER_STICKS]) is in_legend
-        said = [text.get_text() for text in figure.axes[0].texts]
-        assert (NEVER_STICKS in said) is not in_legend
-        assert_fit_for_print(figure)
-
-
 def test_periods_of_other_separations_are_other_steps() -> None:
     study = locked_at([19.8, 19.9, 20.0], [34, 34, 34], [371, 372, 372])
     (ax,) = draw("staircase", study, x="Omega").axes
@@ -626,32 +471,6 @@ def test_the_map_of_phases_names_the_pieces_near_the_motion() -> None:
     assert rings[0].get_xydata().tolist() == [[0.76, 0.86], [0.86, 0.81]]
 
 
-def test_phases_have_marks_of_their_own() -> None:
-    """In grey print, dots of slip and separation were alike."""
-    assert len({look["marker"] for look in MARKS.values()}) == len(MARKS)
-
-
-def test_each_mark_of_a_bifurcation_diagram_has_one_meaning() -> None:
-    """Crosses were failed points, samples at release of stick, and motions not shown to repeat."""
-    for section in ("stroboscopic", "event"):
-        figure = bifurcation_of_motions(section)
-        crosses = [line for ax in figure.axes for line in ax.lines if line.get_marker() == "x"]
-        assert {line.get_label() for line in crosses} == {"failed"}
-    assert not {look["marker"] for look in MARKS.values()} & {*SHAPES.values(), *SAMPLES, "x"}
-    pyplot.close("all")
-
-
-def test_motions_that_are_not_shown_to_repeat_stand_on_the_strip_below_periods() -> None:
-    """A mark on the lowest row of a low panel was cut by its edge, and so was that of the highest period."""
-    ax = bifurcation_of_motions(width="column").axes[1]
-    [strip] = ax.patches
-    [line] = [line for line in ax.lines if line.get_label() == "not shown to repeat"]
-    assert line.get_xdata().tolist() == [10.0]
-    assert 0 < line.get_ydata()[0] < strip.get_height()
-    assert not [line for line in ax.lines if line.get_marker() != "None" and line.get_clip_on()]
-    pyplot.close("all")
-
-
 def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> None:
     """Of four starts that were computed two separate, and one more has failed."""
     dims = ("N", "perturbation_u")
@@ -676,81 +495,11 @@ def test_the_share_of_starts_that_have_separated_rises_at_each_separation() -> N
     assert counted.get_window_extent().x0 > ax.bbox.x1, "no line is there"
 
 
-def test_intervals_of_shares_end_where_they_end_and_are_named() -> None:
-    """That of no start among 40 reached below zero by its cap."""
-    figure = of_example("escape")
-    intervals = [line for line in figure.axes[0].lines if line.get_alpha()]
-    assert {line.get_solid_capstyle() for line in intervals} == {"butt"}
-    assert "95 % interval of the share" in labels(figure)
-
-
-def test_intervals_of_shares_stand_beside_each_other() -> None:
-    """In grey print nothing told where that of one share ended and that of another began."""
-    (ax,) = of_example("escape").axes
-    ax.figure.draw_without_rendering()
-    boxes = [line.get_window_extent() for line in ax.lines if line.get_alpha()]
-    assert len(boxes) == 2
-    assert not boxes[0].overlaps(boxes[1])
-    pyplot.close("all")
-
-
-def test_the_words_of_steady_sliding_stand_above_the_axis() -> None:
-    """In a column of a page their white outline cut the line of the axis."""
-    (ax,) = branches(width="column").axes
-    ax.figure.draw_without_rendering()
-    [said] = [text for text in ax.texts if "steady sliding" in text.get_text()]
-    assert said.get_window_extent().y0 > ax.bbox.y0 + 1
-    pyplot.close("all")
-
-
 def test_preloads_of_late_ranges_have_their_symbol() -> None:
     """ "0.12 kN" stood for a line, and nothing said of what."""
     said = labels(of_example("late_range"))
     assert "N = 0.12 kN" in said
     pyplot.close("all")
-
-
-def test_shares_of_starts_differ_in_grey_print() -> None:
-    """Two full lines of orange and blue were of nearly one grey."""
-    (ax,) = of_example("escape").axes
-    named = [line for line in ax.lines if not line.get_label().startswith("_")]
-    assert len(named) > 1
-    assert len({line.get_linestyle() for line in named}) == len(named)
-
-
-def test_marks_of_a_sweep_differ_in_grey_print() -> None:
-    """What separates and what is not settled were two triangles of nearly one grey."""
-    figure = branches()
-    names = [text.get_text() for text in figure.legends[0].get_texts()]
-    marks = dict(zip(names, figure.legends[0].legend_handles, strict=True))
-    separating = marks["simulated, separating"]
-    unsettled = marks["simulated, not settled, or undecided"]
-    assert lightness(to_hex(separating.get_markerfacecolor())) > 0.9
-    assert lightness(to_hex(unsettled.get_markerfacecolor())) < 0.4
-
-
-def test_a_campbell_diagram_names_its_lines_marks_and_bands() -> None:
-    said = labels(campbell())
-    assert r"multiple of $f_s$ or $f_Ω$" in said
-    assert "peak at a crossing" in said
-    assert "no cycle found" in said
-
-
-def test_marks_and_multiples_of_a_campbell_diagram_are_those_that_there_are() -> None:
-    """A peak that steps do not resolve is hollow in both panels, and no frequency is named of which
-    no multiple is there."""
-    study = campbell_study()
-    study["growth_rate"][[4, 11]] = -0.05  # the points before the peaks
-    study["crossing_line"][:] = study["crossing_line"][0]
-    figure = draw("campbell", study)
-    faces = {
-        line.get_markerfacecolor()
-        for ax in figure.axes
-        for line in ax.lines
-        if line.get_marker() == "o" and line.get_markersize() > 3
-    }
-    assert faces == {"white"}
-    assert "multiple of $f_s$" in labels(figure)
 
 
 def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> None:
@@ -759,41 +508,6 @@ def test_frequencies_of_a_campbell_diagram_end_at_the_highest_asked_for() -> Non
     named = {text.get_text() for text in above.texts}
     assert "l = 2" in named
     assert "l = 3" not in named, "its mode ends at 182 Hz"
-
-
-@pytest.mark.parametrize(
-    ("highest", "cut", "peak", "triangles", "multiples"),
-    [
-        ("200 Hz", [], "peak at a crossing", [], ["multiple of $f_s$ or $f_Ω$"]),
-        (
-            "145 Hz",
-            ["cut at 145 Hz: 2 modes above"],
-            "peak at a crossing",
-            [],
-            ["multiple of $f_s$ or $f_Ω$"],
-        ),
-        (
-            "100 Hz",
-            ["cut at 100 Hz: 2 modes above"],
-            "peak at a crossing",
-            [10.52],
-            ["multiple of $f_Ω$"],
-        ),
-        ("2 Hz", ["cut at 2 Hz: 3 modes above"], "peak of growth", [10.52, 14.1], []),
-    ],
-)
-def test_a_campbell_diagram_says_what_lies_above_its_highest_frequency(
-    highest: str, cut: list[str], peak: str, triangles: list[float], multiples: list[str]
-) -> None:
-    """Crossings above it had a mark in the legend, and their modes were left out without a word."""
-    figure = campbell(highest=highest)
-    said = labels(figure)
-    assert [text for text in said if text.startswith("cut at")] == cut
-    assert peak in said
-    assert (f"crossing above {highest}" in said) == bool(triangles)
-    assert [text for text in said if "multiple of" in text] == multiples
-    marked = [line for line in figure.axes[0].lines if line.get_marker() == "^"]
-    assert sorted(round(line.get_xdata()[0], 2) for line in marked) == triangles
 
 
 def test_sliding_modes_above_the_highest_frequency_are_counted() -> None:
@@ -809,230 +523,8 @@ def test_lines_of_sliding_modes_and_of_probabilities_are_named() -> None:
     assert "all of its values" in labels(sensitivity())
 
 
-def test_lines_of_sliding_modes_are_as_wide_as_in_the_legend() -> None:
-    """Dots at many values had made a thin line thick, and grey lines had covered black ones."""
-    figure = sliding_modes()
-    for ax in figure.axes:
-        drawn = [line for line in ax.lines if line.get_marker() == "."]
-        for line in drawn:
-            dot = 0.5 * line.get_markersize() + line.get_markeredgewidth()
-            assert dot <= line.get_linewidth() + 1e-9
-        grows = [line.get_zorder() for line in drawn if line.get_color() == BLACK]
-        decays = [line.get_zorder() for line in drawn if line.get_color() == GREY]
-        assert min(grows) > max(decays)
-
-
-def test_names_in_a_row_stay_apart() -> None:
-    figure = pyplot.figure(figsize=(4, 2))
-    ax = figure.subplots()
-    ax.set(xlim=(0, 1), ylim=(0, 1))
-    names = Names(ax, beside=12.0)
-    for place in (0.4, 0.5):
-        names.add("l = 3", (place, 0.5), [(0, 3), (4, 3)])
-    figure.draw_without_rendering()
-    left, right = (text.get_window_extent() for text in ax.texts)
-    assert right.x0 - left.x1 >= 12.0 / 72 * figure.dpi
-    pyplot.close("all")
-
-
-def test_lines_of_phases_differ_in_grey_print() -> None:
-    """A thin line of stick was like one of slip."""
-    [ax] = of_example("portrait").axes
-    looks = {
-        line.get_label(): (line.get_linewidth(), bool(line.get_path_effects())) for line in ax.lines
-    }
-    assert len(looks) == 3
-    assert len({*looks.values()}) == 3
-    dashed = [line.get_label() for line in ax.lines if line.is_dashed()]
-    assert dashed == ["separation"]
-    # where slip runs along stick, the colour of stick is seen on either side
-    assert looks["stick"][0] > 3 * looks["slip"][0]
-
-
-def test_preloads_of_late_ranges_differ_in_grey_print() -> None:
-    """Shades of the second and third were alike."""
-    assert len({*map(str, LOST)}) == len(LOAD_COLOURS), "also lines at which contact is lost"
-    shades = [lightness(colour) for colour in LOAD_COLOURS[:3]]
-    assert min(np.diff(shades)) > 0.2
-    widths = np.array(LOAD_WIDTHS)
-    assert widths.size == len(LOAD_COLOURS)
-    # in a column lines of black and blue were alike
-    assert min(abs(np.diff(np.log(widths)))) > np.log(1.3)
-
-
 @pytest.mark.parametrize(
     ("share", "text"), [(0.0, "0 %"), (0.004, "< 1 %"), (0.006, "1 %"), (0.52, "52 %")]
 )
 def test_a_share_that_rounds_to_nothing_is_told_from_none(share: float, text: str) -> None:
     assert percent(share) == text.replace(" ", "\u00a0")
-
-
-def test_a_sweep_that_separates_is_named_even_if_no_branch_does() -> None:
-    names = labels(branches(separations=(0, 0)))
-    assert "simulated, separating" in names
-    assert "jump" in names
-
-
-def with_crossings(study: xr.Dataset, crossings: Sequence[xr.Dataset]) -> xr.Dataset:
-    """A study with a table of crossings."""
-    table = {}
-    for name in ("crossing_Omega", "crossing_frequency", "crossing_multiple"):
-        values = [float(crossing[name]) for crossing in crossings]
-        table[name] = ("crossing", np.array(values))
-    return study.assign(table)
-
-
-CALM = [-0.05, -0.05, -0.05, -0.05, -0.05]
-
-
-@pytest.mark.parametrize(
-    ("rates", "name"),
-    [
-        ([-0.05, -0.05, np.nan, -0.05, -0.05], "no growth rate"),
-        ([-0.05, -0.05, -0.30, -0.05, -0.05], ANOTHER_CYCLE),
-        ([-0.05, -0.05, -0.30, -0.30, -0.30], ANOTHER_CYCLE),
-    ],
-)
-def test_what_one_of_two_campbell_diagrams_shows_is_named(rates: list[float], name: str) -> None:
-    speeds = np.arange(5.0)
-    columns = []
-    for heights in (CALM, rates):
-        rate = ("Omega", np.array(heights))
-        study = xr.Dataset({"growth_rate": rate}, {"Omega": speeds})
-        study["sliding_frequency"] = 10 * study["Omega"]
-        columns.append(campbell_diagram.column_of(with_crossings(study, [])))
-    figure = Figure(figsize=(7, 4))
-    campbell_diagram._legend(figure, columns)
-    shown = labels(figure)
-    assert name in shown
-    [legend] = figure.legends
-    samples = dict(zip(shown, legend.legend_handles, strict=True))
-    if name == ANOTHER_CYCLE:
-        shape = samples[name].get_marker()
-        expected = OPEN_RING if unjoined(np.array(rates)).any() else OPEN_STEP
-        assert np.array_equal(shape.vertices, expected.vertices), "there was no sample of it"
-    assert not [text for text in shown if text.startswith("peak")]
-    figure = Figure(figsize=(7, 4))
-    campbell_diagram._legend(figure, columns[:1])
-    assert name not in labels(figure)
-
-
-@pytest.mark.parametrize(
-    ("rates", "alone"),
-    [
-        ([0.00, 0.15, 0.00], [True, True, True]),
-        ([0.00, 0.05, 0.20], [False, False, True]),
-        ([0.00, 0.05, 0.00], [False, False, False]),
-        ([0.00, np.nan, 0.00], [True, False, True]),
-        ([8.0, 9.0, 10.0], [False, False, False]),
-        ([8.0, 9.0, 40.0], [False, False, True]),
-        ([-1.5, -0.5, 0.5, 1.5], [False, False, False, False]),
-    ],
-)
-def test_rates_that_no_line_of_a_sweep_joins_are_alone(
-    rates: list[float], alone: list[bool]
-) -> None:
-    """Large ones were alone at any step over 0.1/s, as of a disc that squeals."""
-    found = unjoined(np.array(rates))
-    assert found.tolist() == alone
-
-
-def test_names_of_steps_stay_within_the_panel() -> None:
-    """At the lower end of a zoom, words stood on the numbers beside the axis."""
-    ax = pyplot.figure(figsize=(3.3, 2.2)).subplots()
-    steps = [_Step(19.8, 19.95, 10.9, 34), _Step(20.05, 20.05, 10.85, 117)]
-    _draw_steps(ax, steps, np.array([19.945, 20.055]))
-    ax.figure.draw_without_rendering()
-    assert [text.get_text() for text in ax.texts] == ["34 releases", "117"]
-    for text in ax.texts:
-        box = text.get_window_extent()
-        assert ax.bbox.x0 <= box.x0
-        assert box.x1 <= ax.bbox.x1
-    pyplot.close("all")
-
-
-def crossing_at(speed: float, frequency: float, multiple: float = 4.0) -> xr.Dataset:
-    """A crossing of a mode with a multiple of the frequency of stick-slip."""
-    return xr.Dataset(
-        {
-            "crossing_Omega": speed,
-            "crossing_frequency": frequency,
-            "crossing_multiple": multiple,
-            "crossing_line": flag((), "stick_slip", ("none", "stick_slip")),
-        }
-    )
-
-
-EVEN_SPEEDS = (10.0, 12.5, 15.0, 17.5, 20.0)
-
-
-def meetings(*found: Peak, speeds: Sequence[float] = EVEN_SPEEDS) -> Column:
-    """A study of two modes whose peaks are those that are given."""
-    rates = np.full(5, 0.3)
-    modes = np.repeat([[240.0, 270.0]], 5, axis=0)
-    study = xr.Dataset(
-        {"growth_rate": ("Omega", rates), "sliding_frequency": (("Omega", "mode"), modes)},
-        {"Omega": [*speeds]},
-    )
-    study["stick_slip_frequency"] = ("Omega", np.full(5, 60.0))
-    crossings = [peak.crossing for peak in found if peak.crossing is not None]
-    return Column(with_crossings(study, crossings), [*found])
-
-
-def with_names(column: Column) -> Axes:
-    """The upper of two panels, with the names of the crossings of a study alone."""
-    _, [top, bottom] = pyplot.subplots(2, 1, figsize=(3.3, 5.0))
-    top.set(xlim=(10, 20), ylim=(0, 700))
-    bottom.set(xlim=(10, 20), ylim=(0, 1))
-    campbell_diagram.name_peaks(top, bottom, column)
-    top.figure.draw_without_rendering()
-    return top
-
-
-def test_names_of_crossings_stand_at_their_own_peak() -> None:
-    """A name stood beside the line of another peak."""
-    first = Peak(2, crossing_at(12.5, 270.0))
-    second = Peak(1, crossing_at(11.7, 600.0))
-    speeds = [10.0, 11.7, 12.5, 16.0, 20.0]
-    top = with_names(meetings(first, second, speeds=speeds))
-    name = top.texts[0]
-    box = Text.get_window_extent(name)
-    own, _ = top.transData.transform((12.5, 0))
-    other, _ = top.transData.transform((11.7, 0))
-    assert name.get_visible()
-    assert other < own < box.x0, "on the side away from the other line"
-    pyplot.close("all")
-
-
-def test_names_of_crowded_crossings_are_led_to_them() -> None:
-    """Of five crossings, two had no name."""
-    speeds = [14.6, 14.8, 15.0, 15.2, 15.4]
-    found = [Peak(2, crossing_at(speed, 270.0, speed)) for speed in speeds]
-    top = with_names(meetings(*found))
-    shown = [name for name in top.texts if name.get_visible()]
-    assert len(shown) >= 4
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("is_open", [True, False])
-def test_a_legend_has_marks_of_peaks_as_they_are_drawn(is_open: bool) -> None:
-    """It had a filled mark where all marks were hollow."""
-    peak = Peak(2, crossing_at(15.0, 270.0), is_open)
-    column = meetings(peak)
-    entries = campbell_diagram.entries_of([column], 700)
-    said = [entry.get_label() for entry in entries]
-    entry = entries[said.index("peak at a crossing")]
-    assert entry.get_marker() == "o"
-    assert (entry.get_markerfacecolor() == "white") == is_open
-
-
-def test_names_of_crossings_cover_no_line() -> None:
-    """A multiple was written on the line of another mode, below the one that it meets."""
-    peak = Peak(2, crossing_at(15.0, 270.0))
-    top = with_names(meetings(peak))
-    [name] = top.texts
-    assert name.get_visible()
-    box = Text.get_window_extent(name)
-    heights = [top.transData.transform((15.0, height))[1] for height in (240.0, 270.0)]
-    assert not [height for height in heights if box.y0 <= height <= box.y1]
-    pyplot.close("all")

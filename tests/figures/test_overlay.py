@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from matplotlib import pyplot
 from matplotlib.colors import to_hex
-from matplotlib.lines import Line2D
 
 import disc_model as dm
 from tests.figures.test_wishes import legend_texts
@@ -108,17 +107,6 @@ def test_cases_have_looks_names_and_common_limits(name: str, own: bool) -> None:
         assert "15 rad/s" not in first.figure.get_suptitle()
 
 
-def test_phases_and_separations_of_a_run_are_not_those_of_others() -> None:
-    """The shades of the first stayed, under a legend of the second."""
-    ax = DRAWN["run"](15.0)
-    assert ax.collections
-    DRAWN["run"](25.0, ax=ax)
-    assert len(ax.collections) == len(ax.texts) == 0
-    ax.clear()
-    DRAWN["run"](15.0, ax=ax)
-    assert ax.collections, "alone again"
-
-
 def test_a_reader_names_cases() -> None:
     _, ax = pyplot.subplots(layout="constrained")
     run(15.0).plot("late", variables=["u"], ax=ax, labels={"case": "slow"})
@@ -129,25 +117,6 @@ def test_a_reader_names_cases() -> None:
     assert "25 rad/s" in legend_texts(ax)[1]
     with refusal(r"labels\.case"):
         run(25.0).plot("late", variables=["u"], ax=ax, labels={"case": 3})  # type: ignore[dict-item]
-
-
-def test_what_a_reader_has_drawn_stays() -> None:
-    _, ax = pyplot.subplots(layout="constrained")
-    (measured,) = ax.plot([7.6, 7.9], [-80.0, 80.0], label="measured")
-    for speed in SPEEDS:
-        DRAWN["run"](speed, ax=ax)
-    assert measured in ax.lines
-    assert ax.get_ylim()[0] <= -80
-    assert ax.get_ylim()[1] >= 80
-
-
-def test_other_panels_keep_their_phases() -> None:
-    axes = run(15.0).plot("late")
-    run(25.0).plot("late", variables=["w"], ax=axes[1])
-    assert axes[0].collections
-    assert not axes[1].collections
-    assert len(axes[0].figure.legends) == 1
-    assert legend_texts(axes[0]) == ["stick", "slip", *OF_RUNS]
 
 
 def test_runs_are_told_apart_by_their_ramps() -> None:
@@ -172,35 +141,6 @@ def test_curves_of_several_cases_are_told_apart() -> None:
     assert texts[:2] == ["N = 385 N", "N = 380 N"]
     assert "solid: cycle loses stability" in texts, "grey ones were those of a case in grey print"
     assert {"#000000", "#009e73"} <= {to_hex(line.get_color()) for line in ax.lines}  # type: ignore[attr-defined]
-
-
-def test_both_spectra_go_on_to_the_end_of_the_axis() -> None:
-    """One ended where its own lines do, as if it had nothing beyond, and had a line there."""
-    _, ax = pyplot.subplots()
-    for speed in SPEEDS:
-        run(speed).plot_spectrum("late", ax=ax)
-    ends = [line.get_xdata()[-1] for line in ax.lines if np.size(line.get_xdata()) > 2]
-    assert len(ends) == 2
-    assert min(ends) >= ax.get_xlim()[1]
-
-
-@pytest.mark.parametrize("kind", ["portrait", "spectrum"])
-def test_every_line_of_many_cases_shows_below_thinner_ones(kind: str) -> None:
-    """The fourth was as thin as the first, and lay under the wide line of the third."""
-    slow, fast = SPEEDS
-    _, ax = pyplot.subplots(layout="constrained")
-    for speed in (slow, fast, slow, fast, slow):
-        DRAWN[kind](speed, ax=ax)
-    shown = [line for line in ax.lines if np.size(line.get_xdata()) > 2]
-    from_below = sorted(shown, key=Line2D.get_zorder)
-    widths = [line.get_linewidth() for line in from_below]
-    steps = np.diff(widths)
-    assert len(widths) == 5
-    assert steps.max() < -0.9, "an edge of 0.45 points shows on each side"
-
-    samples = ax.get_legend().get_lines()
-    of_samples = [line.get_linewidth() for line in samples]
-    assert sorted(of_samples, reverse=True) == widths
 
 
 def test_cases_of_one_name_are_told_apart() -> None:

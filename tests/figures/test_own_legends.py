@@ -2,7 +2,6 @@
 
 import numpy as np
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
 
 import disc_model as dm
@@ -55,25 +54,3 @@ def test_classes_of_a_map_are_entries_of_a_legend() -> None:
     legend = ax.legend()
     patches = [patch for patch in legend.get_patches() if patch.get_hatch()]
     assert len(patches) == len(usual)
-
-
-def test_entries_take_no_room() -> None:
-    _, (with_entries, without) = pyplot.subplots(1, 2)
-    for ax in (with_entries, without):
-        as_map(rates(), "stick_fraction", ax=ax, legend=False)
-    for patch in without.patches[:]:
-        patch.remove()
-    limits = with_entries.get_xlim(), with_entries.get_ylim()
-    assert limits == (without.get_xlim(), without.get_ylim())
-    assert with_entries.get_tightbbox().height == without.get_tightbbox().height
-
-
-def test_branches_without_a_legend_have_the_entries_of_all_of_them() -> None:
-    _, (usual, ax) = pyplot.subplots(1, 2, figsize=(12, 4))
-    for load in (385, 390):
-        case = dm.Parameters(N=load, Omega=15)
-        branch = dm.continue_cycle(case, "Omega", (14.8, 15.2))
-        branch.plot("period", ax=usual)
-        branch.plot("period", ax=ax, legend=False)
-    said = [text.get_text() for text in usual.get_legend().get_texts()]
-    assert sorted(entries(ax)) == sorted(said)

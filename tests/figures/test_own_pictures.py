@@ -3,7 +3,6 @@ them."""
 
 import functools
 import re
-from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
@@ -16,26 +15,20 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import disc_model as dm
-from disc_model.analysis.spectra import Resonance
 from disc_model.data.variables import CycleStatus
 from disc_model.figures.branch import _mark_special_points
-from disc_model.figures.classes import lightness
 from disc_model.figures.disc import Motion, scale_of
-from disc_model.figures.drawing import PAGE
-from disc_model.figures.family import LOOKS
 from disc_model.figures.film import film as film_of
 from disc_model.simulation.api import snapshots
 from disc_model.simulation.states import static_start
 from disc_model.stability.critical_values import Critical
-from disc_model.stability.curves import NeutralCurves, StabilityCurve
+from disc_model.stability.curves import NeutralCurves
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.lyapunov import Lyapunov
-from disc_model.stability.sliding import SlidingStatus, SteadySliding
 from tests.blocks import RIG
-from tests.figures.described import drawn
 from tests.figures.every_kind import flag
 from tests.figures.measured import Shown, assert_shows, drawn_values
-from tests.figures.reading import as_map, labels, lines
+from tests.figures.reading import as_map, draw, labels, lines
 from tests.refusals import refusal
 
 P = dm.Parameters(N=385, Omega=15.1)
@@ -183,47 +176,6 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes(y: str, factor: flo
     assert mark.get_ydata() == pytest.approx([height], rel=1e-12)
 
 
-def test_dots_of_many_cycles_leave_a_thin_line_thin() -> None:
-    """At 84 mm those of 1,734 cycles made it as thick as that of stable ones."""
-    many = 2000
-    x = np.linspace(10, 20, many)
-    thin: Any = replace(
-        branch(),
-        values=x[:, None],
-        growth_rate=np.where(x < 15, -1.0, 1.0),
-        period=np.full(many, 0.01),
-        special=(),
-        case=P,
-    )
-    figure, ax = pyplot.subplots(figsize=(3.3, 2.5), dpi=300)
-    thin.plot("period", ax=ax, legend=False)
-    figure.canvas.draw()
-    grey = np.asarray(figure.canvas.buffer_rgba())[::-1, :, 0]  # type: ignore[attr-defined]
-    heights = {}
-    for name, ends in (("thick", (11, 14)), ("thin", (16, 19))):
-        left, right = (int(ax.transData.transform((end, 10))[0]) for end in ends)
-        middle = int(ax.transData.transform((15, 10))[1])
-        heights[name] = np.median((grey[middle - 10 : middle + 10, left:right] < 128).sum(axis=0))
-    # 2 and 0.7 points, and half a pixel of either edge; dots would be as high as the thick line
-    assert 1 <= heights["thin"] < 0.65 * heights["thick"]
-
-
-def test_several_special_points_of_a_kind_are_counted() -> None:
-    first = SimpleNamespace(kind="fold", values=[15.0], period=0.014)
-    second = SimpleNamespace(kind="fold", values=[15.5], period=0.015)
-    alone = SimpleNamespace(kind="period_doubling", values=[16.0], period=0.016)
-    special = [first, alone, second]
-    made: Any = SimpleNamespace(special=special, parameters=("Omega",))
-    _, ax = pyplot.subplots()
-    handles = _mark_special_points(ax, made, "period", (1.0, 1e3))
-    names = [str(handle.get_label()) for handle in handles]
-    assert names == ["2 folds", "period doubling at 16 rad/s"]
-    shown = lines(ax)
-    folds = shown["2 folds"]
-    assert folds.get_xdata().tolist() == [15.0, 15.5]
-    assert folds.get_ydata() == pytest.approx([14.0, 15.0])
-
-
 TOO_MANY_POINTS = "continued no further: max_points"
 
 
@@ -232,11 +184,6 @@ def branch_of_three_points() -> dm.Branch:
     steps = dm.StepControl(max_points=3)
     case = P.replace(Omega=14.9)
     return dm.continue_cycle(case, "Omega", (14.8, 15.2), steps=steps)
-
-
-def test_a_misspelt_variable_of_a_branch_is_answered_by_the_one_that_is_meant() -> None:
-    with pytest.raises(dm.ParameterError, match=r"must be one of .*, did you mean range\?"):
-        branch().plot("rnage")
 
 
 def test_ends_at_which_a_branch_is_not_continued_say_so() -> None:
@@ -249,14 +196,6 @@ def test_ends_at_which_a_branch_is_not_continued_say_so() -> None:
     assert mark.get_xdata().tolist() == [last_speed]
 
 
-def test_ends_at_which_one_of_several_branches_is_not_continued_say_so() -> None:
-    case = P.replace(Omega=14.9)
-    whole = dm.continue_cycle(case, "Omega", (14.8, 14.95))
-    ax = branch_of_three_points().plot("period")
-    whole.plot("period", ax=ax)
-    assert TOO_MANY_POINTS in labels(ax.figure)
-
-
 def test_an_end_at_which_no_step_succeeds_says_so() -> None:
     in_milliseconds = (1.0, 1e3)
     lost = SimpleNamespace(kind="lost", values=[15.0], period=0.014)
@@ -264,18 +203,6 @@ def test_an_end_at_which_no_step_succeeds_says_so() -> None:
     _, ax = pyplot.subplots()
     [entry] = _mark_special_points(ax, branch, "period", in_milliseconds)
     assert entry.get_label() == "continued no further: no step succeeds"
-
-
-def test_a_branch_of_both_stabilities_names_them_on_a_linear_axis() -> None:
-    """Ranges from one end to the other differ by less than a factor of 30."""
-    p = P.replace(Omega=14.9)
-    both = dm.continue_cycle(p, "Omega", (14.8, 15.2))
-    figure = figure_of(both.plot("range"))
-    (ax,) = figure.axes
-    assert ax.get_yscale() == "linear"
-    assert labels(figure) == ["stable", "unstable", "fold at 15.095 rad/s"]
-    whole = figure_of(branch().plot("range"))
-    assert labels(whole) == ["stable"]
 
 
 def test_a_special_point_of_a_stiffness_is_marked_in_kilonewtons() -> None:
@@ -325,24 +252,6 @@ def test_a_branch_is_thick_up_to_its_bifurcations() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("speed", "stable"),
-    [
-        (12.8303, True),
-        (12.8304, False),
-        (12.8363, False),
-        (12.8364, True),
-        (14.8273, True),
-        (14.8274, False),
-    ],
-)
-def test_the_ends_of_thick_lines_are_those_of_stable_cycles(speed: float, stable: bool) -> None:
-    """By the cycle at that speed alone, next to the places above."""
-    case = ORTHONORMAL.replace(Omega=speed)
-    cycle = dm.floquet(case)
-    assert cycle.stable == stable
-
-
 def test_a_branch_that_ends_at_a_fold_is_thick_up_to_it() -> None:
     """The fold is its last point, too, whose growth rate is rounding."""
     branch = dm.continue_cycle(QUIET, "Omega", (14.8, 15.2), stop_at="fold")
@@ -386,17 +295,6 @@ def test_a_doubled_branch_is_named_by_its_releases() -> None:
     assert {*again.releases.tolist()} == {2}
 
 
-def test_ranges_of_several_branches_that_are_wide_together_are_logarithmic() -> None:
-    """Each was narrow, and all but one lay flat at 0."""
-    small = dm.continue_cycle(dm.Parameters(N=300, Omega=14), "Omega", (13.9, 14))
-    large = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.9, 15.2))
-    assert large.range.max() > 30 * small.range.min()
-    ax = small.plot("range")
-    assert ax.get_yscale() == "linear"
-    large.plot("range", ax=ax)
-    assert ax.get_yscale() == "log"
-
-
 def test_branches_of_one_name_are_told_apart_by_numbers() -> None:
     """Of three branches two had the same name, and the legend left one out; then two had numbers, and
     which was the second was a guess."""
@@ -421,100 +319,7 @@ def test_a_branch_at_values_of_table_1_is_named_by_them() -> None:
     }
 
 
-def test_a_title_says_what_all_branches_have_in_common() -> None:
-    """It was that of the first one."""
-    cases = [QUIET.replace(N=N, m=0.11) for N in (380, 385)]
-    first, second = [dm.continue_cycle(case, "Omega", (14.8, 15.2)) for case in cases]
-    ax = first.plot("period")
-    assert "380" in ax.figure.get_suptitle()
-    widths = [line.get_linewidth() for line in ax.lines]
-    second.plot("period", ax=ax)
-    assert "380" not in ax.figure.get_suptitle()
-    assert "110" in ax.figure.get_suptitle()
-    words = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert words[:2] == ["N = 380 N", "N = 385 N"]
-    assert {line.get_linewidth() for line in ax.lines} == {*widths}
-
-
-def test_branches_on_the_same_axes_differ_in_grey_print() -> None:
-    """The second and the third were of nearly the same grey, both whole lines."""
-    assert len({look.dashes for look in LOOKS}) == len(LOOKS) == 10
-    assert len({look.colour for look in LOOKS}) == 10
-    shades = [lightness(look.colour) for look in LOOKS]
-    assert np.abs(np.diff(shades[:5])).min() > 0.1, "the next one, which a grey print shows too"
-    ax = None
-    for number in range(10):
-        ax = branch().plot("period", ax=ax, labels={"branch": f"sheet {number}"})
-    assert ax is not None
-    samples = ax.figure.legends[0].get_lines()[:10]
-    assert len({_pattern(line) for line in samples}) == 10
-    room = ax.figure.legends[0].handlelength * ax.figure.legends[0]._fontsize
-    widest = max(line.get_linewidth() for line in ax.lines)
-    drawn = {line.get_color(): line for line in ax.lines if line.get_linewidth() == widest}
-    for line in samples:
-        assert _pattern(drawn[line.get_color()]) == _pattern(line), "in points, of every width"
-        assert sum(_pattern(line)) < room, "the legend shows a whole period"
-
-
-def _pattern(line: Any) -> tuple[float, ...]:
-    """Lengths of dashes and gaps, points, to hundredths; none for a whole line."""
-    return tuple(round(length, 2) for length in line._dash_pattern[1] or ())
-
-
-def test_an_unstable_stretch_of_a_further_branch_leaves_the_gaps_of_a_stable_one_free() -> None:
-    folded = dm.continue_cycle(QUIET, "Omega", (14.8, 15.2))
-    ax = branch().plot("period")
-    before = len(ax.lines)
-    folded.plot("period", ax=ax)
-    fold = folded.folds[0, 0]
-    joined = [line for line in ax.lines[before:] if line.get_linestyle() == "--"]
-    ends = {line.get_linewidth(): line.get_xdata()[[0, -1]].tolist() for line in joined}
-    assert ends == {min(ends): [fold, 14.8], max(ends): [14.8, fold]}
-    assert len(ends) == 2
-
-
-def test_a_legend_forgets_names_of_branches_that_differ_in_something_else_now() -> None:
-    """Beside "1 release per period" there stood "branch 1", of the same branch."""
-    _, ax = pyplot.subplots(figsize=(PAGE, 3), layout="constrained")
-    branch().plot("period", ax=ax)
-    branch().plot("period", ax=ax, labels={"branch": "again"})
-    assert legend_words(ax)[:2] == ["branch 1", "again"]
-    other = dm.continue_cycle(QUIET.replace(N=384), "Omega", (14.8, 15.0))
-    other.plot("period", ax=ax)
-    assert legend_words(ax) == ["N = 385 N", "again", "N = 384 N", "stable"]
-
-
-def legend_words(ax: Any) -> list[str]:
-    return [text.get_text() for text in ax.get_legend().get_texts()]
-
-
 """A block on a rigid disc, whose stick-slip has no memory of the cycle before: all multipliers are 0."""
-
-
-@functools.cache
-def block_branch(kind: Any) -> Any:
-    return dm.continue_cycle(RIG, "Omega", (1.8, 2.1), kind=kind)
-
-
-def test_growth_rates_of_minus_infinity_stand_at_the_lower_edge() -> None:
-    """The axis was around 0 rad/s, without a line, and numpy warned of an invalid value."""
-    sticking = block_branch("stick_slip")
-    assert np.isneginf(sticking.growth_rate).all()
-    ax = sticking.plot("growth_rate")
-    figure = ax.figure
-    figure.draw_without_rendering()
-    assert labels(figure) == ["stable", "growth rate −∞"]
-    low, high = ax.get_xlim()
-    assert low < 1.8
-    assert high > 2.1
-    assert high - low < 0.4, "the values of the branch and little beside them"
-    assert ax.get_ylim()[0] < 0 < ax.get_ylim()[1]
-    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
-    assert triangles.get_xdata() == pytest.approx(sticking.values[:, 0], rel=1e-12)
-    places = triangles.get_transform().transform(triangles.get_xydata())
-    heights = (places[:, 1] - ax.bbox.y0) / ax.bbox.height
-    assert (heights < 0.1).all()
-    assert (heights > 0).all()
 
 
 def all_words_of(ax: Axes) -> str:
@@ -537,37 +342,6 @@ def test_critical_values_of_minus_infinity_stand_at_the_lower_edge() -> None:
     assert "growth rate −∞" in labels(ax.figure)
     [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
     assert triangles.get_xdata().tolist() == found.values.tolist()
-
-
-@pytest.mark.parametrize("kinds", [("stick_slip", "slipping"), ("slipping", "stick_slip")])
-def test_branches_with_and_without_finite_growth_show_on_the_same_axes(kinds: Any) -> None:
-    ax = block_branch(kinds[0]).plot("growth_rate")
-    block_branch(kinds[1]).plot("growth_rate", ax=ax)
-    ax.figure.draw_without_rendering()
-    slipping = block_branch("slipping")
-    [triangles] = [line for line in ax.lines if line.get_marker() == "v"]
-    top = triangles.get_window_extent().y1
-    finite = np.column_stack([slipping.values[:, 0], slipping.growth_rate])
-    places = ax.transData.transform(finite)
-    assert ax.bbox.count_contains(places) == len(places)
-    assert places[:, 1].min() > top, "finite rates stand above"
-    assert ax.transData.transform((2.0, 0.0))[1] > top, "as does the line of zero"
-    low, high = ax.get_ylim()
-    assert low < 0 < slipping.growth_rate.max() < high
-    assert {"0 releases per period", "1 release per period"} < {*labels(ax.figure)}
-
-
-def test_a_special_point_of_minus_infinity_stands_at_the_lower_edge_too() -> None:
-    grazing = SimpleNamespace(kind="grazing", values=[2.0], growth_rate=-np.inf)
-    made: Any = SimpleNamespace(special=[grazing], parameters=("Omega",))
-    _, ax = pyplot.subplots()
-    [entry] = _mark_special_points(ax, made, "growth_rate", (1.0, 1.0))
-    assert entry.get_label() == "grazing at 2 rad/s"
-    [mark] = [line for line in ax.lines if line.get_transform() != ax.transData]
-    assert (mark.get_marker(), mark.get_xdata().tolist()) == (entry.get_marker(), [2.0])
-    place = mark.get_transform().transform((2.0, *mark.get_ydata()))
-    height = (place[1] - ax.bbox.y0) / ax.bbox.height
-    assert 0 < height < 0.1
 
 
 def test_critical_values_are_over_the_parameter_and_growth_per_second() -> None:
@@ -601,81 +375,12 @@ def test_what_is_unstable_is_shaded_in_the_unit_of_the_axis() -> None:
     assert ax.get_title(loc="left") == note
 
 
-def test_a_panel_above_a_legend_keeps_its_height_beside_a_label_of_several_lines() -> None:
-    """The label was longer than the axes, which a legend below had made lower, and made them ever
-    lower."""
-    made = Critical(
-        parameters=P,
-        name="Omega",
-        value=15.1,
-        crossings=np.array([11.0, 11.1, 15.1]),
-        unstable_above=np.array([True, False, True]),
-        values=np.linspace(10, 20, 41),
-        growth_rate=np.where(np.arange(41) % 8, np.linspace(-0.1, 10, 41), np.nan),
-        resolution=0.25,
-    )
-    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 60 / 25.4))
-    made.plot(ax=ax)
-    figure.draw_without_rendering()
-    assert ax.bbox.height > 0.6 * figure.dpi
-    label = ax.yaxis.label.get_window_extent()
-    assert 0 <= label.y0 < label.y1 <= figure.bbox.y1
-    pyplot.close("all")
-
-
 def test_neutral_curves_have_both_parameters_in_their_units() -> None:
     curves = dm.neutral_curves(P, {"Omega": (14, 15.5), "k_p": (1.9e4, 2.1e4)}, [2e4], points=5)
     figure = figure_of(curves.plot())
     points = np.concatenate([curve.values for curve in curves])
     assert_shows(figure, Shown(0, "x", "Speed Ω", points[:, 0], "rad/s"))
     assert_shows(figure, Shown(0, "y", "In-plane spring k_p", points[:, 1], "N/m"))
-
-
-def test_a_resonance_is_named_once_for_each_kind_of_curve_and_covers_none() -> None:
-    """ "2 f_s = 135.42 Hz" stood three times, across curves and over the numbers of an axis."""
-    speeds = np.linspace(10, 16, 40)
-    steep = 30 * speeds - 50
-    flat = 28 * speeds - 40
-    loads = {"neutral": [30 * speeds + 60], "fold": [steep, flat]}
-    resonance = Resonance(2, 135.42, 0, 0, 0.0)
-    curves = []
-    for kind, lines_of_kind in loads.items():
-        for line in lines_of_kind:
-            values = np.column_stack([speeds, line])
-            stable = np.ones(40, dtype=bool)
-            curve = StabilityCurve(kind, values, stable, speeds, speeds + 0j, resonance)
-            curves.append(curve)
-    bounds = {"Omega": (10.0, 22.0), "N": (250.0, 450.0)}
-    found = NeutralCurves(P, bounds, tuple(curves), ())
-    figure = figure_of(found.plot())
-    figure.draw_without_rendering()
-    ax = figure.axes[0]
-    shown = [text for text in ax.texts if text.get_visible()]
-    assert len(shown) == 2, "one of either kind"
-    boxes = [text.get_window_extent() for text in shown]
-    assert not boxes[0].overlaps(boxes[1])
-    panel = ax.get_window_extent()
-    for box in boxes:
-        corners = box.corners()
-        assert panel.count_contains(corners) == 4
-        for curve in curves:
-            points = ax.transData.transform(curve.values)
-            assert not box.count_contains(points)
-
-
-def test_thin_neutral_curves_are_named_in_the_legend() -> None:
-    """Nothing said why a curve is thin."""
-    loads = np.linspace(300, 400, 11)
-    values = np.column_stack([np.linspace(11, 14, 11), loads])
-    stable = loads < 350
-    resonance = Resonance(2, 135.42, 0, 0, 0.0)
-    said = {}
-    for name, beside in (("both", stable), ("stable", loads > 0)):
-        curve = StabilityCurve("neutral", values, beside, loads, loads + 0j, resonance)
-        found = NeutralCurves(P, {"Omega": (10.0, 15.0), "N": (250.0, 450.0)}, (curve,), ())
-        said[name] = labels(figure_of(found.plot()))
-    assert said["stable"] == ["cycle loses stability"]
-    assert said["both"] == ["cycle loses stability", "thin: unstable cycles on both sides"]
 
 
 def test_without_a_neutral_curve_there_is_an_error_and_no_empty_picture() -> None:
@@ -758,7 +463,7 @@ def test_the_most_decisive_parameter_is_on_top_by_its_largest_change(grows_above
         {"N": [200.0, 385.0], "parameter": ["k", "mu_s", "c_p"]},
     )
     study["N"].attrs.update(units="N", long_name="preload")
-    figure = drawn("sensitivity", study)
+    figure = draw("sensitivity", study)
     names = [text.get_text() for text in figure.axes[0].get_yticklabels()]
     assert names[-1] == "k"
     lowest, highest = figure.axes[0].containers
@@ -781,30 +486,6 @@ def test_a_map_has_the_colours_of_its_numbers_in_the_unit_of_its_bar() -> None:
     assert mesh.norm.vmin == pytest.approx(1e-3 * factor)
     assert mesh.norm.vmax == pytest.approx(4e-3 * factor)
     assert bar.get_ylim() == pytest.approx((1e-3 * factor, 4e-3 * factor))
-
-
-def test_the_note_of_a_picture_stands_at_the_left() -> None:
-    cycle = FloquetResult(P, 1e-12, CycleStatus.OK, "", 0.015, np.array([0.5 + 0j]))
-    ax = figure_of(cycle.plot()).axes[0]
-    assert ax.get_title(loc="left").startswith("unstable, growth rate")
-    assert ax.get_title(loc="center") == ""
-    slow = FloquetResult(P, 1e-12, CycleStatus.OK, "", 1.5, np.array([0.5 + 0j]))
-    said = " ".join(figure_of(slow.plot()).axes[0].get_title(loc="left").split())
-    assert said.endswith("period 1.5 s")
-
-
-def test_growing_eigenvalues_are_named_by_their_frequencies() -> None:
-    upper = 2j * np.pi * np.array([40.0, 100.0]) + np.array([3.0, -2.0])
-    values = np.concatenate([upper, upper.conj()])
-    sliding = SteadySliding(SlidingStatus.OK, "made up", eigenvalues=values)
-    figure = figure_of(sliding.plot())
-    figure.draw_without_rendering()
-    [ax] = figure.axes
-    names = {text.get_text() for text in ax.texts}
-    assert names == {"40 Hz"}
-    shown = lines(ax)
-    assert shown["grows"].get_ydata() == pytest.approx([40.0])
-    assert shown["decays"].get_ydata() == pytest.approx([100.0])
 
 
 def test_exponents_that_have_not_converged_are_told_from_others() -> None:
@@ -830,22 +511,3 @@ def test_exponents_that_have_not_converged_are_told_from_others() -> None:
         "filled: not converged, ± standard error": [2],
     }
     assert ax.get_title(loc="left") == "over 20 s, 1 separation"
-
-
-@pytest.mark.parametrize("picture", ["branch", "sweep", "map"])
-def test_numbers_along_axes_and_bars_are_written_in_full(picture: str) -> None:
-    """Growth rates of -0.10549 were -86 beside a panel, with a sum and a factor above it."""
-    _, ax = pyplot.subplots()
-    if picture == "branch":
-        shown = branch().plot("growth_rate", ax=ax).yaxis
-    else:
-        rates = -0.1054 - 1e-6 * np.arange(4.0).reshape(2, 2)
-        axes = {"Omega": [10.0, 11.0], "N": [300.0, 400.0]}
-        study = xr.Dataset({"share": (("Omega", "N"), rates)}, axes)
-        dm.plot_sweep(study.isel(N=0) if picture == "sweep" else study, "share", ax=ax)
-        shown = ax.figure.axes[-1].yaxis
-    ax.figure.draw_without_rendering()
-    assert not shown.get_offset_text().get_text()
-    numbers = [float(text.get_text().replace("−", "-")) for text in shown.get_ticklabels()]
-    assert numbers == pytest.approx([-0.1054] * len(numbers), abs=2e-4)
-    pyplot.close("all")

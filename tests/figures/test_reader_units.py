@@ -5,13 +5,9 @@ import pytest
 import xarray as xr
 from matplotlib.axes import Axes
 
-from disc_model.data.variables import attributes
-from disc_model.figures.words import unit_key
 from tests.explorer.left_out import ruled
 from tests.figures.reading import draw
-from tests.refusals import refusal
 
-PRELOAD = attributes("N")["long_name"]
 OVER = {"x": "Omega", "y": "N"}
 
 
@@ -48,23 +44,3 @@ def test_limits_have_the_unit_of_the_figure() -> None:
     [ax] = figure.axes
     assert ax.get_ylim() == (6000.0, 9000.0)
     assert all(6 <= number <= 9 for number in numbers_beside(ax))
-
-
-@pytest.mark.parametrize(
-    ("name", "attrs", "key"),
-    [
-        ("P_max", {"units": "N"}, "P"),
-        ("u_min", {"units": "m"}, "u"),
-        ("u_min", {"units": "1"}, ""),
-        ("onset_speed", {"units": "rad s-1"}, "Omega"),
-        ("value", {"units": "N", "long_name": f"critical value of {PRELOAD}"}, "N"),
-        ("period", {"units": "s"}, ""),
-    ],
-)
-def test_what_gives_the_unit_of_a_variable(name: str, attrs: dict[str, str], key: str) -> None:
-    assert unit_key(xr.DataArray(0.0, name=name, attrs=attrs)) == key
-
-
-def test_the_unit_of_a_range_is_refused_with_the_name_that_has_it() -> None:
-    with refusal("units.P_max='kN': no parameter or variable with a unit, did you mean P"):
-        draw("heat_map", study(), variable="P_max", units={"P_max": "kN"}, **OVER)

@@ -2,7 +2,6 @@
 
 import functools
 import math
-from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -76,84 +75,6 @@ def test_pictures_are_drawn_on_the_axes_that_are_given() -> None:
         run().plot(ax=axes[0])
 
 
-def test_a_spectrum_goes_to_the_last_line_as_strong_as_any_that_is_named() -> None:
-    """It ended at 155 Hz and named lines of 0.6 N there, though there are some of 3 N beyond."""
-    time = np.arange(0, 2, 1 / 4000)
-    heights = {
-        60: 0.6,
-        75: 0.6,
-        135: 400.0,  # the main line
-        270: 3.0,
-        405: 2.9,
-        540: 3.1,
-        675: 3.5,
-        810: 2.0,
-    }
-    signal = np.zeros_like(time)
-    for frequency, height in heights.items():
-        phase = 2 * np.pi * frequency * time
-        signal += height * np.sin(phase)
-    samples = xr.Dataset({"P": ("time", signal)}, {"time": time})
-    figure, ax = pyplot.subplots(figsize=(174 / 25.4, 4), layout="constrained")
-    draw_spectrum(ax, samples, "P", amplitudes(samples, "P"))
-    figure.draw_without_rendering()
-
-    names = {text.get_text() for text in ax.texts if text.get_visible()}
-    _, end = ax.get_xlim()
-    assert names <= {"135.0 Hz", "270.0 Hz", "405.0 Hz", "540.0 Hz", "675.0 Hz"}
-    assert len(names) >= 3
-    assert 675 < end < 810
-
-
-def test_names_of_lines_stay_in_a_narrow_spectrum_and_apart() -> None:
-    """At 84 mm names overlapped and left the axes, and the range ended below the main line; they
-    also overlapped where a figure became smaller after they had been written."""
-    time = np.arange(0, 4, 1 / 8000)
-    signal = sum(
-        size * np.sin(2 * np.pi * frequency * time)
-        for frequency, size in ((70, 0.3), (1900, 1.0), (1920, 0.9), (1940, 0.8), (3000, 1e-4))
-    )
-    samples = xr.Dataset({"psi": ("time", signal)}, {"time": time})
-    figure, ax = pyplot.subplots(figsize=(174 / 25.4, 4), layout="constrained")
-    draw_spectrum(ax, samples, "psi", amplitudes(samples, "psi"))
-    for width, height in ((174, 4.0), (84, 2.2)):
-        figure.set_size_inches(width / 25.4, height)
-        figure.draw_without_rendering()
-        names = [text for text in ax.texts if text.get_visible()]
-        frame = ax.get_window_extent()
-        boxes = [name.get_window_extent() for name in names]
-        assert {"70.0 Hz", "1900.0 Hz"} <= {name.get_text() for name in names}
-        for box in boxes:
-            assert frame.x0 <= box.x0
-            assert box.x1 <= frame.x1
-            assert box.y1 <= frame.y1
-        for one, other in combinations(boxes, 2):
-            assert not one.overlaps(other)
-    assert 1940 < ax.get_xlim()[1] < 3000, "to where the energy is"
-    assert ax.get_title(loc="left") == ""
-    assert ax.get_ylabel() == "Angle ψ, amplitude (rad)"
-
-
-@pytest.mark.parametrize(
-    ("windows", "variables", "shape"),
-    [
-        ("late", ["P", "w"], (2,)),
-        (["late", "late"], ["P"], (2,)),
-        (["late", "late"], ["P", "w"], (2, 2)),
-        ("late", ["P"], ()),
-    ],
-)
-def test_axes_of_a_run_are_squeezed_as_by_matplotlib(
-    windows: Any, variables: list[str], shape: tuple[int, ...]
-) -> None:
-    """Two variables of one window had the shape (2, 1), one variable a bare axes."""
-    late = dm.simulate(P, 1, {"late": dm.Window(start=0.5, rate=500)})
-    axes = late.plot(windows, variables=variables)
-    assert np.shape(axes) == shape
-    assert isinstance(axes, pyplot.Axes) == (shape == ())
-    pyplot.close("all")
-
-
 @pytest.mark.parametrize(
     ("count", "entries"), [(1, ["Ω from 15.1 to 14 rad/s, 0.2 to 0.3 s"]), (5, ["ramps of Ω"])]
 )
@@ -173,31 +94,6 @@ def test_ramps_are_shaded_with_their_values(count: int, entries: list[str]) -> N
     assert begins == [round(ramp.start, 6) for ramp in ramps]
     assert ends == [round(ramp.end, 6) for ramp in ramps]
     assert ax.get_xlim()[0] == 0
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("count", [1, 3])
-def test_ramps_of_two_parameters_differ_in_grey_print(count: int) -> None:
-    """Both were of one grey in the legend."""
-    ramps = []
-    for i in range(count):
-        start = 0.3 * i
-        ramps.append(dm.Ramp(parameter="Omega", to=14 + i, start=start, end=start + 0.1))
-        ramps.append(dm.Ramp(parameter="N", to=380 + i, start=start + 0.15, end=start + 0.2))
-    window = dm.Window(start=0, rate=500)
-    ramped = dm.simulate(P.replace(Omega=15.1), 1.2, {"all": window}, ramps=tuple(ramps))
-    ax = ramped.plot("all", variables=["P"])
-    [legend] = ax.figure.legends
-    said = [text.get_text() for text in legend.get_texts()]
-    handles = dict(zip(said, legend.legend_handles, strict=True))
-    of_speed, of_load = (
-        [handle.get_hatch() for text, handle in handles.items() if symbol in text]
-        for symbol in ("Ω", "N ")
-    )
-    if count > 1:  # one entry for many
-        assert said[:2] == ["ramps of Ω", "ramps of N"]
-        of_load = [handles["ramps of N"].get_hatch()]
-    assert of_speed[0] != of_load[0]
     pyplot.close("all")
 
 
@@ -347,40 +243,6 @@ def test_shares_of_starts_are_bars_of_the_outcomes_that_occur() -> None:
         assert [bar.get_height() for bar in ax.patches] == high + low  # those that separate first
 
 
-def test_shares_of_undecided_starts_say_what_decides_them() -> None:
-    """Five of six starts were undecided, and nothing said to follow them for longer."""
-    found = dm.basins(P.replace(Omega=14), [0.1], 2, horizon=0.5)
-    assert found.attrs["message"] == "2 of 2 starts undecided within the horizon: raise it"
-    ax = dm.plot_sweep(found)
-    interval = "95 % interval of the share that separates"
-    assert labels(ax.figure) == ["undecided within 0.5 s: raise horizon", interval]
-
-
-def test_undecided_starts_that_lost_contact_are_told_apart() -> None:
-    """Both were shares of one colour, though the dataset knew which starts had lost contact."""
-    found = dm.basins(P.replace(Omega=14), [0.1, 0.2], 4, horizon=0.5)
-    lost = [["no", "no", "no", "no"], ["yes", "no", "no", "yes"]]
-    study = found.assign(lost_contact=(found["lost_contact"].dims, lost))
-    ax = dm.plot_sweep(study)
-    said = [" ".join(text.split()) for text in labels(ax.figure)]
-    assert said == [
-        "undecided within 0.5 s: raise horizon",
-        "undecided within 0.5 s, but contact was lost: raise horizon",
-        "95 % interval of the share that separates",
-    ]
-    heights = [bar.get_height() for bar in ax.patches]
-    assert heights == [1.0, 0.5, 0.0, 0.5], "of both energies, first those that kept contact"
-
-
-def test_shares_by_speed_tell_lost_contact_apart() -> None:
-    sweep = dm.sweep(dm.basins, P, Omega=[14, 15], energies=[0.1], n_starts=2, horizon=0.5)
-    lost = np.where(np.arange(2)[:, None, None] == 1, "yes", "no")
-    study = sweep.assign(
-        lost_contact=(sweep["lost_contact"].dims, np.broadcast_to(lost, (2, 1, 2)))
-    )
-    assert [bar.get_height() for bar in dm.plot_sweep(study).patches] == [1.0, 0.0, 0.0, 1.0]
-
-
 def test_undecided_starts_that_have_lost_contact_are_counted() -> None:
     """It could not be told whether an undecided motion had separated."""
     found = dm.basins(P.replace(Omega=14), [0.1, 1000.0], 2, horizon=0.5)
@@ -425,13 +287,3 @@ def test_frequencies_of_peaks_have_the_digits_of_the_window(
     assert {text.get_text() for text in ax.texts if text.get_visible()} == named
     assert ax.get_xlabel() == label
     pyplot.close(figure)
-
-
-def test_a_spectrum_of_a_run_without_windows_says_how_to_record_one() -> None:
-    """A window "late" was blamed, which nobody had named."""
-    with pytest.raises(
-        dm.ParameterError, match=r"window: none is named.*record a window"
-    ) as caught:
-        dm.simulate(P, 0.01).plot_spectrum()
-    assert "late'=" not in str(caught.value)
-    assert pyplot.get_fignums() == []

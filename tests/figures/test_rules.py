@@ -5,8 +5,6 @@ import pytest
 from matplotlib.figure import Figure
 
 import disc_model as dm
-from disc_model.figures.classes import LOOKS
-from disc_model.figures.left_out import parts_shown
 from disc_model.figures.sliding_outcome import agreement
 from tests.explorer.left_out import ruled
 from tests.figures.reading import draw
@@ -28,25 +26,6 @@ def test_a_map_has_no_panel_where_all_is_left_out(variable: str) -> None:
     assert panels_of(figure) == ["Static friction $μ_s$\xa0=\xa00.4"]
 
 
-def test_curves_have_no_panel_where_all_is_left_out() -> None:
-    figure = draw(
-        "curve", ruled(), variable="P_max", x="Omega", by="mu_s", panels="each", at={"N": 300.0}
-    )
-    assert panels_of(figure) == ["Static friction $μ_s$ = 0.4"]
-
-
-def test_a_study_without_a_point_keeps_its_panels() -> None:
-    study = ruled().isel(mu_s=[0, 0])
-    assert len(parts_shown(study, "mu_s")) == 2
-
-
-def test_what_is_left_out_is_told_from_quiet_by_a_pattern() -> None:
-    """Both were white in print."""
-    looks = [LOOKS["excluded"].hatch, LOOKS["quiet"].hatch, LOOKS["no_value"].hatch]
-    assert looks[0]
-    assert len({*looks}) == 3
-
-
 def test_what_is_left_out_is_not_undecided() -> None:
     """It was counted among the undecided motions."""
     words = agreement(np.array([-1.0, np.nan]), np.array(["quiet", "excluded"]))
@@ -54,16 +33,6 @@ def test_what_is_left_out_is_not_undecided() -> None:
 
 
 # ---- Scales of classes
-
-
-@pytest.mark.parametrize("lines", [False, "N"])
-@pytest.mark.parametrize("wish", [{"log": True}, {"limits": (0, 1)}])
-def test_classes_have_no_scale(lines: object, wish: dict[str, object]) -> None:
-    """A logarithmic scale was ignored without a word, and limits hid rows of classes."""
-    study = ruled().isel(mu_s=1)
-    [name] = wish
-    with refusal(f"{name}=.*: is for numbers: classes have places"):
-        dm.plot_sweep(study, "outcome", "Omega", lines=lines, **wish)  # type: ignore[arg-type]
 
 
 def test_limits_of_a_logarithmic_axis_lie_above_zero() -> None:

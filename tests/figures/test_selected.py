@@ -63,35 +63,6 @@ def test_a_title_says_what_was_selected(
     assert said[:count] == phrases
 
 
-COORDINATES = {
-    "mode": ([1, 2], "number of the mode, lowest frequency first"),
-    "crossing_number": ([0, 1], "number of the crossing, as the speed rises"),
-    "begin": (["at_rest", "sliding"], "start of the motion"),
-    "my_shift": ([0.5, 0.75], ""),
-}
-"""Values of coordinates, and what they are."""
-
-
-@pytest.mark.parametrize(
-    ("name", "phrase"),
-    [
-        ("mode", "mode 2"),
-        ("crossing_number", "crossing 1"),
-        ("begin", "sliding"),
-        ("my_shift", "my_shift = 0.75"),
-    ],
-)
-def test_every_coordinate_of_a_selection_is_said(name: str, phrase: str) -> None:
-    values, words = COORDINATES[name]
-    attributes = {"long_name": words} if words else {}
-    upward = swept().isel(direction=0, drop=True)
-    study = upward.rename(N=name)
-    study[name] = (name, values, attributes)
-    second = study.isel({name: 1})
-    ax = plot_sweep(second)
-    assert phrase in title_of(ax)
-
-
 def test_lines_of_two_selections_are_named_by_what_was_selected() -> None:
     study = swept().sel(N=300)
     ax = plot_sweep(study.sel(direction="up"))
@@ -100,48 +71,3 @@ def test_lines_of_two_selections_are_named_by_what_was_selected() -> None:
     assert title_of(ax) == "N = 300 N"
     assert "on the way up" in names
     assert "on the way down" in names
-
-
-def test_a_selected_value_is_not_called_the_first_of_several() -> None:
-    found = dm.sweep(dm.coupled_natural_frequencies, P, k=[1e3, 1e4])
-    second = found.isel(value_index=1)
-    ax = plot_sweep(second)
-    along = ax.get_ylabel().lower()
-    assert "frequency" in along
-    assert "lowest" not in along
-
-
-# ---- Values that are equal but for rounding
-
-HEIGHT = 0.1354  # m
-
-
-@pytest.fixture
-def level() -> xr.Dataset:
-    """A sweep whose values are equal but for rounding."""
-    study = swept()
-    random = np.random.default_rng(1)
-    noise = random.standard_normal((2, 2, 3))
-    heights = HEIGHT * (1 + 1e-14 * noise)
-    study["range"] = study["range"].copy(data=heights)
-    return study.sel(direction="up")
-
-
-def assert_wide(low: float, high: float) -> None:
-    """A range in millimetres holds the height, and is far wider than rounding."""
-    assert low == pytest.approx(135.4, rel=0.6)
-    assert low < 135.4 < high
-    assert high - low > 0.05 * 135.4
-
-
-def test_lines_do_not_show_rounding(level: xr.Dataset) -> None:
-    ax = plot_sweep(level, lines="")
-    low, high = ax.get_ylim()
-    assert_wide(low, high)
-
-
-def test_colours_of_a_map_do_not_show_rounding(level: xr.Dataset) -> None:
-    ax = as_map(level)
-    [cells] = [*ax.images, *ax.collections]
-    low, high = cells.get_clim()
-    assert_wide(low, high)

@@ -5,19 +5,16 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
-from matplotlib.figure import Figure
 
 from disc_model.data.variables import OUTCOMES_TO_HORIZON
 from disc_model.figures.drawing import BLACK
 from disc_model.figures.growing_parts import growing_part
 from disc_model.figures.kinds import kind_of
-from disc_model.figures.names import Names
 from disc_model.figures.render import render
 from disc_model.figures.selection import common_points
-from disc_model.figures.sliding_modes import LEAST, _name_decays, lines_of
+from disc_model.figures.sliding_modes import lines_of
 from disc_model.figures.sliding_outcome import AGREEMENTS, ROUNDING, agreement
-from tests.figures.described import sliding_modes
+from tests.figures.made_up import sliding_modes
 from tests.figures.reading import labels
 from tests.studies.conftest import SMALL, computed
 
@@ -52,36 +49,6 @@ def test_modes_are_drawn_along_the_parameter(
     assert "Kinetic friction $μ_k$" in [
         label for ax in figure.axes for label in (ax.get_xlabel(), ax.get_ylabel())
     ]
-
-
-def test_rings_of_a_root_locus_are_explained(over_mu: xr.Dataset) -> None:
-    """Nothing said at which value a mode has its ring, whose colour is hidden."""
-    figure = render(kind_of("root_locus")(), {"study": xr.DataTree(over_mu)})
-    [legend] = figure.legends
-    said = [text.get_text() for text in legend.get_texts()]
-    assert said == [f"at {over_mu['value'].values[0]:g}, the first value"]
-
-
-def test_names_of_a_root_locus_cover_neither_marks_nor_each_other(over_mu: xr.Dataset) -> None:
-    """Halos cut names, and the rims of 150 marks of a mode left nothing of their colours."""
-    values = np.linspace(0, 0.4, 150)
-    many = over_mu.drop_vars("message").interp(value=values)
-    diameters = over_mu["diameters"]
-    many = many.assign(diameters=diameters)
-    figure = render(kind_of("root_locus")(), {"study": xr.DataTree(many)})
-    figure.draw_without_rendering()
-    ax = figure.axes[0]
-    shown = [text for text in ax.texts if text.get_visible()]
-    boxes = [text.get_window_extent() for text in shown]
-    assert len(boxes) >= 3
-    for i, box in enumerate(boxes):
-        former = boxes[:i]
-        assert not box.count_overlaps(former)
-        for marks in ax.collections:
-            places = marks.get_offsets()
-            points = ax.transData.transform(places)
-            assert not box.count_contains(points)
-    assert {width for marks in ax.collections for width in marks.get_linewidths()} == {0.0}
 
 
 def test_modes_have_thick_lines_where_they_grow(over_mu: xr.Dataset) -> None:
@@ -121,30 +88,6 @@ def test_a_mode_grows_from_the_zeros_of_its_rate_on(rates: list[float], ends: li
     x, y = growing_part(along, np.array(rates), 10 * along)
     assert x[np.isfinite(y)].tolist() == sorted([*ends, *along[np.array(rates) > 0]])
     np.testing.assert_allclose(y[np.isfinite(y)], 10 * x[np.isfinite(y)])
-
-
-@pytest.mark.parametrize(("crossed", "side"), [(False, "center"), (True, "right")])
-def test_a_name_covers_no_line(crossed: bool, side: str) -> None:
-    """A name stood across the next line, which seemed to be the one that it named."""
-    figure = Figure(figsize=(4, 3))
-    ax = figure.subplots()
-    ax.set(xlim=(0, 1), ylim=(0, 1))
-    vertical = np.column_stack([np.full(50, 0.51), np.linspace(0.5, 1, 50)])
-    names = Names(ax, lines=vertical if crossed else None)
-    names.add("l = 3", (0.5, 0.5), [(0, 3), (-4, 3)])
-    figure.draw_without_rendering()
-    assert [text.get_ha() for text in ax.texts if text.get_visible()] == [side]
-
-
-def test_fast_decay_does_not_hide_growth(over_mu: xr.Dataset) -> None:
-    """The axis reaches as far down as growth reaches up, but for room."""
-    rates = over_mu["mode_growth_rate"]
-    largest = max(float(over_mu["largest_growth_rate"].max()), LEAST)
-    for factor in (1e-3, 1e3):
-        study = over_mu.assign(mode_growth_rate=rates.where(rates > 0, factor * rates))
-        figure = render(kind_of("sliding_modes")(), {"study": xr.DataTree(study)})
-        least = 1.1 * float(study["mode_growth_rate"].min())
-        assert figure.axes[1].get_ylim()[0] == pytest.approx(max(least, -largest), rel=1e-9)
 
 
 def test_modes_below_the_axis_of_growth_are_named(over_mu: xr.Dataset) -> None:
@@ -234,25 +177,6 @@ def test_sliding_is_compared_with_what_the_motion_does(
     assert found == word
 
 
-@pytest.mark.parametrize(("rates", "blocks"), [([-1.0, -0.85, -0.72], 1), ([-2.0, -1.4, -0.8], 3)])
-def test_names_of_decaying_modes_do_not_lie_on_each_other(rates: list[float], blocks: int) -> None:
-    """Modes whose names would meet have theirs in one block, below each other as the lines are."""
-    ax = pyplot.figure().subplots()
-    ax.set_ylim(-3, 4)
-    dims = ("value", "mode")
-    data = {"mode_growth_rate": (dims, [rates]), "diameters": (dims, [[0, 2, 3]])}
-    study = xr.Dataset(data, {"value": [1.0]})
-    _name_decays(ax, study, greatest=3.0)
-    assert len(ax.texts) == blocks
-    said = [name for text in reversed(ax.texts) for name in text.get_text().split("\n")]
-    assert said == ["l = 3", "l = 2", "l = 0"]
-    ax.figure.draw_without_rendering()
-    boxes = [text.get_window_extent() for text in ax.texts]
-    for i, box in enumerate(boxes):
-        assert not box.count_overlaps(boxes[:i])
-    pyplot.close("all")
-
-
 def two_of_modes(count: int, study: xr.Dataset) -> xr.Dataset:
     """A study with room for two of its modes, and a larger growth rate than theirs."""
     few = study.isel(mode=[0, 1])
@@ -269,14 +193,6 @@ def test_modes_without_room_are_told_from_growth_at_rest(over_mu: xr.Dataset) ->
     most_unstable = known[-1]
     assert most_unstable.name == "not computed"
     assert np.isnan(most_unstable.frequency).all()
-
-
-def test_modes_without_room_are_counted_in_the_legend(over_mu: xr.Dataset) -> None:
-    study = xr.DataTree(two_of_modes(4, over_mu))
-    plot = kind_of("sliding_modes")(highest=1.0)
-    said = labels(render(plot, {"study": study}))
-    assert "2 modes of 4 not computed" in said
-    assert "cut at 1 Hz: 4 modes above" in said
 
 
 def test_growth_of_no_frequency_is_at_rest_where_all_modes_have_room(over_mu: xr.Dataset) -> None:

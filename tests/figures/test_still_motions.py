@@ -5,13 +5,11 @@ import json
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model.data.variables import PHASES
 from disc_model.figures.history import plot_run
-from disc_model.figures.portrait import plot_phase_portrait
 from disc_model.figures.types import Axes
 
 FLAGS = {"flag_meanings": " ".join(PHASES), "flag_values": [*range(len(PHASES))]}
@@ -58,36 +56,3 @@ def test_histories_on_axes_of_a_reader(variable: str) -> None:
     moving = panel()
     plot_run(run_of(1e-4), ["late"], [variable], ax=moving)
     assert share_filled(moving) > 0.8
-
-
-def test_a_history_beside_another() -> None:
-    ax = panel()
-    for case in ("first", "second"):
-        plot_run(run_of(1e-8), ["late"], ["u"], ax=ax, labels={"case": case})
-    assert share_filled(ax) < 1e-6
-
-
-def test_axes_that_its_reader_has_drawn_on_keep_their_range() -> None:
-    ax = panel()
-    ax.plot([0.0, 0.01], [-1.0, 1.0])
-    plot_run(run_of(1e-8), ["late"], ["u"], ax=ax)
-    assert ax.get_ylim()[1] >= 1.0
-
-
-@pytest.mark.parametrize("count", [1, 2])
-def test_portraits_are_a_point(count: int) -> None:
-    """Numbers of an axis that differ in the tenth digit covered each other."""
-    ax = panel()
-    for case in range(count):
-        labels = {"case": f"case {case}"} if count > 1 else None
-        plot_phase_portrait(run_of(1e-9), "late", "psi", "psi_velocity", ax=ax, labels=labels)
-    assert np.ptp(ax.get_ylim()) > 1.0
-    assert np.ptp(ax.get_xlim()) > 1e-3
-    assert ax.lines[0].get_marker() == "o"
-
-
-def test_portraits_that_move_are_lines() -> None:
-    ax = panel()
-    plot_phase_portrait(run_of(1e-3), "late", "psi", "psi_velocity", ax=ax)
-    assert ax.lines[0].get_marker() == "None"
-    pyplot.close("all")

@@ -48,13 +48,6 @@ def words_above(ax: Axes) -> list[str]:
     return [" ".join(each.split()) for each in words]
 
 
-def test_a_bifurcation_is_drawn_as_its_diagram_unasked() -> None:
-    """It was what the motion has come to at switches, even of samples once a turn."""
-    study = sections().assign_attrs(quantity="bifurcation")
-    study["kind"] = ("Omega", ["undecided"] * 4, {"long_name": "what the motion has come to"})
-    assert dm.plot_sweep(study).get_ylabel() == "Angle (rad)"
-
-
 def test_samples_of_a_section_are_points_over_what_varies() -> None:
     """They were a map over the number of the sample, or a named line for each number."""
     study = sections()
@@ -88,21 +81,6 @@ def test_samples_at_releases_and_at_separations_have_marks_and_names_of_their_ow
     events = ["at release of stick", "at loss of contact"]
     assert labels(ax.figure) == [*events, "at loss of contact, not settled"]
     assert ax.get_ylabel() == "Angle (rad)"
-
-
-def test_events_of_two_sweeps_have_names_with_their_cases() -> None:
-    other = sampled("event")
-    other.attrs["base"] = json.dumps({"N": 400.0})
-    ax = dm.plot_sweep(sampled("event"), "psi")
-    dm.plot_sweep(other, "psi", ax=ax)
-    assert {
-        "at release of stick, N = 385 N",
-        "at loss of contact, N = 385 N",
-        "at release of stick, N = 400 N",
-        "at loss of contact, N = 400 N",
-    } <= {*labels(ax.figure)}
-    looks = {(line.get_marker(), line.get_markerfacecolor()) for line in points_on(ax)}
-    assert len(looks) == 5, "two of each sweep, and rings"
 
 
 def test_samples_once_per_turn_say_so_along_their_axis() -> None:
@@ -180,31 +158,9 @@ def test_few_values_are_a_map_on_request(wish: dict[str, Any]) -> None:
     assert ax.get_ylabel() == "Preload N (N)"
 
 
-def test_points_of_modes_have_a_name() -> None:
-    """They were black lines without one; the last of four modes has no value."""
-    rates = [-0.1, -0.2, -0.3, np.nan]
-    of_rates = {"units": "s-1", "long_name": "growth rate"}
-    of_modes = {"long_name": "number of the mode"}
-    study = xr.Dataset(
-        {"rate": (("Omega", "mode"), [rates] * 4, of_rates)},
-        {"Omega": SPEEDS, "mode": ("mode", range(4), of_modes)},
-    )
-    ax = dm.plot_sweep(study, "rate")
-    [dots] = points_on(ax)
-    assert labels(ax.figure) == ["3 modes"]
-    assert np.isfinite(dots.get_ydata()).sum() == 12
-
-
 def test_a_motion_without_samples_that_had_not_settled_is_named_so() -> None:
     """It was said to have no further sample, as if it had come to an end, and lost contact later."""
     study = sections().assign_attrs(quantity="bifurcation")
     study["psi"][3] = np.nan
     ax = dm.plot_sweep(study, "psi")
     assert words_above(ax) == ["no event while sampled, not settled"]
-
-
-def test_a_selected_sample_of_a_motion_that_had_not_settled_is_named_so() -> None:
-    study = sections().assign_attrs(quantity="bifurcation")
-    first_samples = study.isel(sample=0)
-    ax = dm.plot_sweep(first_samples, "psi")
-    assert "filled: not settled" in labels(ax.figure)

@@ -4,7 +4,6 @@ its values."""
 import functools
 import re
 from collections.abc import Callable
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,15 +16,12 @@ from disc_model.data.variables import typeset
 from disc_model.figures import rate_scale
 from disc_model.figures.classes import GROWING, UNKNOWN_STARTS, name_of
 from disc_model.figures.gap_rows import rows_above
-from disc_model.figures.legends import LEAST_MAP, LEAST_TEXT
 from disc_model.figures.rate_scale import ANOTHER_BORDER, OPEN
 from disc_model.figures.words import label_of, unit_text
-from disc_model.stability.critical_values import long_name_of
-from disc_model.studies.quantities.bifurcation import Bifurcation
 from disc_model.studies.run import describe
 from tests.blocks import RIG
 from tests.figures.measured import Shown, assert_shows
-from tests.figures.reading import as_map, assert_numbers_are_apart, labels
+from tests.figures.reading import as_map, labels
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -198,37 +194,6 @@ def test_a_border_of_stability_says_why_there_is_none() -> None:
     pyplot.close("all")
 
 
-def test_a_border_is_a_value_of_its_parameter_in_plain_words() -> None:
-    """It was a "value of coefficient of static friction above which" the motion stays unstable."""
-    border = swept(dm.critical)["border"]
-    words = "coefficient of static friction above which the stick-slip cycle stays unstable"
-    assert border.attrs["long_name"].startswith(words)
-
-
-def test_what_a_motion_has_come_to_is_not_sampled_at_switches() -> None:
-    """Only its samples are, but the label said so of the kind of the motion."""
-    kind = Bifurcation.COLUMNS["kind"]
-    assert kind.long_name == "what the motion has come to"
-
-
-@pytest.mark.parametrize("layout", [None, pytest.param("constrained", marks=pytest.mark.slow)])
-def test_names_along_small_axes_of_a_page_do_not_meet(layout: str | None) -> None:
-    """s9, s10 and s11 were printed on each other."""
-    names = [f"s{i}" for i in range(1, 13)]
-    status = ("sample", ["ok"] * 12)
-    rates = ("sample", np.arange(12.0), {"units": "s-1"})
-    study = xr.Dataset({"status": status, "growth_rate": rates}, {"sample": names})
-    figure, panels = pyplot.subplots(2, 2, figsize=(174 / 25.4, 140 / 25.4), layout=layout)
-    for ax in panels.flat:
-        dm.plot_sweep(study, "growth_rate", x="sample", ax=ax)
-    figure.draw_without_rendering()
-    for ax in panels.flat:
-        boxes = [label.get_window_extent() for label in ax.get_xticklabels()]
-        for left, right in pairwise(boxes):
-            assert not left.overlaps(right)
-    pyplot.close("all")
-
-
 @pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
 def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
     """One line joined them, with a greatest value at 0.24 that there is not."""
@@ -244,32 +209,6 @@ def test_a_line_from_a_tongue_to_the_main_border_is_open(width: int) -> None:
     [row] = rows_above(ax)[0].rows
     assert row.get_xdata() == pytest.approx([0.22])
     assert said_above(dm.plot_sweep(study, "border")) == []
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
-def test_equal_values_of_two_variables_have_marks_around_each_other(width: int) -> None:
-    """Marks of the border of stability covered those of equal critical values."""
-    unit = {"units": "rad s-1"}
-    value = ("mu_k", [9.14, 12.61, 9.48], unit)
-    study = xr.Dataset(
-        {"value": value, "border": ("mu_k", [15.74, 12.61, 9.48], unit)},
-        {"mu_k": [0.20, 0.24, 0.28]},
-    )
-    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
-    dm.plot_sweep(study, ["value", "border"], ax=ax)
-    inner, outer = [line for line in ax.lines if str(line.get_label())[0] != "_"]
-    assert outer.get_markersize() - inner.get_markersize() >= 2
-    assert outer.get_markerfacecolor() == "none"
-    figure.draw_without_rendering()
-    heights = ax.transData.transform(outer.get_xydata())[:, 1]
-    half = outer.get_markersize() / 2 / 72 * figure.dpi
-    assert heights[0] + half <= ax.bbox.y1 + 0.5
-
-    _, other = pyplot.subplots(layout="constrained")
-    apart = study.assign(border=("mu_k", [15.0, 14.0, 13.0], unit))
-    dm.plot_sweep(apart, ["value", "border"], ax=other)
-    assert len({line.get_markersize() for line in other.lines if line.get_label()[0] != "_"}) == 1
     pyplot.close("all")
 
 
@@ -400,50 +339,6 @@ def test_shares_are_bars_and_no_lines() -> None:
         dm.plot_sweep(swept(dm.basins).sel(Omega=10), "basin_fraction", lines="N")
 
 
-def marked_points(line: Any) -> int:
-    """The number of points of a line that have a mark."""
-    if line.get_marker() in ("", "None"):
-        return 0
-    chosen = line.get_markevery()
-    return len(line.get_xdata()) if chosen is None else len(chosen)
-
-
-@pytest.mark.parametrize("missing", [[], [3]])
-@pytest.mark.parametrize(("count", "marked"), [(9, 9), (25, 25), (100, 0)])
-def test_lines_beside_each_other_have_marks_at_each_point(
-    count: int, marked: int, missing: list[int]
-) -> None:
-    """Of two lines, one without gaps and more than 24 points had a mark at every second of them."""
-    speeds = np.linspace(10, 20, count)
-    attrs = {"units": "s", "long_name": "period"}
-    periods = 0.01 * speeds
-    periods[missing] = np.nan
-    values = {"first": ("Omega", periods, attrs), "second": ("Omega", 0.02 * speeds, attrs)}
-    study = xr.Dataset(values, {"Omega": speeds})
-    ax = dm.plot_sweep(study, ["first", "second"])
-    lines = [line for line in ax.lines if len(line.get_xdata()) == count]
-    joined = [line for line in lines if line.get_linestyle() != "None"]
-    assert [marked_points(line) for line in joined] == [marked, marked]
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize(
-    ("count", "discs", "rings"), [(30, ["a"], [30]), (1000, ["a"], []), (1000, ["a", "b"], [13])]
-)
-def test_many_points_are_no_band_of_rings(count: int, discs: list[str], rings: list[int]) -> None:
-    """Some 1000 points in one dimension had a ring each, which hid the line; of a single line, a
-    ring on every eleventh point was taken for a special point."""
-    speeds = np.linspace(10, 20, count)
-    axes = {"disc": discs, "Omega": speeds}
-    attrs = {"units": "s-1", "long_name": "growth rate"}
-    values = np.tile(-0.01 * speeds, (len(discs), 1))
-    study = xr.Dataset({"growth_rate": ([*axes], values, attrs)}, axes)
-    ax = dm.plot_sweep(study)
-    large = [line for line in ax.lines if line.get_marker() == "o"]
-    assert [marked_points(line) for line in large] == rings
-    pyplot.close("all")
-
-
 PAIRS = {"N": [385.0, 300.0, 350.0, 320.0], "mu_k": [0.24, 0.2, 0.3, 0.41]}
 """The last pair is no case, as mu_k is above mu_s."""
 
@@ -457,22 +352,6 @@ def outcomes() -> xr.Dataset:
     return xr.Dataset(values, axes, attrs={"options": '{"horizon": 3}'})
 
 
-def test_five_classes_below_narrow_axes_stand_in_columns() -> None:
-    """In one they took half of a figure that is as wide as a column."""
-    with pyplot.rc_context({"font.size": 8}):
-        figure, ax = pyplot.subplots(figsize=(3.31, 2.6), layout="constrained")
-        legend = as_map(outcomes(), "outcome", ax=ax).get_legend()
-        figure.canvas.draw()
-    assert legend.get_title().get_text() == "Outcome within 3 s"
-    names = [text.get_text() for text in legend.get_texts()]
-    # from harmless to severe, and then what is not known; they were in the order of the alphabet
-    assert names == ["quiet", "growing, in contact", "permanent stick", "separation", "undecided"]
-    lefts = {round(text.get_window_extent().x0) for text in legend.get_texts()}
-    assert len(lefts) == 2
-    assert ax.bbox.height > 0.4 * figure.bbox.height
-    pyplot.close("all")
-
-
 def rates() -> xr.Dataset:
     """Growth rates of either sign, one of them alone among others, and a place without a cycle."""
     rate = np.full((4, 5), 0.1)
@@ -484,119 +363,6 @@ def rates() -> xr.Dataset:
     attrs = {"units": "s-1", "long_name": "growth rate of disturbances of the stick-slip cycle"}
     values = {"growth_rate": ([*axes], rate, attrs), "cycle": ([*axes], cycle)}
     return xr.Dataset(values, axes)
-
-
-def rows_of(legend: Any) -> int:
-    """How many rows the entries of a legend stand in."""
-    return len({round(text.get_window_extent().y0) for text in legend.get_texts()})
-
-
-@pytest.mark.parametrize("stacked", [False, True])
-def test_a_legend_stands_below_a_map_and_its_bar(stacked: bool) -> None:
-    """It had the width of the map alone, and squeezed it by a column of three rows."""
-    count = 2 if stacked else 1
-    size = (84 / 25.4, 1.6 * count + 0.6)
-    with pyplot.rc_context({"font.size": 8}):
-        figure, axes = pyplot.subplots(count, figsize=size, layout="constrained", squeeze=False)
-        for ax in axes.flat:
-            dm.plot_sweep(rates(), ax=ax)
-        figure.draw_without_rendering()
-    for ax in axes.flat:
-        legend = ax.get_legend()
-        names = {text.get_text() for text in legend.get_texts()}
-        assert names == {"no cycle found", "stable", "unresolved"}
-        assert rows_of(legend) == 1
-        box = legend.get_window_extent()
-        assert box.x1 > ax.bbox.x1
-        assert box.x1 <= figure.bbox.x1
-        assert box.x0 >= 0
-        # what was 17 mm of 45 with three rows
-        assert ax.bbox.height > 0.45 * figure.bbox.height / count
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("size", [pytest.param(8, marks=pytest.mark.slow), 10])
-def test_legends_of_maps_beside_each_other_do_not_meet(size: int) -> None:
-    with pyplot.rc_context({"font.size": size}):
-        figure, axes = pyplot.subplots(1, 2, figsize=(174 / 25.4, 2.6), layout="constrained")
-        dm.plot_sweep(outcomes(), "outcome", ax=axes[0])
-        dm.plot_sweep(rates(), ax=axes[1])
-        figure.draw_without_rendering()
-    left, right = (ax.get_legend().get_window_extent() for ax in axes)
-    assert not left.overlaps(right)
-    pyplot.close("all")
-
-
-def boxes_of(ax: Any) -> list[Any]:
-    """Where axes and bars of theirs are and what they say, labels, titles and numbers; and their
-    legend."""
-    bars = [mesh.colorbar.ax for mesh in ax.collections if mesh.colorbar is not None]
-    boxes = [each.get_tightbbox() for each in (ax, *bars)]
-    if ax.get_legend() is not None:
-        boxes.append(ax.get_legend().get_window_extent())
-    return boxes
-
-
-def assert_apart(figure: Any) -> None:
-    """No panel of a figure, its bar and legend included, meets another or leaves the page."""
-    figure.draw_without_rendering()
-    groups = [boxes_of(ax) for ax in figure.axes if ax.get_label() != "<colorbar>"]
-    for i, group in enumerate(groups):
-        for box in group:
-            # a pixel, to which places are rounded
-            assert min(box.x0, box.y0) >= -1
-            assert box.x1 <= figure.bbox.x1 + 1
-            assert box.y1 <= figure.bbox.y1 + 1
-            for other in groups[i + 1 :]:
-                assert not box.padded(-1).count_overlaps(other)
-    for ax in figure.axes:
-        legend = ax.get_legend()
-        if legend is not None:
-            texts = [*legend.get_texts(), legend.get_title()]
-            inside = legend.get_window_extent().padded(1)
-            corners = [text.get_window_extent().corners() for text in texts if text.get_text()]
-            assert all(inside.count_contains(each) == len(each) for each in corners)
-
-
-@pytest.mark.parametrize(
-    "order",
-    [
-        (0, 1, 2),
-        pytest.param((2, 1, 0), marks=pytest.mark.slow),
-        pytest.param((1, 0, 2), marks=pytest.mark.slow),
-    ],
-)
-def test_three_maps_beside_each_other_keep_their_legends_apart(order: tuple[int, ...]) -> None:
-    """Axes move when another picture is drawn: "growing, in contact" was cut by the next legend."""
-    draws: list[Callable[..., Any]] = [
-        lambda ax: dm.plot_sweep(outcomes(), "outcome", ax=ax),
-        lambda ax: dm.plot_sweep(rates(), ax=ax),
-        lambda ax: dm.plot_sweep(outcomes(), "first_separation", ax=ax),
-    ]
-    with pyplot.rc_context({"font.size": 8, "font.family": "serif"}):
-        figure, axes = pyplot.subplots(1, 3, figsize=(174 / 25.4, 2.8), layout="constrained")
-        for i in order:
-            draws[i](ax=axes[i])
-        assert_apart(figure)
-    for ax in axes:
-        assert ax.bbox.height > 0.4 * figure.bbox.height
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("layout", [None, pytest.param("constrained", marks=pytest.mark.slow)])
-def test_four_maps_in_two_rows_keep_what_they_say_apart(layout: str | None) -> None:
-    """On plain axes a title stood in the legend above it, and a bar's label in the next panel."""
-    with pyplot.rc_context({"font.size": 8}):
-        figure, axes = pyplot.subplots(2, 2, figsize=(174 / 25.4, 5), layout=layout)
-        as_map(outcomes(), "outcome", ax=axes[0, 0], title="(a) outcome")
-        as_map(rates(), ax=axes[0, 1], title="(b) growth")
-        as_map(rates(), ax=axes[1, 0], title="(c) growth")
-        as_map(outcomes(), "outcome", ax=axes[1, 1], title="(d) outcome")
-        assert_apart(figure)
-    for ax in axes.flat:
-        assert ax.bbox.height > 0.15 * figure.bbox.height
-        assert ax.bbox.width > 0.2 * figure.bbox.width
-    pyplot.close("all")
 
 
 def test_runs_without_a_separation_have_none_within_their_time() -> None:
@@ -627,79 +393,6 @@ def test_a_critical_value_has_the_name_of_its_parameter(
     found, by = label_of(xr.DataArray(1.0, name="value", attrs=words))
     assert typeset(found) == typeset(label)
     assert by == factor
-
-
-def test_a_legend_covers_no_point_after_further_panels_are_drawn() -> None:
-    """The highest value, alone among others, was below "at or below the lower bound"."""
-    rng = np.random.default_rng(4)  # matplotlib's best place of a legend covers a point of these
-    columns = {name: rng.uniform(0, 1, 24) for name in ("mu_s", "mu_k", "m")}
-    values = np.where(np.arange(24) < 18, 8.0, 8.0 + 0.2 * rng.uniform(0, 1, 24))
-    values[0] = 8.39
-    places = {name: ("sample", column) for name, column in columns.items()}
-    words = {"long_name": "critical value of speed of the drive point", "units": "rad s-1"}
-    data = {"value": ("sample", values, words), "at_lower_bound": ("sample", values == 8.0)}
-    study = xr.Dataset(data, places)
-    figure, axes = pyplot.subplots(1, 3, figsize=(12, 3.5), layout="constrained")
-    for name, ax in zip(columns, axes, strict=True):
-        dm.plot_sweep(study, "value", x=name, ax=ax)
-    figure.draw_without_rendering()
-    for ax in axes:
-        box = ax.get_legend().get_window_extent()
-        for line in ax.lines:
-            radius = 0.5 * line.get_markersize() * figure.dpi / 72
-            points = line.get_transform().transform(line.get_xydata())
-            assert not box.padded(radius).count_contains(points)
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("columns", [pytest.param(1, marks=pytest.mark.slow), 3])
-def test_values_with_equal_ratios_stand_on_a_logarithmic_axis(columns: int) -> None:
-    speeds = np.geomspace(2, 40, 12)
-    axes_of = {"N": [100.0, 200.0], "Omega": speeds}
-    data = {"value": ([*axes_of], np.ones((2, 12)) * speeds)}
-    study = xr.Dataset(data, axes_of)
-    size = (84 * min(columns, 2) / 25.4, 2.5)
-    figure, axes = pyplot.subplots(1, columns, figsize=size, layout="constrained", squeeze=False)
-    for ax in axes.flat[:-1]:
-        dm.plot_sweep(study, x="Omega", ax=ax)
-    dm.plot_sweep(study.isel(N=0), ax=axes[0, -1])
-    figure.draw_without_rendering()
-    for ax in axes.flat:
-        assert ax.get_xscale() == "log"
-        assert_numbers_are_apart(ax)
-    pyplot.close("all")
-
-
-def long_names() -> xr.Dataset:
-    """Outcomes of which one has a long name."""
-    study = outcomes()
-    outcome = study["outcome"].astype(object)
-    outcome[0, 0] = "other_cycle"
-    return study.assign(outcome=outcome.astype(str))
-
-
-def test_many_classes_in_large_letters_leave_a_map_its_height() -> None:
-    """They stood in one column, and the map was 11 mm high."""
-    with pyplot.rc_context({"font.size": 11}):
-        figure, ax = pyplot.subplots(figsize=(84 / 25.4, 70 / 25.4), layout="constrained")
-        legend = dm.plot_sweep(long_names(), "outcome", ax=ax).get_legend()
-        figure.draw_without_rendering()
-    assert rows_of(legend) <= 3
-    assert ax.bbox.height > 0.5 * figure.bbox.height
-    assert min(text.get_fontsize() for text in legend.get_texts()) >= LEAST_TEXT
-    pyplot.close("all")
-
-
-def test_a_new_map_grows_with_its_legend() -> None:
-    """A figure of a fixed height gave what the legend took from the map."""
-    with pyplot.rc_context({"font.size": 14}):
-        ax = as_map(long_names(), "outcome", title="Above it,\nthree lines\nof a title")
-        figure = ax.figure
-        figure.draw_without_rendering()
-    # the height of a text that is broken once more is the rest
-    assert ax.bbox.height / figure.dpi > LEAST_MAP - 0.05
-    assert figure.get_figheight() > 2.9
-    pyplot.close("all")
 
 
 def test_points_without_a_separation_are_no_points_without_a_value() -> None:
@@ -764,62 +457,9 @@ def test_points_that_rest_on_motions_which_had_not_settled_are_filled(longer: bo
     assert (words in labels(plane.figure)) == (not longer)
 
 
-def test_growth_of_steady_sliding_is_one_line() -> None:
-    """Steps of more than 0.1/s had broken it into points by themselves, as those of cycles."""
-    rates = [0.01, 0.3, 1.0, 2.0, 3.0]
-    for name, pieces in {"steady sliding": 1, "the stick-slip cycle": 3}.items():
-        attrs = {"units": "s-1", "long_name": f"growth rate of disturbances of {name}"}
-        study = xr.Dataset({"growth_rate": ("Omega", rates, attrs)}, {"Omega": np.arange(5.0)})
-        heights = dm.plot_sweep(study).lines[0].get_ydata()
-        assert np.isnan(heights).sum() == pieces - 1
-        pyplot.close("all")
-
-
 def said_above(ax: Any) -> list[str]:
     """The words above a panel that say what its marks there mean, from the lowest row on."""
     return [" ".join(row.words.get_text().split()) for row in rows_above(ax)]
-
-
-@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
-def test_a_line_of_growth_rates_says_where_it_is_open_between_points(width: int) -> None:
-    speeds = np.arange(14.0, 18.1, 0.5).tolist()
-    growth = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=speeds)
-    rates = growth["growth_rate"].values
-    gone = np.isnan(rates)
-    assert 0 < gone.sum() < 3
-    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
-    dm.plot_sweep(growth, "growth_rate", ax=ax)
-    assert said_above(ax) == ["no cycle found", OPEN]
-    assert "another cycle" in OPEN
-    [row] = rows_above(ax)[1].rows
-    scaled = np.arcsinh(rates / rate_scale.LINEAR)
-    [place] = np.flatnonzero(np.abs(np.diff(scaled)) > rate_scale.STEP)
-    assert row.get_xdata() == [speeds[place] + 0.25], "between both points, as none lies there"
-    figure.draw_without_rendering()
-    top = rows_above(ax)[1].words.get_window_extent()
-    assert top.y1 <= figure.bbox.y1
-    assert top.x1 <= figure.bbox.x1
-
-
-def test_filled_marks_and_open_ones_of_other_lines_are_both_seen() -> None:
-    """A filled mark was larger than the open ones, and covered them or filled those around it."""
-    flags = {
-        "flag_values": np.arange(3, dtype=np.int8),
-        "flag_meanings": "undecided changing settled",
-    }
-    settled = np.array([[0, 2, 0], [2, 0, 0]], np.int8)
-    dims = ("direction", "sweep_Omega")
-    study = xr.Dataset(
-        {"separation_rate": (dims, np.zeros((2, 3))), "sweep_settled": (dims, settled, flags)},
-        {"direction": ["up", "down"], "sweep_Omega": [4.0, 6.0, 8.0]},
-    )
-    ax = dm.plot_sweep(study, "separation_rate")
-    up, down, _, *filled = ax.lines
-    assert [[*line.get_xdata()] for line in filled] == [[4, 8], [6, 8]]
-    for line, mark in zip((up, down), filled, strict=True):
-        assert mark.get_markersize() == line.get_markersize()
-        assert mark.get_zorder() < down.get_zorder()
-    assert up.get_markersize() > down.get_markersize()
 
 
 def test_a_smooth_line_of_growth_rates_is_not_open() -> None:
@@ -862,63 +502,6 @@ def test_paired_samples_have_a_mark_for_each_value_of_an_axis_beside_them() -> N
     pyplot.close("all")
 
 
-def samples(count: int, **columns: list[str]) -> xr.Dataset:
-    """Growth rates of paired samples over the speed, some of which have no cycle."""
-    loads = np.linspace(330, 400, count).tolist()
-    friction = np.linspace(0.23, 0.25, count).tolist()
-    pairs = {"N": loads, "mu_k": friction, **columns}
-    return dm.sweep(dm.floquet, CASE, Omega=[9, 11, 13, 14, 15, 16], zip=pairs)
-
-
-def test_a_few_paired_samples_have_a_named_curve_each_over_an_axis() -> None:
-    """They were refused."""
-    found = samples(3)
-    ax = dm.plot_sweep(found, "period", x="Omega")
-    lines: list[Any] = ax.get_legend_handles_labels()[0]
-    for line, periods in zip(lines, 1e3 * found["period"].values.T, strict=True):
-        np.testing.assert_array_equal(line.get_ydata(), periods)
-    first, *others = labels(ax.figure)
-    assert first.startswith("Preload N = 330 N, Kinetic friction")
-    assert others == ["365 N, 0.24", "400 N, 0.25"]
-    assert ax.figure.get_suptitle().endswith(", N and $\\mathrm{μ_k}$ vary")
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize("width", [84, pytest.param(174, marks=pytest.mark.slow)])
-def test_many_paired_samples_are_thin_curves_with_one_name(width: int) -> None:
-    found = samples(12)
-    figure, ax = pyplot.subplots(figsize=(width / 25.4, 60 / 25.4), layout="constrained")
-    dm.plot_sweep(found, "growth_rate", x="Omega", ax=ax)
-    figure.draw_without_rendering()
-    assert [text.get_text() for text in ax.get_legend().get_texts()] == ["12 samples"]
-    curves = [
-        line for line in ax.lines if line.get_linestyle() == "-" and len(line.get_xdata()) > 5
-    ]
-    assert len(curves) == 12
-    assert {line.get_marker() for line in curves} == {"None"}
-    values = [line.get_ydata() for line in curves]
-    drawn = [heights[np.isfinite(heights)] for heights in values]
-    rates = found["growth_rate"].values
-    np.testing.assert_array_equal(np.concatenate(drawn), rates.T[np.isfinite(rates.T)])
-    assert said_above(ax) == ["no cycle found"]
-    [row] = rows_above(ax)[0].rows
-    missing = np.isnan(rates).any(axis=1)
-    np.testing.assert_array_equal(row.get_xdata(), found["Omega"].values[missing])
-    pyplot.close("all")
-
-
-def test_a_point_of_a_sample_that_no_line_joins_is_a_dot() -> None:
-    study = samples(12)
-    heights = study["period"].values.copy()
-    heights[1::2] = np.nan
-    study["period"] = study["period"].copy(data=heights)
-    ax = dm.plot_sweep(study, "period", x="Omega")
-    dots = [line for line in ax.lines if line.get_marker() == "."]
-    count = sum(len(line.get_xdata()) for line in dots)
-    assert count == np.isfinite(heights).sum()
-    pyplot.close("all")
-
-
 def test_samples_with_names_are_listed_as_in_their_table() -> None:
     """They were in the order of their preloads."""
     case = dm.Parameters(N=385, Omega=15, n_diameters=2)
@@ -927,63 +510,6 @@ def test_samples_with_names_are_listed_as_in_their_table() -> None:
     ax = dm.plot_sweep(study, "value", x="Omega")
     said = labels(ax.figure)
     assert [text.rpartition(" ")[2] for text in said] == ["A", "B", "C"]
-    pyplot.close("all")
-
-
-def test_samples_that_are_nearly_alike_keep_their_digits() -> None:
-    """Lines are known by their names."""
-    case = dm.Parameters(N=385, Omega=15, n_diameters=2)
-    for springs, digits in (
-        ([11892.137, 11922.137], ["11.89", "11.92"]),
-        ([11892.137, 11892.237], ["11.8921", "11.8922"]),
-    ):
-        study = dm.sweep(lambda case: case.N, case, k=springs, Omega=[12, 13])
-        ax = dm.plot_sweep(study, "value", x="Omega", lines="k")
-        assert [text.split()[-2] for text in labels(ax.figure)] == digits
-        pyplot.close("all")
-
-
-def test_samples_with_names_of_their_own_are_curves_too() -> None:
-    names = [f"sample {number}" for number in range(8)]
-    found = samples(8, sample=names)
-    named = found.swap_dims({str(found["N"].dims[0]): "sample"})
-    for study in (found, named):
-        ax = dm.plot_sweep(study, "period", x="Omega")
-        assert labels(ax.figure) == ["8 samples"]
-    pyplot.close("all")
-
-
-def test_rows_of_marks_of_several_sweeps_stand_on_one_strip() -> None:
-    """Those of one sweep looked like those of another; those that are alike stand there once."""
-    axes = {"Omega": [14, 15, 16], "N": [340, 385]}
-    lines: dict[str, Any] = {"x": "Omega", "lines": "N"}
-    ax = pyplot.figure().add_subplot()
-    stiff, soft = (dm.sweep(own_cycles, CASE.replace(k_p=k_p), **axes) for k_p in (20000, 8000))
-    dm.plot_sweep(stiff, "reach", ax=ax, **lines)
-    assert said_above(ax) == ["no value"]
-    dm.plot_sweep(soft, "reach", ax=ax, **lines)
-    [found] = rows_above(ax)
-    assert len(found.rows) == 2
-    twin = ax.twinx()
-    dm.plot_sweep(
-        soft.assign(reach=soft["reach"].where(soft["Omega"] > 14)), "reach", ax=twin, **lines
-    )
-    assert said_above(ax) == ["no value"]
-    dashes = [row.below.get_linestyle() for row in found.seen]
-    assert len(dashes) == 6
-    assert len({*dashes}) == 2
-    pyplot.close("all")
-
-
-def own_cycles(case: dm.Parameters) -> dict[str, float]:
-    """A number without a value at the highest speed."""
-    return {"reach": case.Omega if case.Omega < 16 else np.nan}
-
-
-def test_numbers_beside_an_axis_make_it_no_axis_of_samples() -> None:
-    study = plane().assign_coords(rpm=("Omega", 9.55 * plane()["Omega"].values))
-    ax = as_map(study, "growth_rate", x="N")
-    assert ax.collections, "a map"
     pyplot.close("all")
 
 
@@ -1019,24 +545,6 @@ def test_a_sweep_in_other_units_is_drawn_in_those_of_its_label() -> None:
     pyplot.close("all")
 
 
-def test_a_map_of_numbers_takes_other_colours_and_its_bar_too() -> None:
-    axes = {"N": [100.0, 200.0], "Omega": [10.0, 20.0, 30.0]}
-    values = np.arange(6.0).reshape(2, 3)
-    attrs = {"units": "m", "long_name": "height"}
-    study = xr.Dataset({"height": ([*axes], values, attrs)}, axes)
-    ax = dm.plot_sweep(study, cmap="magma")
-    [mesh] = ax.collections
-    of_map = mesh.get_cmap()
-    of_bar = mesh.colorbar.cmap
-    assert of_map.name == "magma"
-    assert of_bar.name == "magma"
-    with refusal("cmap='magma': is for maps of numbers"):
-        dm.plot_sweep(outcomes(), "outcome", cmap="magma")
-    with refusal("cmap='magmas': must be a colour map"):
-        dm.plot_sweep(outcomes(), "first_separation", cmap="magmas")
-    pyplot.close("all")
-
-
 def test_a_sweep_of_three_dimensions_is_to_be_narrowed_by_its_reader() -> None:
     axes = {"N": [1.0, 2.0], "Omega": [1.0, 2.0], "m": [1.0, 2.0]}
     rates = [*axes], np.zeros((2, 2, 2))
@@ -1056,11 +564,6 @@ def test_shares_by_energy_over_the_speed_say_what_to_select_first() -> None:
     ax = dm.plot_sweep(study.sel(Omega=10), x="energy")
     assert ax.get_xlabel() == "Energy of the kick (J)"
     pyplot.close("all")
-
-
-def test_both_further_axes_are_to_be_selected_for_shares_by_energy() -> None:
-    with refusal(r"as by study\.sel\(Omega=10, N=\d+\)"):
-        dm.plot_sweep(swept(dm.basins), x="energy")
 
 
 def test_many_paired_samples_are_joined_by_no_line() -> None:
@@ -1100,43 +603,6 @@ def test_a_logarithmic_scale_leaves_no_cell_or_point_blank() -> None:
     assert line.get_ylabel() == "Cycle rate"
     low, high = line.get_ylim()
     assert low < -8 < 8 < high, "all values are within the axis"
-    pyplot.close("all")
-
-
-def test_numbers_of_a_logarithmic_scale_through_zero_are_apart() -> None:
-    """Numbers within the linear part, 0.1 and -0.1 for values from 0.3 on, covered zero."""
-    speeds = np.array([8.0, 10, 11, 12, 13, 14, 16])
-    rates = np.array([-300.0, -20, -0.3, 0, 0.3, 20, 300])
-    found = xr.Dataset({"cycle_rate": ("Omega", rates)}, {"Omega": speeds})
-    _, ax = pyplot.subplots(figsize=(3.31, 2.4), layout="constrained")
-    dm.plot_sweep(found, "cycle_rate", log=True, ax=ax)
-    assert ax.get_yticks().tolist() == [-100, -10, -1, 0, 1, 10, 100]
-    assert_numbers_are_apart(ax)
-    pyplot.close("all")
-
-
-def test_the_last_number_along_an_axis_is_not_cut() -> None:
-    """The layout, whose width decides between 20 and 20.0, left room for 20 alone."""
-    speeds = np.linspace(8, 20, 25)
-    power = {"units": "W", "long_name": "Power into the disc"}
-    data = {"power": ("Omega", 300 * np.linspace(-1, 1, 25) ** 3, power)}
-    figure, ax = pyplot.subplots(figsize=(3.31, 2.36), layout="constrained")
-    dm.plot_sweep(xr.Dataset(data, {"Omega": speeds}), ax=ax)
-    for _ in range(3):
-        figure.draw_without_rendering()
-        low, high = ax.get_xlim()
-        for tick in ax.xaxis.get_major_ticks():
-            if low <= tick.get_loc() <= high:
-                assert tick.label1.get_window_extent().x1 <= figure.bbox.x1
-    pyplot.close("all")
-
-
-def test_a_bar_has_the_minus_of_other_axes() -> None:
-    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
-    bar = as_map(found, "cycle_rate", log=True).figure.axes[1]
-    said = [text.get_text() for text in bar.get_yticklabels()]
-    assert any(text.startswith("\N{MINUS SIGN}") for text in said)
-    assert not any(text.startswith("-") for text in said)
     pyplot.close("all")
 
 
@@ -1214,16 +680,6 @@ def test_growth_rates_below_any_axis_are_named(axes: dict[str, list[float]]) -> 
     pyplot.close("all")
 
 
-def test_samples_are_drawn_over_their_names() -> None:
-    table = {"sample": ["A", "B", "C"], "N": [300.0, 200.0, 385.0]}
-    ax = dm.plot_sweep(dm.sweep(rate, CASE, zip=table), "rate", x="sample")
-    [points] = ax.lines
-    assert points.get_linestyle() == "None"
-    assert [text.get_text() for text in ax.get_xticklabels()] == ["A", "B", "C"]
-    np.testing.assert_allclose(points.get_ydata(), [4500, 3000, 5775])
-    pyplot.close("all")
-
-
 def test_a_sweep_over_words_alone_is_drawn_over_them() -> None:
     """It was refused: nothing was "over the grid"."""
     forces = ["vertical", "normal"]
@@ -1274,26 +730,6 @@ def test_what_cannot_be_drawn_says_how_it_can() -> None:
     pyplot.close("all")
 
 
-def test_a_bar_keeps_its_numbers_in_other_colours() -> None:
-    found = dm.sweep(own_rates, CASE, Omega=SPEEDS, N=LOADS)
-    usual, other = (
-        as_map(found, "cycle_rate", log=True, cmap=cmap).figure.axes[1] for cmap in (None, "RdBu_r")
-    )
-    texts = [text.get_text() for text in usual.get_yticklabels()]
-    assert [text.get_text() for text in other.get_yticklabels()] == texts
-    assert "0" in texts
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize(
-    ("name", "label"), [("f_ss", "f_ss"), ("x", "x"), ("sl", "sl"), ("cycle_rate", "Cycle rate")]
-)
-def test_names_of_own_quantities_stay_unless_they_are_words(name: str, label: str) -> None:
-    found = dm.sweep(lambda case: {name: case.Omega}, CASE, Omega=SPEEDS)
-    assert dm.plot_sweep(found).get_ylabel() == label
-    pyplot.close("all")
-
-
 def test_points_without_a_cycle_are_not_unstable_ones() -> None:
     """They were drawn as "no", as if a cycle were unstable."""
     stable = dm.sweep(dm.floquet, CASE, Omega=[10, 12], N=[300, 385])
@@ -1306,21 +742,6 @@ def test_points_without_a_cycle_are_not_unstable_ones() -> None:
     pyplot.close("all")
 
 
-@pytest.mark.parametrize("names", [["low", "high"], ["high", "low"]])
-def test_a_logarithmic_axis_fits_all_of_its_lines(names: list[str]) -> None:
-    """The last line alone decided it, and what is not positive of the others was lost."""
-    values = {"low": ("N", [-1.0, 0.0, 2.0]), "high": ("N", [3.0, 40.0, 500.0])}
-    study = xr.Dataset(values, {"N": [100.0, 200.0, 300.0]})
-    for variable in study.values():
-        variable.attrs.update(units="N", long_name=f"force at the {variable.name} end")
-    ax = dm.plot_sweep(study, names, log=True)
-    assert ax.get_yscale() == "symlog"
-    least, greatest = ax.get_ylim()
-    assert least < -1
-    assert greatest > 500
-    pyplot.close("all")
-
-
 def test_a_line_of_small_rates_is_open_between_two_cycles() -> None:
     """It was joined through zero: from one cycle to another, at 385 N and mu_k = 0.15."""
     rates = np.array([-0.0011, -0.0042, -0.0138, -0.0406, 0.0393, 0.0121, 0.0058])
@@ -1329,19 +750,6 @@ def test_a_line_of_small_rates_is_open_between_two_cycles() -> None:
     peak = np.array([0.01, 0.03, 0.06, 0.03, 0.01])
     assert not rate_scale.opens(peak).any()
     assert rate_scale.opens(rates[:1]).size == 0
-
-
-def test_what_varies_with_the_column_of_samples_is_named() -> None:
-    """Samples over one column looked like a curve of one parameter."""
-    pairs = {"N": [300, np.nan, 385], "Omega": [10, 11, 12], "mu_k": [0.2, 0.21, 0.24]}
-    found = dm.sweep(dm.floquet, CASE, zip=pairs)
-    ax = dm.plot_sweep(found, "growth_rate")
-    head = "Ω and $\\mathrm{μ_k}$ vary as well"
-    assert " ".join(ax.figure.get_suptitle().split()).endswith(head)
-    assert said_above(ax) == [], "a row without a mark, as the sample has no place"
-    over = dm.plot_sweep(found, "growth_rate", x="Omega")
-    assert over.figure.get_suptitle().endswith("N and $\\mathrm{μ_k}$ vary as well")
-    assert said_above(over) == ["failed"]
 
 
 def test_complex_numbers_are_not_drawn_by_their_real_part() -> None:
@@ -1362,33 +770,6 @@ def test_limits_end_the_axis_of_lines_and_the_colours_of_maps() -> None:
             as_map(grid, limits=wrong)
 
 
-def test_names_of_many_samples_do_not_lie_on_each_other() -> None:
-    """They were a black band."""
-    loads = np.linspace(300, 385, 40)
-    names = [f"sample {i}" for i in range(40)]
-    found = dm.sweep(lambda case: case.N, CASE, zip={"N": loads, "sample": names})
-    figure, ax = pyplot.subplots(figsize=(84 / 25.4, 60 / 25.4))
-    dm.plot_sweep(found, x="sample", ax=ax)
-    figure.draw_without_rendering()
-    places = [label.get_window_extent() for label in ax.get_xticklabels()]
-    assert 10 < len(places) < 40
-    assert all(left.x1 <= right.x0 for left, right in pairwise(places))
-    for label in ax.get_xticklabels():
-        assert label.get_text() == names[round(label.get_position()[0])]
-
-
-def test_lines_of_all_variables_of_a_cycle_are_open_at_the_same_steps() -> None:
-    """The period was joined between two cycles, 16 and 16.5 rad/s, with two folds between them."""
-    found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=14), Omega=[15, 16, 16.5, 17, 18])
-    places = {}
-    for variable in ("growth_rate", "period", "stick_fraction"):
-        [rows] = rows_above(dm.plot_sweep(found, variable))
-        places[variable] = [place for row in rows.rows for place in row.get_xdata()]
-    assert 16.25 in places["growth_rate"]
-    assert places["period"] == places["stick_fraction"] == places["growth_rate"]
-    assert said_above(dm.plot_sweep(found, "sliding_growth_rate")) == []
-
-
 def test_counts_and_verdicts_of_a_point_without_a_cycle_are_missing() -> None:
     """Its sticks were 0."""
     found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
@@ -1407,13 +788,6 @@ def test_zeros_alone_have_a_logarithmic_picture() -> None:
     assert ax.get_yticks().tolist() == [0]
 
 
-def test_counts_within_a_decade_have_round_numbers_on_a_logarithmic_axis() -> None:
-    """Of 0 and 1057 to 6516, only 0 and 6516 stood at the axis."""
-    counts = {"count": ("Omega", [0, 1057, 3000, 6516])}
-    ax = dm.plot_sweep(xr.Dataset(counts, {"Omega": [1.0, 2, 3, 4]}), log=True)
-    assert ax.get_yticks().tolist() == [0, 2000, 5000]
-
-
 def test_growth_rates_have_a_linear_scale_on_request() -> None:
     rates = xr.DataArray(
         [[-3.0, 0.1], [0.2, 5.0]], {"N": [1.0, 2], "Omega": [1.0, 2]}, name="growth_rate"
@@ -1424,21 +798,6 @@ def test_growth_rates_have_a_linear_scale_on_request() -> None:
     [norm] = [each.norm for each in as_map(study, log=False).collections if each.norm]
     assert type(norm).__name__ == "Normalize"
     assert (norm.vmin, norm.vmax) == (-5, 5)
-
-
-def test_a_picture_without_legend_keeps_the_words_above_it() -> None:
-    found = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[15, 15.5])
-    ax = dm.plot_sweep(found, "period", legend=False)
-    assert said_above(ax) == ["no cycle found"]
-    [row] = rows_above(ax)[0].rows
-    assert [*row.get_xdata()] == [15.5]
-
-
-def test_samples_without_any_value_are_not_counted_as_curves() -> None:
-    loads = [300.0, np.nan, *np.linspace(310, 380, 8)]
-    pairs = {"N": loads, "mu_k": np.linspace(0.2, 0.26, 10)}
-    found = dm.sweep(dm.floquet, CASE, Omega=[10, 11], zip=pairs)
-    assert labels(dm.plot_sweep(found, "growth_rate", x="Omega").figure)[0] == "9 of 10 samples"
 
 
 @pytest.mark.parametrize("name", ["a", "E", "Omega", "mu_k_over_mu_s"])
@@ -1460,51 +819,6 @@ def test_kinds_of_cycles_are_named_by_words() -> None:
     pyplot.close("all")
 
 
-def test_many_lines_leave_their_panel_room() -> None:
-    """Rows of points without a value, and the legend, left none, and the layout gave up."""
-    values = np.linspace(1.0, 2.0, 15)[:, None] * np.ones(16)
-    values[:, 8] = np.nan
-    rates = xr.DataArray(values, dims=("N", "Omega"), name="period", attrs={"units": "s"})
-    study = rates.to_dataset().assign_coords(N=np.linspace(100, 500, 15), Omega=np.arange(16.0))
-    ax = dm.plot_sweep(study, "period", x="Omega", lines="N")
-    ax.figure.draw_without_rendering()
-    assert ax.bbox.height > 0.8 * ax.figure.dpi
-    assert ax.figure.legends[0].get_window_extent().y1 < ax.bbox.y0
-    pyplot.close("all")
-
-
-def test_whole_numbers_along_the_axis_are_whole_below_lines() -> None:
-    """Gains of 1, 2 and 3 had 1.5 between them."""
-    gains = dm.sweep(lambda case, gain: case.N * gain, CASE, over={"gain": [1, 2, 3]}, N=LOADS)
-    ax = dm.plot_sweep(gains, "value", x="gain", lines="N")
-    low, high = ax.get_xlim()
-    shown = [number for number in ax.get_xticks() if low <= number <= high]
-    assert shown == [1.0, 2.0, 3.0]
-    pyplot.close("all")
-
-
-def test_numbers_beside_a_panel_are_no_sums() -> None:
-    """Above the axis stood +1, and beside it 0.0003."""
-    study = xr.Dataset({"size": ("N", [1.00025, 1.00065])}, {"N": LOADS})
-    _, ax = pyplot.subplots()
-    dm.plot_sweep(study, "size", ax=ax)
-    ax.figure.draw_without_rendering()
-    assert ax.yaxis.get_offset_text().get_text() == ""
-    pyplot.close("all")
-
-
-def test_long_words_beside_a_panel_have_several_lines() -> None:
-    """They left the panel 10 mm of 84."""
-    words = ["very quiet indeed, with a long name", "loud"]
-    study = xr.Dataset({"verdict": ("N", words)}, {"N": LOADS})
-    ax = dm.plot_sweep(study, "verdict")
-    ax.figure.draw_without_rendering()
-    assert ax.bbox.width > 0.4 * ax.figure.bbox.width
-    said = [text.get_text() for text in ax.get_yticklabels()]
-    assert "very quiet indeed,\nwith a long name" in said
-    pyplot.close("all")
-
-
 def test_infinite_values_are_marked_above_the_panel() -> None:
     """They had no mark, and the axis ended before them."""
     study = xr.Dataset({"size": ("N", [1.0, 2.0, np.inf])}, {"N": [*LOADS, 400.0]})
@@ -1513,38 +827,3 @@ def test_infinite_values_are_marked_above_the_panel() -> None:
     assert row.words.get_text() == "infinite"
     assert row.rows[0].get_xdata().tolist() == [400.0]
     pyplot.close("all")
-
-
-def test_tolerances_along_an_axis_are_named_in_full() -> None:
-    """The label was "Tol"."""
-    study = dm.sweep(dm.simulate, CASE, t_end=0.1, over={"tol": [1e-10, 1e-8]})
-    assert dm.plot_sweep(study, "n_events").get_xlabel() == "Tolerance of the simulation (s)"
-    pyplot.close("all")
-
-
-@pytest.mark.parametrize(
-    ("kind", "critical", "border"),
-    [
-        (
-            "sliding",
-            "Critical speed Ω for instability of sliding (rad/s)",
-            "Speed Ω above which sliding stays unstable (rad/s)",
-        ),
-        (
-            "stick_slip",
-            "Critical speed Ω for instability of the cycle (rad/s)",
-            "Speed Ω above which the cycle stays unstable (rad/s)",
-        ),
-    ],
-)
-def test_critical_values_say_what_they_are_critical_for(
-    kind: str, critical: str, border: str
-) -> None:
-    """Both kinds had the name of the critical speed for separation."""
-    meaning = describe("Omega")["long_name"]
-    unit = {"units": "rad s-1"}
-    labels = []
-    for name in ("value", "border"):
-        words = {**unit, "long_name": long_name_of(name, kind, meaning)}
-        labels.append(label_of(xr.DataArray(1.0, name=name, attrs=words))[0])
-    assert labels == [critical, border]

@@ -5,9 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib import pyplot
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 import disc_model as dm
 from disc_model import plot_sweep
@@ -17,7 +15,6 @@ from tests.refusals import refusal
 CASE = dm.Parameters(N=385, Omega=14)
 SOFT = CASE.replace(k_p=20e3)
 STIFF = CASE.replace(k_p=25e3)
-DISC = CASE.replace(n_diameters=1)
 
 
 def words_along(ticks: list[Any]) -> list[str]:
@@ -37,16 +34,6 @@ def named(name: str, words: list[Any], case: dm.Parameters = SOFT) -> xr.Dataset
         return {name: words[place]}
 
     return dm.sweep(word_at, case, Omega=speeds)
-
-
-def quiet_then_separation() -> xr.Dataset:
-    """A sweep of two outcomes."""
-    return named("outcome", ["quiet", "separation"])
-
-
-def all_growing() -> xr.Dataset:
-    """A sweep of one outcome, which the other sweep does not have."""
-    return named("outcome", ["growing", "growing"])
 
 
 def said_of_points(ax: Axes, ticked: Axes | None = None) -> list[list[str]]:
@@ -84,48 +71,12 @@ def test_points_of_two_sweeps_stand_beside_their_own_words(
     assert said_of_points(together) == of_first + of_second
 
 
-def test_points_of_panels_that_share_their_axis_stand_beside_their_own_words() -> None:
-    _, [left, right] = pyplot.subplots(1, 2, sharey=True)
-    plot_sweep(quiet_then_separation(), ax=left)
-    plot_sweep(all_growing(), ax=right)
-    assert said_of_points(left) == [["quiet", "separation"]]
-    assert said_of_points(right, left) == [["growing, in contact"] * 2]
-
-
-def test_words_of_axes_that_were_cleared_are_forgotten() -> None:
-    ax = plot_sweep(quiet_then_separation())
-    ax.clear()
-    plot_sweep(all_growing(), ax=ax)
-    words = words_along(ax.get_yticklabels())
-    assert words == ["growing, in contact"]
-
-
 # ---- Words along the horizontal axis
 
 
 def speed(case: dm.Parameters, name: str) -> dict[str, float]:
     """A quantity that is computed of a specimen with a name."""
     return {"speed": case.Omega}
-
-
-def specimens(case: dm.Parameters, material: str) -> xr.Dataset:
-    """A sweep over four specimens with long names."""
-    names = [f"a specimen of {material}, {number}" for number in range(4)]
-    return dm.sweep(speed, case, over={"name": names})
-
-
-def test_long_words_along_the_axis_are_those_of_both_sweeps() -> None:
-    """The words of the second stood below the points of the first."""
-    iron = specimens(CASE, "grey cast iron")
-    carbon = specimens(CASE.replace(Omega=10), "carbon")
-    ax = plot_sweep(iron)
-    plot_sweep(carbon, ax=ax)
-    words = words_along(ax.get_xticklabels())
-    places = dict(zip(words, ax.get_xticks(), strict=True))
-    of_iron = [places[name] for name in iron["name"].values]
-    of_carbon = [places[name] for name in carbon["name"].values]
-    assert of_iron == [0, 1, 2, 3]
-    assert of_carbon == [4, 5, 6, 7]
 
 
 # ---- What would cover what is there
@@ -171,85 +122,3 @@ def test_bars_are_not_drawn_over_bars() -> None:
     ax.clear()
     plot_sweep(fast, ax=ax)
     assert ax.patches
-
-
-def test_modes_are_not_drawn_over_modes() -> None:
-    axes = dm.plot_modes(DISC)
-    with refusal("shows modes already: give each its own axes"):
-        dm.plot_modes(DISC, ax=axes)
-
-
-# ---- Marks of motions that have not settled
-
-
-def sections(case: dm.Parameters, settled: str) -> xr.Dataset:
-    """Angles once a turn, of motions that had settled or had not."""
-    turns = np.arange(6.0).reshape(2, 3)
-    angles = 1e-6 * case.k_p * turns
-    of_angles = {"units": "rad", "long_name": "angle"}
-    of_turns = {"long_name": "number of the turn"}
-    return xr.Dataset(
-        {"psi": (("Omega", "sample"), angles, of_angles), "settled": ("Omega", [settled, settled])},
-        {"Omega": [10.0, 12.0], "sample": ("sample", range(3), of_turns)},
-        {"base": case.canonical_json},
-    )
-
-
-def look(line: Any) -> tuple[Any, Any]:
-    """Colour and mark of a line, or of its sample in a legend."""
-    return line.get_color(), line.get_marker()
-
-
-def looks_of_entries(ax: Axes) -> dict[str, tuple[Any, Any]]:
-    """The look of each entry of the legend, by its words."""
-    [legend] = ax.figure.legends
-    looks = map(look, legend.get_lines())
-    words = words_along(legend.get_texts())
-    return dict(zip(words, looks, strict=True))
-
-
-def test_rings_of_two_diagrams_are_told_apart() -> None:
-    """Both were grey, and the legend had the mark of a case that was nowhere."""
-    ax = plot_sweep(sections(SOFT, "changing"))
-    plot_sweep(sections(STIFF, "changing"), ax=ax)
-    drawn = [look(line) for line in ax.lines]
-    entries = looks_of_entries(ax)
-    assert [*entries] == [
-        "not settled, or undecided, $k_p$ = 20 kN/m",
-        "not settled, or undecided, $k_p$ = 25 kN/m",
-    ]
-    assert [*entries.values()] == drawn
-    assert len({*drawn}) == 2
-
-
-def test_rings_of_two_diagrams_are_told_apart_in_grey_print() -> None:
-    """Only their colours differed."""
-    ax = plot_sweep(sections(SOFT, "changing"))
-    plot_sweep(sections(STIFF, "changing"), ax=ax)
-    first, second = (line.get_markersize() for line in ax.lines)
-    assert second > 1.4 * first
-    [legend] = ax.figure.legends
-    assert [line.get_markersize() for line in legend.get_lines()] == [first, second]
-
-
-def test_dots_and_rings_of_one_diagram_have_entries_of_their_own() -> None:
-    ax = plot_sweep(sections(SOFT, "settled"))
-    plot_sweep(sections(STIFF, "changing"), ax=ax)
-    drawn = [look(line) for line in ax.lines]
-    entries = looks_of_entries(ax)
-    assert [*entries.values()] == drawn
-    assert len({*drawn}) == 2
-
-
-# ---- Room
-
-
-def test_room_on_a_plain_page_is_found_without_drawing_it(monkeypatch: pytest.MonkeyPatch) -> None:
-    """All panels were drawn some sixty times for each picture."""
-    drawn: list[Figure] = []
-    monkeypatch.setattr(Figure, "draw_without_rendering", lambda page: drawn.append(page))
-    _, axes = pyplot.subplots(2, 2)
-    study = rates(SOFT)
-    for ax in axes.flat:
-        plot_sweep(study, lines="N", ax=ax)
-    assert not drawn

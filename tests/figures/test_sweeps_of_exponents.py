@@ -1,7 +1,6 @@
 """Sweeps of Lyapunov exponents show how well these are known."""
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 import pytest
@@ -122,37 +121,3 @@ def test_a_map_hatches_exponents_that_have_not_converged() -> None:
     plane = xr.concat([at_one_load] * 4, loads)
     ax = as_map(plane)
     assert labels(ax.figure) == ["not converged"]
-
-
-def angles(case: dm.Parameters) -> dict[str, Any]:
-    """An array of numbers."""
-    return {"psi": case.Omega * np.arange(3.0)}
-
-
-def fast(case: dm.Parameters) -> dict[str, bool]:
-    """Something that is true of some cases."""
-    return {"fast": case.Omega > 13}
-
-
-def test_an_array_of_a_function_is_drawn_unasked() -> None:
-    """It was the status of each point."""
-    study = dm.sweep(angles, CASE, Omega=SPEEDS)
-    ax = plot_sweep(study)
-    assert ax.get_ylabel() == "Psi"
-
-
-def test_what_is_true_is_drawn_unasked() -> None:
-    """It was the status of each point."""
-    study = dm.sweep(fast, CASE, Omega=SPEEDS)
-    ax = plot_sweep(study)
-    ticks = ax.get_yticklabels()
-    assert [tick.get_text() for tick in ticks] == ["no", "yes"]
-
-
-def test_a_legend_says_that_marks_are_filled_where_all_are() -> None:
-    """A filled mark told nothing among filled ones."""
-    study = swept()
-    study["converged"] = study["converged"] < 0
-    ax = dm.plot_sweep(study)
-    assert len(filled_on(ax)) == study.sizes["Omega"]
-    assert labels(ax.figure)[-1] == "filled: not converged"

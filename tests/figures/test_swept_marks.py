@@ -1,23 +1,14 @@
 """Marks and names of lines of sweeps: each entry of a legend has its own, and says what it is of."""
 
-from typing import Any
-
 import numpy as np
 import pytest
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.colors import to_rgba
 
 import disc_model as dm
 from disc_model.figures.classes import FILLED_MARK, GROWING
 from tests.figures.reading import labels, small_axes
 
 CASE = dm.Parameters(N=385, Omega=14)
-
-
-def named_points(ax: Axes) -> list[Any]:
-    """The lines of axes that a legend names."""
-    return ax.get_legend_handles_labels()[0]
 
 
 # ---- Two variables of paired samples
@@ -27,56 +18,6 @@ def forces(case: dm.Parameters) -> dict[str, float]:
     """The least and the greatest of a force, which the contact changes."""
     ratio = 0.5 if case.contact == "unilateral" else 0.8
     return {"least_force": ratio * case.N, "greatest_force": 2 * ratio * case.N}
-
-
-def forces_over(case: dm.Parameters = CASE, **axes: Any) -> xr.Dataset:
-    """A sweep of both forces, in N."""
-    study = dm.sweep(forces, case, **axes)
-    for name in FORCES:
-        study[name].attrs["units"] = "N"
-    return study
-
-
-FORCES = ["least_force", "greatest_force"]
-
-
-def paired_forces() -> xr.Dataset:
-    """Forces at paired loads and speeds, for both contacts."""
-    pairs = {"N": [300, 385, 450], "Omega": [15, 14, 18]}
-    return forces_over(zip=pairs, contact=["unilateral", "bilateral"])
-
-
-def test_each_entry_of_paired_samples_has_a_mark() -> None:
-    """Both variables of one contact had the same."""
-    ax = dm.plot_sweep(paired_forces(), FORCES, x="N", ax=small_axes())
-    marks = [line.get_marker() for line in named_points(ax)]
-    assert len(marks) == 4
-    assert len({*marks}) == 4
-
-
-def test_lines_of_two_variables_differ_in_dashes() -> None:
-    """Their marks are those of one contact each."""
-    study = forces_over(N=[300, 385], contact=["unilateral", "bilateral"])
-    ax = dm.plot_sweep(study, FORCES, x="N", ax=small_axes())
-    marks = [line.get_marker() for line in named_points(ax)]
-    assert marks == ["o", "s", "o", "s"]
-
-
-# ---- Two sweeps of a list of variables
-
-
-def test_a_list_of_variables_of_two_sweeps_has_new_names_only() -> None:
-    """Those that the first sweep had before stood beside them."""
-    ax = small_axes()
-    for contact in ("unilateral", "bilateral"):
-        study = forces_over(CASE.replace(contact=contact), N=[300, 385])
-        dm.plot_sweep(study, FORCES, ax=ax)
-    assert sorted(labels(ax)) == [
-        "Greatest force, bilateral contact",
-        "Greatest force, unilateral contact",
-        "Least force, bilateral contact",
-        "Least force, unilateral contact",
-    ]
 
 
 # ---- Motions that still grow
@@ -118,19 +59,6 @@ def test_cells_of_motions_that_still_grow_are_hatched() -> None:
     assert GROWING.label in labels(ax)
 
 
-@pytest.mark.parametrize("variable", ["P_max", "first_separation"])
-def test_other_values_are_not_marked(variable: str) -> None:
-    """Motions that are settled, and numbers that are not of the end of a motion."""
-    study = late_forces([["quiet"], ["separation"]]).isel(horizon=0)
-    if variable == "first_separation":
-        study = late_forces([["growing"], ["growing"]]).isel(horizon=0)
-        study[variable] = ("Omega", [1.0, 2.0], {"units": "s", "long_name": "time"})
-    ax = dm.plot_sweep(study, variable, ax=small_axes())
-    assert GROWING.label not in " ".join(ax.get_legend_handles_labels()[1])
-    clear = to_rgba("none")
-    assert all(to_rgba(line.get_markerfacecolor()) == clear for line in ax.lines)
-
-
 # ---- Lists and starts
 
 
@@ -167,21 +95,6 @@ def test_lists_and_starts_have_names_and_units(name: str) -> None:
     study = over_words(*LISTS[name])
     ax = dm.plot_sweep(study, "value", x="N", ax=small_axes())
     assert labels(ax) == SAID_OF_LISTS[name]
-
-
-@pytest.mark.parametrize("name", LISTS)
-def test_a_selected_list_or_start_has_its_name_and_unit(name: str) -> None:
-    """Titles had numbers alone as well."""
-    study = over_words(*LISTS[name]).isel({LISTS[name][0]: 0})
-    ax = dm.plot_sweep(study, "value", ax=small_axes(), title=True)
-    assert SAID_OF_LISTS[name][0] in ax.get_title(loc="left")
-
-
-@pytest.mark.parametrize("words", [["up", "down"], ["a, b", "c, d"], ["x = 1", "x = 2"]])
-def test_other_words_stay_as_they_are(words: list[str]) -> None:
-    study = over_words("way", words, "", "{}")
-    ax = dm.plot_sweep(study, "value", x="N", ax=small_axes())
-    assert labels(ax) == words
 
 
 # ---- A verdict

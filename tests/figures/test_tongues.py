@@ -38,9 +38,3 @@ def test_a_line_is_open_between_two_ranges_of_separation() -> None:
     heights = np.asarray(line.get_ydata(), dtype=float)
     np.testing.assert_array_equal(heights, [20.0, 19.6, np.nan, 12.0, 12.2])
     assert any(ANOTHER_RANGE in text.get_text() for text in ax.texts)
-
-
-def test_a_line_of_one_range_goes_on() -> None:
-    """Steep ones, too."""
-    study = scan().isel(N=[0, 1])
-    assert open_along(study, "critical_speed") == {}

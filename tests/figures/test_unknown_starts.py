@@ -9,7 +9,7 @@ from matplotlib import pyplot
 
 from disc_model import plot_sweep
 from disc_model.data.variables import LONG_TERM_OUTCOMES
-from disc_model.figures.classes import FILLED_MARK, UNKNOWN_STARTS
+from disc_model.figures.classes import UNKNOWN_STARTS
 from tests.figures.test_sweeps import said_above
 
 NAN = np.nan
@@ -47,24 +47,6 @@ def words_of(ax: Any) -> list[str]:
     legends = [*ax.figure.legends, ax.get_legend()]
     texts = [text for legend in legends if legend for text in legend.get_texts()]
     return [text.get_text().replace("\n", " ") for text in texts]
-
-
-@pytest.mark.parametrize(
-    ("point", "said"),
-    [
-        ("undecided", "undecided"),
-        ("failed", "failed"),
-        ("quiet", "no start led to lasting separation within 60 s"),
-    ],
-)
-def test_a_critical_energy_is_not_called_missing_where_starts_are_undecided(
-    point: str, said: str
-) -> None:
-    """Of starts that had all lost contact it was said that none led to separation."""
-    study = basins_with(["some", point], critical_energy=[0.07, NAN])
-    ax = plot_sweep(study, "critical_energy")
-    assert said_above(ax) == [said]
-    assert FILLED_MARK.format(UNKNOWN_STARTS.label) in words_of(ax)
 
 
 @pytest.mark.parametrize("width", [84, 174])

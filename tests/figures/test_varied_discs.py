@@ -8,7 +8,7 @@ from matplotlib import pyplot
 
 import disc_model as dm
 from disc_model.data.variables import axis_of, unit_of_parameter
-from disc_model.figures.head_texts import head_text, what_case
+from disc_model.figures.head_texts import what_case
 from disc_model.figures.stated_case import stated
 from disc_model.figures.sweep_titles import values_of
 from disc_model.mode_units import si_unit_of_mode
@@ -38,19 +38,6 @@ def test_a_title_does_not_state_the_frequency_that_varies() -> None:
     assert RANGE in stated(CASE, "N")
 
 
-def test_a_title_states_a_frequency_that_is_selected() -> None:
-    title = swept_title(omega_1_0=["500 Hz"])
-    assert "a disc given by 3 modes of 500 to 1212 Hz" in title
-
-
-def test_a_title_states_the_only_disc_of_an_axis() -> None:
-    """It was left out, as if the disc were the plate."""
-    assert RANGE in swept_title(disc=[DISC])
-    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC], Omega=[10.0, 20.0])
-    assert RANGE in dm.plot_sweep(swept).figure.get_suptitle()
-    pyplot.close("all")
-
-
 def test_a_line_of_the_plate_beside_one_of_a_disc_is_named() -> None:
     """The picture ended with a TypeError."""
     swept = dm.sweep(dm.steady_sliding, CASE, disc=[None, DISC], Omega=[10.0, 20.0])
@@ -75,40 +62,12 @@ def test_a_study_states_the_only_disc_of_an_axis(tmp_path: Path) -> None:
     pyplot.close("all")
 
 
-def test_parameters_that_are_counted_are_called_so() -> None:
-    """After the modes of a disc, "and 1 more" read as one more mode."""
-    values = ", ".join(f"x{i} = {i} N" for i in range(40))
-    assert head_text(3.5, "", values, most=2).endswith(" further parameters")
-
-
-def test_a_title_without_room_still_names_the_disc() -> None:
-    """It was only counted among further parameters, behind values of the friction."""
-    friction = {"mu_s": 0.45, "mu_k": 0.35, "friction_decay": 1.0, "viscous_friction": 0.01}
-    said = stated(CASE.replace(**friction))
-    title = head_text(2.3, "", said, most=3)
-    assert "a disc given by 3 modes" in title
-    assert title.endswith("further parameters")
-
-
 @pytest.mark.parametrize("name", ["tangential_2_0", "amplitude_2_0", "omega_2_0"])
 def test_numbers_of_modes_have_one_unit_in_pictures_and_texts(name: str) -> None:
     """Pictures and fits had 1/√kg where branches and critical values had kg^-1/2."""
     label, _ = axis_of(name)
     assert label.endswith(f"({unit_of_parameter(name)})")
     assert unit_of_parameter(name) == si_unit_of_mode(name)
-
-
-def test_names_of_discs_along_an_axis_leave_the_panel_its_room() -> None:
-    """They were turned, and took more height than the panel; the label of the axis was cut."""
-    other = dm.Disc(**{**DISC.model_dump(), "omega": [1.1 * omega for omega in DISC.omega]})
-    swept = dm.sweep(dm.steady_sliding, CASE, disc=[DISC, other])
-    ax = dm.plot_sweep(swept, "growth_rate")
-    ax.figure.canvas.draw()
-    assert ax.get_xlabel() == "Disc"
-    assert [label.get_rotation() for label in ax.get_xticklabels()] == [0, 0]
-    assert ax.get_xticklabels()[0].get_text().startswith("disc 1: 3 modes")
-    assert ax.get_position().height > 0.4
-    pyplot.close("all")
 
 
 def test_kinds_of_motion_along_an_axis_have_names() -> None:

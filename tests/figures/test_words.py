@@ -7,23 +7,13 @@ import xarray as xr
 from disc_model.figures.durations import horizon_text
 from disc_model.figures.missing_texts import missing_text
 from disc_model.figures.multipliers import period_text
-from disc_model.figures.names import name_of, named_modes
+from disc_model.figures.names import name_of
 from disc_model.figures.value_texts import named_value, value_text
-from disc_model.figures.words import named
-from disc_model.studies.registry import quantity_names, quantity_of
 
 
 def along(name: str, value: float) -> xr.DataArray:
     """A number at one value of a parameter."""
     return xr.DataArray(1.0, {name: value})
-
-
-@pytest.mark.parametrize(
-    ("value", "text"), [(11892.137, "11.89 kN/m"), (11892.1, "11.8921 kN/m"), (12e3, "12 kN/m")]
-)
-def test_numbers_that_six_digits_do_not_give_have_four(value: float, text: str) -> None:
-    """Names of samples were as long as "11.8921 kN/m", which was rounded all the same."""
-    assert value_text(xr.Dataset(coords={"k": value}), "k", short=True) == text
 
 
 @pytest.mark.parametrize(
@@ -126,28 +116,6 @@ def test_a_missing_value_has_its_reason(
     assert missing_text(study, name) == text
 
 
-@pytest.mark.parametrize(
-    ("speeds", "text"),
-    [
-        ([8.0, 9.0, 10.0], "none found from 8 to 10 rad/s in steps of 1 rad/s"),
-        ([8.0, 8.5, 10.0], "none found from 8 to 10 rad/s"),
-        ([8.0], "none found from 8 to 8 rad/s"),
-    ],
-)
-def test_a_critical_speed_may_lie_between_the_speeds_of_the_scan(
-    speeds: list[float], text: str
-) -> None:
-    """Pictures said that there is none, of a range that was only sampled."""
-    study = xr.Dataset(coords={"scan_Omega": speeds})
-    assert missing_text(study, "critical_speed") == text
-
-
-def test_several_steps_of_scans_are_not_named() -> None:
-    study = xr.Dataset(coords={"scan_Omega": [8.0, 9.0, 10.0], "step": [1.0, 2.0]})
-    study["critical_speed"] = ("step", [np.nan, np.nan])
-    assert missing_text(study, "critical_speed") == "none found from 8 to 10 rad/s"
-
-
 def test_a_sweep_that_found_no_separation_names_its_steps() -> None:
     attributes = {"long_name": "speed, nan if at none or at the lowest"}
     onset = xr.DataArray([np.nan], dims="N", attrs=attributes)
@@ -205,32 +173,3 @@ def test_periods_of_more_than_a_second_are_in_seconds(period: float, text: str) 
 )
 def test_modes_are_named_by_their_nodal_diameters(diameters: tuple[int, ...], name: str) -> None:
     assert name_of(*diameters) == name
-
-
-def test_partners_of_a_mode_share_a_name_where_it_would_lie_on_itself() -> None:
-    """Both had one, "l = 5" on "l = 5"."""
-    heights = np.array([100.0, 170.0, 400.0, 520.0, 900.0, 960.0, np.nan])
-    diameters = np.array([5, 5, 4, 4, 1, 2, 0])
-    found = [(part.name, part.modes.tolist()) for part in named_modes(diameters, heights, apart=50)]
-    assert found == [
-        ("l = 5", [0, 1]),
-        ("l = 4", [2]),
-        ("l = 4", [3]),
-        ("l = 1", [4]),
-        ("l = 2", [5]),
-    ]
-
-
-def test_no_two_variables_of_a_quantity_have_one_name() -> None:
-    """Dots of the explorer were "What became of the computation: ok" twice."""
-    for quantity in quantity_names():
-        flags = {
-            name: column
-            for name, column in quantity_of(quantity).COLUMNS.items()
-            if "flag_meanings" in column.attributes
-        }
-        variables = [
-            xr.DataArray(0, name=name, attrs=column.attributes) for name, column in flags.items()
-        ]
-        labels = [named(variable).name for variable in variables]
-        assert len(set(labels)) == len(labels), quantity

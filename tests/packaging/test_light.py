@@ -96,13 +96,7 @@ def test_there_is_one_version() -> None:
     assert f"version = {{{disc_model.__version__}}}," in citing
     assert "git rev-parse HEAD" in citing
     assert "Address of the repository" not in citing  # which stood there for its reader to replace
-    recipe = (ROOT / "recipe" / "meta.yaml").read_text(encoding="utf-8")
-    assert f'{{% set version = "{disc_model.__version__}" %}}' in recipe
-    needs = {re.split(r"[<>=]", text)[0].lower() for text in PROJECT["project"]["dependencies"]}
-    assert needs | {"python"} == set(
-        re.findall(r"- (\w+)", recipe.partition("  run:\n")[2].partition("  run_c")[0])
-    )
     released = re.findall(
-        r"^## \[(\d\S*)\]", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
+        r"^## (\d\S*)", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE
     )
     assert released[:1] in ([], [disc_model.__version__])

@@ -15,7 +15,7 @@ WORKFLOWS = {path.stem: path for path in (ROOT / ".github" / "workflows").glob("
 
 ADDRESSES: dict[str, str] = PROJECT.get("urls", {})
 """Addresses of repository, documentation and DOI; none before the first release."""
-LINKING = ("README.md", "CITATION.cff", "recipe/meta.yaml", "CONTRIBUTING.md", "CHANGELOG.md")
+LINKING = ("README.md", "CITATION.cff", "CONTRIBUTING.md", "CHANGELOG.md")
 OWN = re.compile(
     r"https://github\.com/\w+/disc_model"
     r"|https://\w+\.github\.io/disc_model"
@@ -38,10 +38,8 @@ def lines_with_addresses(addresses: dict[str, str]) -> dict[str, list[str]]:
     lines["README.md"] += [f"[{name}]({address})" for name, address in addresses.items()]
     if "Repository" in addresses:
         lines["CITATION.cff"].append(f"repository-code: {addresses['Repository']}")
-        lines["recipe/meta.yaml"].append(f"home: {addresses['Repository']}")
     if "Documentation" in addresses:
         lines["CITATION.cff"].append(f"url: {addresses['Documentation']}")
-        lines["recipe/meta.yaml"].append(f"doc_url: {addresses['Documentation']}")
     if "DOI" in addresses:
         lines["CITATION.cff"].append(f"doi: {addresses['DOI'].removeprefix('https://doi.org/')}")
     return lines

@@ -10,7 +10,6 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Window, simulate
 from disc_model.data.variables import flag_names
-from disc_model.figures.drawing import SEPARATED
 from disc_model.figures.kinds import CasePlot
 from disc_model.figures.render import render
 from disc_model.figures.sizes import COLUMN, PAGE
@@ -68,17 +67,6 @@ def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -
         assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
 
 
-def test_the_first_separation_is_seen_on_ranges_in_grey_print() -> None:
-    """Line and words were of nearly the grey of the ranges below them."""
-    case = simulated(True)
-    growth = drawn("composite", case).axes[1]
-    [words] = [text for text in growth.texts if "is lost" in text.get_text()]
-    [line] = [line for line in growth.lines if line.get_color() == SEPARATED]
-    force = drawn("fig02", case).axes[0]
-    [first] = [line for line in force.lines if line.get_color() == SEPARATED]
-    assert all(each.get_path_effects() for each in (words, line, first))
-
-
 def test_the_composite_has_phases_from_events() -> None:
     """From samples at 4 kHz sticks of 0.94 and 0.78 ms had 0.7 to 1.1 ms, in no order."""
     case = simulated(True)
@@ -95,24 +83,6 @@ def test_the_composite_has_phases_from_events() -> None:
     assert len(shown) >= 8
     for time in shown:
         assert min(abs(time - bar) for bar in bars) < 1e-9
-
-
-@pytest.mark.parametrize("width", ["column", "page"])
-@pytest.mark.parametrize("name", ["fig26", "fig27", "fig28"])
-def test_letters_of_a_response_run_along_the_rows(name: str, width: str) -> None:
-    """In one column (b) stood below (c) and (d)."""
-    plot = FIGURES[name].model_copy(update={**MOVED.get(name, {}), "width": width})
-    figure = render(plot, dict.fromkeys(plot.cases, simulated(True)))
-    figure.draw_without_rendering()
-    tops = {}
-    for ax in figure.axes:
-        box = ax.get_window_extent().transformed(figure.transFigure.inverted())
-        found = re.match(r"\((.)\)", ax.get_title(loc="left"))
-        if found:
-            # panels of a row begin within a fifth of the page
-            tops[found[1]] = (-round(5 * box.y1), box.x0)
-    assert sorted(tops, key=tops.__getitem__) == sorted(tops)
-    assert len(tops) >= 2
 
 
 def test_captions_say_nothing_that_a_legend_finds_out() -> None:
@@ -182,6 +152,5 @@ def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
                 **{n: xr.DataTree(maps[n]) for n in plot.overlays},
             },
         )
-        assert_fit_for_print(figure)
         notes = [text.get_text() for text in figure.axes[2].texts if "arrows" in text.get_text()]
         assert notes == [f"arrows: no separation\nby Eq. (17), {lost} of 9"][:lost]

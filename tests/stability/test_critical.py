@@ -12,7 +12,6 @@ from disc_model import Parameters, continue_cycle, floquet, neutral_curves, simu
 from disc_model.data.variables import STABLE_CYCLES
 from disc_model.display import Bar
 from disc_model.stability import critical, parameter_scan
-from disc_model.stability.continuation import spectrum
 from disc_model.stability.sliding import SlidingStatus, steady_sliding
 from tests.blocks import RIG
 from tests.refusals import refusal
@@ -199,54 +198,6 @@ def test_a_pair_that_only_touches_the_axis_is_looked_for() -> None:
     assert found.crossings.shape == (2,)
 
 
-def shares_of_meetings(angles: list[float], turns: list[float]) -> list[float]:
-    """Where undamped multipliers of these angles meet while they turn by these."""
-    before = np.exp(1j * np.array(angles))
-    after = before * np.exp(1j * np.array(turns))
-    return [each.share for each in spectrum.passings(spectrum.turns_of(before, after))]
-
-
-def test_places_where_multipliers_meet_are_found_by_their_angles() -> None:
-    """Linear in the share of the way, which is known then."""
-    # two that cross each other, at equal angles
-    assert shares_of_meetings([0.5, 0.6], [0.2, 0.0]) == pytest.approx([0.5])
-    # one that comes to -1, and one to 1
-    assert shares_of_meetings([math.pi - 0.1], [0.4]) == pytest.approx([0.25])
-    assert shares_of_meetings([0.1], [-0.4]) == pytest.approx([0.25])
-    assert shares_of_meetings([0.5, 1.0], [0.1, 0.1]) == []
-
-
-def test_pairs_that_may_have_turned_back_at_the_axis_are_found() -> None:
-    """Linear in the share of the way, which is known then."""
-    # through the axis and back: from 0.1 to -0.3 looks like 0.3
-    one = np.array([0.1, 2.0])
-    two = np.array([0.3, 2.1])
-    assert parameter_scan._returns_from_axis(one, two, 0.4) == pytest.approx([0.25])
-    upside_down = parameter_scan._returns_from_axis(math.pi - one, math.pi - two, 0.4)
-    assert upside_down == pytest.approx([0.25])
-    assert parameter_scan._returns_from_axis(one, two, 0.1) == []
-
-
-def test_a_pair_that_passes_another_is_no_pair_that_pushes_it_on() -> None:
-    """Near 12,379 N/m a pair passes one that stays where it is. Matched by the sum of distances, each
-    seemed to take the other's place, and the tongue between was overlooked."""
-
-    def cycle(*angles: float) -> SimpleNamespace:
-        upper = np.exp(1j * math.pi * np.array(angles))
-        return SimpleNamespace(multipliers=np.concatenate([upper, upper.conj()]))
-
-    shares = parameter_scan._doubtful_shares(cycle(0.808, 0.821), cycle(0.837, 0.821))
-    assert any(share == pytest.approx(13 / 29, rel=1e-3) for share in shares)
-    # of two cycles only one of which exists the middle is computed, and of none nothing
-    without = SimpleNamespace(multipliers=np.zeros(0))
-    assert parameter_scan._doubtful_shares(cycle(0.5), without) == [0.5]
-    assert parameter_scan._doubtful_shares(without, cycle(0.5)) == [0.5]
-    assert parameter_scan._doubtful_shares(without, without) == []
-    # multipliers that turn far cannot be told apart
-    assert 0.5 in parameter_scan._doubtful_shares(cycle(0.3), cycle(0.42))
-    assert parameter_scan._doubtful_shares(cycle(0.3), cycle(0.32)) == []
-
-
 @pytest.mark.slow
 @pytest.mark.compiled
 def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
@@ -359,57 +310,6 @@ def test_intervals_of_instability_lie_between_crossings(
     assert ">1<" in rows
     assert ">to<" in rows
     assert ">narrower than 0.1<" in rows
-
-
-def test_multipliers_meet_where_their_angles_come_to_a_whole_turn() -> None:
-    """Two of the upper half, at 0.2 and 0.3 turns: with a conjugate at 0.5, itself at 0 or 0.5."""
-
-    def shares(first: float, second: float) -> list[float]:
-        angles = [0.2 * math.tau, 0.45 * math.tau]
-        return shares_of_meetings(angles, [first * math.tau, second * math.tau])
-
-    # the second comes to the real axis halfway, and with the first to half a turn never
-    assert shares(0.0, 0.1) == pytest.approx([0.5])
-    # the first comes to the second after 0.25 of 0.29 turns
-    assert shares(0.29, 0.0) == pytest.approx([0.25 / 0.29])
-    # both go down: the first comes to the axis at two thirds
-    assert shares(-0.3, -0.1) == pytest.approx([2 / 3])
-    assert shares(0.01, 0.01) == []
-
-
-def test_a_pair_may_have_met_the_axis_if_its_way_there_and_back_is_no_longer_than_others() -> None:
-    before = np.array([0.2, 0.5, np.pi - 0.3])
-    after = np.array([0.1, 0.5, np.pi - 0.1])
-    longest = 0.45 / parameter_scan.MAY_HAVE_MET
-    found = parameter_scan._returns_from_axis(before, after, longest)
-    assert found == pytest.approx([0.2 / 0.3, 0.3 / 0.4])
-
-
-def test_a_pair_that_comes_to_the_axis_between_two_values_is_looked_for_in_the_middle() -> None:
-    """Two real multipliers at one value, and a pair beside them at the other."""
-    angle = 0.01
-    pair = 0.99 * np.exp(1j * np.array([angle, -angle]))
-    real = np.array([0.992 + 0j, 0.988 + 0j])
-    assert 0.5 in parameter_scan._shares_of_change(real, pair)
-    assert 0.5 in parameter_scan._shares_of_change(pair, real)
-    assert 0.5 not in parameter_scan._shares_of_change(pair, 0.99 * pair)
-
-
-@pytest.mark.parametrize(("share", "computed"), [(0.5, 3), (0.05, 2), (0.95, 2)])
-def test_no_value_is_computed_very_close_to_another(
-    share: float, computed: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def shares(low: object, high: object) -> list[float]:
-        return [share]
-
-    monkeypatch.setattr(parameter_scan, "_doubtful_shares", shares)
-    scan = parameter_scan.Scan(Parameters(N=1, Omega=1), "c", 1e-12)
-    found: Any = SimpleNamespace(motion="steady_sliding")
-    monkeypatch.setattr(parameter_scan, "find_cycle", lambda p, tol: found)
-    for value in (0.0, 1.0):
-        scan.is_stable(value)
-    scan.refine(0.3, Bar(0))
-    assert len(scan.motions) == computed
 
 
 def test_neutral_sliding_is_not_said_to_be_stable() -> None:

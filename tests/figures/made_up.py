@@ -1,8 +1,5 @@
-"""Figures of made-up studies in which each mark, colour and class occurs, for their descriptions."""
+"""Made-up studies in which each mark, colour and class occurs, and their figures."""
 
-import json
-from collections.abc import Callable, Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,21 +18,12 @@ from disc_model.figures.kinds import kind_of
 from disc_model.figures.render import render
 from disc_model.studies.quantities.campbell import EFFECTS, KINDS, LINES
 from tests.figures import every_kind
-from tests.figures.description import write_all
 from tests.figures.every_kind import column, flag, over, stated
+from tests.figures.reading import draw
 
-FOLDER = Path(__file__).with_name("descriptions")
 NAN = np.nan
 SEED = 3
 """Of made-up numbers that differ from each other."""
-
-
-def drawn(kind: str, study: xr.Dataset, others: Mapping[str, Any] | None = None, **phrase: Any):
-    """Return a figure of a kind, as a file asks for it, with further studies by their roles."""
-    shown = {"study": study, **(others or {})}
-    inputs = {name: xr.DataTree(dataset) for name, dataset in shown.items()}
-    plot = kind_of(kind).model_validate({"kind": kind, **phrase})
-    return render(plot, inputs)
 
 
 def status(dims: tuple[str, ...], words: Any) -> tuple[Any, ...]:
@@ -78,34 +66,7 @@ def bifurcation(section: str = "stroboscopic", width: str = "page") -> Figure:
     }
     lyapunov = xr.Dataset(numbers, over(Omega=speeds), stated())
     phrase = {"x": "Omega", "paper_cases": {"F11": 10.0}, "overlays": {"lyapunov": "l"}}
-    return drawn("bifurcation", study, {"lyapunov": lyapunov}, width=width, **phrase)
-
-
-def branches(separations: tuple[int, int] = (0, 2), width: str = "page") -> Figure:
-    """A quiet branch with a fold at 13 rad/s, and one that separates above it."""
-    dims = ("sweep_direction", "sweep_value")
-    ranges = [[1e-5, 1e-5, 2e-5, 2e-5, 3e-2], [1e-5, 2e-2, 2e-2, 2.5e-2, 3e-2]]
-    settled = np.full((2, 5), "settled", dtype=object)
-    settled[1, 3] = "undecided"
-    data = {
-        "status": ((), np.int8(0), {"flag_meanings": "ok failed"}),
-        "n_branches": ((), 2),
-        "separations": ("branch", [*separations]),
-        "value": (("branch", "branch_point"), [[10, 12, 13, 12], [11, 14, NAN, NAN]]),
-        "range": (
-            ("branch", "branch_point"),
-            [[1e-5, 2e-5, 3e-5, 1e-4], [2e-2, 3e-2, NAN, NAN]],
-            column("branches", "range"),
-        ),
-        "growth_rate": (("branch", "branch_point"), [[-0.1, -0.1, -0.01, 0.2], [-0.1] * 4]),
-        "sweep_range": (dims, ranges),
-        "sweep_separation_rate": (dims, [[0, 0, 0, 0, 135.0], [0, 135.0, 135.0, 135.0, 135.0]]),
-        "sweep_settled": flag(dims, settled, ("undecided", "settled")),
-        "sliding_growth_rate": ("sweep_value", [0.1, 0.1, -0.1, -0.1, -0.1]),
-    }
-    sweep = np.array([10.0, 11, 12, 13, 14])
-    study = xr.Dataset(data, {"sweep_value": sweep}, stated(parameter="Omega"))
-    return drawn("branches", study, paper_cases={"F11": 12}, width=width)
+    return draw("bifurcation", study, {"lyapunov": lyapunov}, width=width, **phrase)
 
 
 def basins(width: str = "page", **axes: str) -> Figure:
@@ -138,19 +99,7 @@ def basins(width: str = "page", **axes: str) -> Figure:
     }
     coords = over(Omega=speeds) | {"attractor_class": classes, "energy": [0.02, 0.5]}
     study = xr.Dataset(data, coords, stated(horizon=60)).assign_coords(start=range(3))
-    return drawn("basins", study, **(axes or {"x": "Omega"}), width=width)
-
-
-def ramps() -> Figure:
-    """Four rates: one without onset, one failed."""
-    data = {
-        "onset_speed": ("rate", [15.3, 15.6, NAN, NAN], column("ramps", "onset_speed")),
-        "offset_speed": ("rate", [9.7, 9.6, 9.1, NAN], column("ramps", "offset_speed")),
-        "top_separation_rate": ("rate", [135.0, 134.0, 0.0, NAN]),
-        "rate_status": ("rate", np.array([0, 0, 0, 2], np.int8)),
-    }
-    study = xr.Dataset(data, {"rate": [0.01, 0.1, 1.0, 2.0]}, stated(low=8.0, high=20.0))
-    return drawn("ramps", study, {"curves": curves()}, overlays={"curves": "c"})
+    return draw("basins", study, **(axes or {"x": "Omega"}), width=width)
 
 
 def curves() -> xr.Dataset:
@@ -189,7 +138,7 @@ def sensitivity() -> Figure:
         "probability_unstable": ("N", [0.4, 0.55]),
     }
     coords = over(N=[200.0, 385.0]) | {"parameter": ["k", "mu_s", "c_p"]}
-    return drawn("sensitivity", xr.Dataset(data, coords, stated()))
+    return draw("sensitivity", xr.Dataset(data, coords, stated()))
 
 
 def campbell_study() -> xr.Dataset:
@@ -225,43 +174,7 @@ def campbell_study() -> xr.Dataset:
 
 
 def campbell(**phrase: Any) -> Figure:
-    return drawn("campbell", campbell_study(), **phrase)
-
-
-def late_range(width: str = "page") -> Figure:
-    """Two discs, two preloads and both contacts; motions that grow, failed and separated."""
-    dims = ("Omega", "N", "contact", "disc")
-    rng = np.random.default_rng(SEED)
-    tops = 10.0 ** rng.uniform(-5, -2, (4, 2, 2, 2))
-    words = np.full(tops.shape, "quiet", dtype=object)
-    words[1] = "separation"
-    words[2] = "growing"
-    words[3, 0] = "failed"
-    words[3, 1] = "undecided"
-    data = {
-        "outcome": flag(dims, words, OUTCOMES_TO_HORIZON),
-        "u_max": (dims, tops, attributes("u")),
-        "u_min": (dims, -0.5 * tops, attributes("u")),
-    }
-    axes = over(Omega=[8.0, 11.0, 14.5, 17.0], N=[120.0, 310.0])
-    axes |= {"contact": ["unilateral", "bilateral"], "disc": ["thin", "thick"]}
-    study = xr.Dataset(data, axes, stated())
-    return drawn("late_range", study, by="disc", thickness=0.004, width=width)
-
-
-def escape() -> Figure:
-    """Starts at two preloads, of which some separate, none, or some have failed."""
-    dims = ("N", "perturbation_u")
-    times = np.array([[12.0, NAN, 8.0, 20.0], [NAN, NAN, NAN, NAN]])
-    failures = np.zeros(times.shape, np.int8)
-    failures[1, 0] = 1
-    data = {
-        "status": (dims, failures, {"flag_meanings": "ok failed"}),
-        "first_separation": (dims, times, attributes("first_separation")),
-    }
-    axes = over(N=[120.0, 310.0]) | {"perturbation_u": 1e-9 * np.arange(4)}
-    study = xr.Dataset(data, axes, stated(horizon=30.0))
-    return drawn("escape", study, starts="perturbation_u")
+    return draw("campbell", campbell_study(), **phrase)
 
 
 # ---- Steady sliding
@@ -291,29 +204,7 @@ def sliding(outcome: bool = False) -> xr.Dataset:
 
 
 def sliding_modes(**phrase: Any) -> Figure:
-    return drawn("sliding_modes", sliding(), **phrase)
-
-
-def root_locus() -> Figure:
-    return drawn("root_locus", sliding())
-
-
-def sliding_outcome() -> Figure:
-    """Each agreement of linear analysis and motion."""
-    study = sliding()
-    both = xr.concat([study, study.assign(largest_growth_rate=-study["largest_growth_rate"])], "N")
-    both = both.assign_coords(over(N=[200.0, 400.0])).assign_attrs(study.attrs)
-    words = [
-        ["quiet", "separation", "separation", "growing", "at_rest"],
-        ["separation", "quiet", "quiet", "undecided", "other_cycle"],
-    ]
-    plane = xr.Dataset(
-        {"outcome": flag(("N", "mu_k"), words, OUTCOMES_TO_HORIZON)},
-        over(N=[200.0, 400.0], mu_k=study["value"].values),
-        study.attrs | {"options": json.dumps({"horizon": 600})},
-    )
-    phrase = {"x": "mu_k", "y": "N", "overlays": {"sliding": "s"}}
-    return drawn("sliding_outcome", plane, {"sliding": both}, **phrase)
+    return draw("sliding_modes", sliding(), **phrase)
 
 
 # ---- Charts over speed and preload
@@ -364,19 +255,6 @@ def second_joined(rates: np.ndarray) -> np.ndarray:
 
 def column_flags(quantity: str, name: str) -> tuple[str, ...]:
     return every_kind.quantity_of(quantity).COLUMNS[name].flags
-
-
-def region_map(with_curves: bool = False) -> Figure:
-    marks = {
-        "F2": {"x": 8.1, "y": 105.0, "paper_outcome": "quiet"},
-        "F3": {"x": 8.1, "y": 106.0, "paper_outcome": "separation"},
-        "F4": {"x": 15.9, "y": 415.0, "paper_outcome": "growing"},
-        "F5": {"x": 12.9, "y": 101.0, "paper_outcome": "separation"},
-    }
-    if not with_curves:
-        return drawn("region_map", regions(), x="Omega", y="N", marks=marks)
-    phrase = {"x": "Omega", "y": "N", "overlays": {"curves": "c"}, "width": "column"}
-    return drawn("region_map", regions(), {"curves": curves()}, **phrase)
 
 
 def thresholds() -> xr.Dataset:
@@ -443,7 +321,7 @@ def critical_speed(with_shares: bool = False) -> Figure:
         others["basins"] = shares()
     overlays = dict.fromkeys(others, "s")
     points = {"paper": (200, 12.6), "another": (385, 15.1)}
-    return drawn("critical_speed", thresholds(), others, paper_points=points, overlays=overlays)
+    return draw("critical_speed", thresholds(), others, paper_points=points, overlays=overlays)
 
 
 # ---- Any variable
@@ -463,20 +341,14 @@ PERIODS = [[0.0148, 0.0151, NAN], [0.0161, 0.0164, 0.0172], [0.0149, NAN, 0.0201
 
 
 def heat_map(log: bool = False) -> Figure:
-    return drawn("heat_map", plane(PERIODS), variable="period", x="c_p", y="k_p", log=log)
-
-
-def counts() -> Figure:
-    """Numbers of a few events have a colour each."""
-    study = plane([[0, 1, 2], [3, 1, 2], [0, 0, 4]], "releases", **column("regions", "releases"))
-    return drawn("heat_map", study, variable="releases", x="c_p", y="k_p")
+    return draw("heat_map", plane(PERIODS), variable="period", x="c_p", y="k_p", log=log)
 
 
 def growth() -> Figure:
     """Rates of both signs, a single one that differs, and one that is missing."""
     values = [[-0.2, -0.1, NAN], [-0.15, 0.25, -0.1], [-0.2, -0.12, -0.1]]
     study = plane(values, "growth_rate", **column("floquet", "growth_rate"))
-    return drawn("heat_map", study, variable="growth_rate", x="c_p", y="k_p")
+    return draw("heat_map", study, variable="growth_rate", x="c_p", y="k_p")
 
 
 def classes() -> Figure:
@@ -484,7 +356,7 @@ def classes() -> Figure:
     words = [["quiet", "quiet", "failed"], ["quiet", "separation", "quiet"], ["growing"] * 3]
     study = plane(PERIODS)
     study["outcome"] = flag(("k_p", "c_p"), words, OUTCOMES_TO_HORIZON)
-    return drawn("heat_map", study, variable="outcome", x="c_p", y="k_p")
+    return draw("heat_map", study, variable="outcome", x="c_p", y="k_p")
 
 
 def curve(variable: str = "period", **phrase: Any) -> Figure:
@@ -493,7 +365,7 @@ def curve(variable: str = "period", **phrase: Any) -> Figure:
     study["growth_rate"] = (("k_p", "c_p"), rates, column("floquet", "growth_rate"))
     words = [["quiet", "quiet", "failed"], ["quiet", "separation", "quiet"], ["growing"] * 3]
     study["outcome"] = flag(("k_p", "c_p"), words, OUTCOMES_TO_HORIZON)
-    return drawn("curve", study, variable=variable, x="c_p", by="k_p", **phrase)
+    return draw("curve", study, variable=variable, x="c_p", by="k_p", **phrase)
 
 
 # ---- Examples of kinds
@@ -510,50 +382,3 @@ def of_example(kind: str) -> Figure:
             inputs[name] = xr.DataTree(given)
     plot = kind_of(kind).model_validate({"kind": kind, **example.phrase})
     return render(plot, inputs)
-
-
-# ---- All
-
-
-DESCRIBED: dict[str, Callable[[], Figure]] = {
-    "basins": basins,
-    "basins in a column": lambda: basins("column"),
-    "basins over the energy": lambda: basins(x="energy", by="Omega"),
-    "bifurcation": bifurcation,
-    "bifurcation at events": lambda: bifurcation("event"),
-    "branches": branches,
-    "campbell": campbell,
-    "classes": classes,
-    "counts": counts,
-    "critical speed": critical_speed,
-    "critical speed and shares": lambda: critical_speed(with_shares=True),
-    "curve": curve,
-    "curve of classes": lambda: curve("outcome"),
-    "curve of growth": lambda: curve("growth_rate"),
-    "curve in panels": lambda: curve(log=True, panels="each"),
-    "growth": growth,
-    "heat map": heat_map,
-    "heat map in decades": lambda: heat_map(log=True),
-    "late range": late_range,
-    "escape": escape,
-    "ramps": ramps,
-    "region map": region_map,
-    "region map with curves": lambda: region_map(with_curves=True),
-    "root locus": root_locus,
-    "sensitivity": sensitivity,
-    "sliding modes": sliding_modes,
-    "sliding outcome": sliding_outcome,
-    "history": lambda: of_example("history"),
-    "poincare": lambda: of_example("poincare"),
-    "portrait": lambda: of_example("portrait"),
-    "spectrum": lambda: of_example("spectrum"),
-    "spectrogram": lambda: of_example("spectrogram"),
-    "staircase": lambda: of_example("staircase"),
-    "phase map": lambda: of_example("phase_map"),
-    "range law": lambda: of_example("range_law"),
-}
-"""Figures by name."""
-
-
-if __name__ == "__main__":
-    write_all(FOLDER, DESCRIBED)
