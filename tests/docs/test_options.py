@@ -1,12 +1,10 @@
 """The page of all options of quantities."""
 
-from inspect import signature
 from pathlib import Path
 
 from docs.write_options import page_text
 
 from disc_model.studies.options import options_of, value_text
-from disc_model.studies.python_names import FUNCTIONS, in_python
 from disc_model.studies.registry import quantity_names, quantity_of
 
 PAGE = Path(__file__).parents[2] / "docs" / "study_options.md"
@@ -45,19 +43,3 @@ def test_values_of_options_are_shown_as_files_have_them() -> None:
     assert {value: value_text(value) for value in shown} == shown
     assert value_text((0.0, 1e-10)) == "[0, 1e-10]"
     assert value_text({"u": 1e-3}) == "{u: 0.001}"
-
-
-def test_options_that_functions_call_otherwise_are_told_in_python() -> None:
-    """The page had the names of study files alone."""
-    assert in_python("outcome", "perturbation") == '`start={"u": 1e-4}`'
-    assert in_python("outcome", "horizon") == "default `1000`"
-    assert in_python("outcome", "tol") == ""
-    assert in_python("critical_speed", "horizons") == "`horizon=[100, 1000]`, default `1000`"
-    assert in_python("critical_speed", "scan") == "`bounds=(5, 30), step=1`"
-    assert in_python("critical_speed", "precision") == ""
-    assert in_python("lyapunov", "transient") == "in studies only"
-    assert in_python("bifurcation", "transient") == ""
-    for name, function in FUNCTIONS.items():
-        for option in quantity_of(name).model_fields:
-            told = in_python(name, option)
-            assert told or option in signature(function).parameters, (name, option)

@@ -78,6 +78,6 @@ def test_the_files_of_a_container_suffice(tmp_path: Path) -> None:
     study = ROOT / "config" / "studies" / "test" / "test_growth.yaml"
     command = (sys.executable, "-m", "disc_model", "study", study, "-n", "-j1")
     done = run(*command, cwd=tmp_path, **variables)
-    assert "plan of test_growth" in done.stdout
+    assert "compute_batch" in done.stdout + done.stderr
     for shell in (section("post"), section("runscript"), section("test")):
         run("sh", "-n", "-c", "\n".join(shell))

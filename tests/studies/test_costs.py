@@ -1,22 +1,20 @@
-"""What points cost: the law of it against measurements, sizes of batches, and the plan of a run."""
+"""What points cost: the law of it against measurements, sizes of batches."""
 
 import json
 import math
 import time
-from pathlib import Path
 from typing import Any
 
 import pytest
 
 import disc_model as dm
 from disc_model.parameters import Parameters
-from disc_model.studies import plan
 from disc_model.studies.costs import PAPER, machine_factor, unit_costs
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.quantity import WORK
 from disc_model.studies.registry import quantity_names
 from disc_model.studies.run import run_batch
-from disc_model.studies.study import load_study, parse_study
+from disc_model.studies.study import load_study
 from tests.processes import ROOT
 from tests.studies.refused import parse_grid
 
@@ -141,57 +139,6 @@ def test_a_plane_is_cut_into_tiles_of_about_the_same_work() -> None:
         assert max(grid.work.values()) < 2.5 * WORK
         points = [tuple(p) for text in grid.batches.values() for p in json.loads(text)["points"]]
         assert len(points) == len(set(points)) == grid.n_points
-
-
-# ---- the plan of a run
-
-
-def test_a_plan_counts_points_and_batches_and_what_is_there(tmp_path: Path) -> None:
-    grid = growth(batch={"size": 101})
-    whole = plan.plan_of(grid, tmp_path)
-    assert whole[:5] == ("s", "floquet", 303, 3, 0)
-    assert sum(whole.seconds) == pytest.approx(sum(grid.work.values()))
-    folder = tmp_path / "s" / "batches"
-    folder.mkdir(parents=True)
-    (folder / f"{next(iter(grid.batches))}.nc").touch()
-    rest = plan.plan_of(grid, tmp_path)
-    assert rest.computed == 1
-    assert len(rest.seconds) == 2
-
-
-def test_a_plan_of_cases_has_their_lengths(tmp_path: Path) -> None:
-    raw = {"study": "s", "base": PLATE, "cases": {"A": {"t_end": 10}, "B": {"t_end": 30}}}
-    cases = parse_study(raw).specs
-    whole = plan.plan_of_cases("s", cases, tmp_path)
-    assert whole[:5] == ("s", "simulation", 2, 2, 0)
-    assert whole.seconds == pytest.approx((10 * PAPER.second, 30 * PAPER.second), rel=1e-4)
-
-
-def test_times_are_said_in_words() -> None:
-    assert plan.time_on(2, [3.0, 1.0, 2.0]) == 3.0
-    assert plan.time_on(2, [2.0, 2.0, 2.0]) == 3.0
-    assert plan.time_on(4, [1.0, 5.0]) == 5.0
-    assert plan.time_on(2, []) == 0.0
-    shown = {0.2: "less than 1 s", 12.34: "12 s", 250.0: "4.2 min", 9000.0: "2.5 h"}
-    assert {value: plan.duration_text(value) for value in shown} == shown
-
-
-@pytest.mark.parametrize(
-    ("seconds", "text"),
-    [
-        (0.99, "less than 1 s"),
-        (1.0, "1 s"),
-        (99.0, "99 s"),
-        (99.7, "1.7 min"),  # it was 1e+02 s
-        (100.0, "1.7 min"),
-        (5900.0, "98 min"),
-        (5990.0, "1.7 h"),  # it was 1e+02 min
-        (6000.0, "1.7 h"),
-        (400_000.0, "110 h"),  # it was 1.1e+02 h
-    ],
-)
-def test_a_time_has_two_digits_and_no_power_of_ten(seconds: float, text: str) -> None:
-    assert plan.duration_text(seconds) == text
 
 
 def test_the_law_of_costs_counts_modes_frequencies_and_laws() -> None:

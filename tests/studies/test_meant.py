@@ -133,15 +133,6 @@ def test_a_parameter_that_the_quantity_varies_has_its_dimension(
     assert fault.endswith(f"write {written}")
 
 
-def test_units_that_no_figure_shows_are_told() -> None:
-    figures = {
-        "f": {**MAP, "variable": "P_max", "units": {"Omega": "rpm", "P": "kN", "c_p": "N s/mm"}}
-    }
-    [grids, _] = parse_study({**GRID, "figures": figures}).grids()
-    told = [doubt for doubt in grids["s"].doubts if "unit" in doubt]
-    assert told == ["figures.f.units.c_p='N s/mm': no figure shows anything in this unit"]
-
-
 # ---- Names of options and arguments
 
 

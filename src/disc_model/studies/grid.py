@@ -35,7 +35,6 @@ from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.costs import unit_costs
 from disc_model.studies.mode_doubts import doubts_of_modes
 from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
-from disc_model.studies.unused_units import unused_units
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
 
 if TYPE_CHECKING:
@@ -429,10 +428,7 @@ class GridStudy:
     @property
     def merge_plan(self) -> MergePlan:
         """What merging the batches needs beside their files."""
-        known = self.file.stated_units
-        units = {name: known[name] for name in self.varied if name in known}
-        batches = tuple(sorted(self.batches))
-        return MergePlan(batches=batches, grid=self.grid, attrs=self.attrs, units=units)
+        return MergePlan(batches=tuple(sorted(self.batches)), grid=self.grid, attrs=self.attrs)
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
@@ -452,13 +448,11 @@ class GridStudy:
 
     @property
     def doubts(self) -> Iterator[str]:
-        """Warnings about implausible corners of the grid, one by each rule, and about units of what
-        figures do not show."""
+        """Warnings about implausible corners of the grid, one by each rule."""
         corners = self.points_along([dim.thinned(2) for dim in self.dims])
         cases = [*map(self._case_at, corners)]
         yield from ChainMap(*map(doubts, cases)).values()
         yield from doubts_of_modes(cases[-1:])
-        yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says
 
@@ -723,19 +717,18 @@ class GridStudy:
                     yield Fault.of((axis,), name, rule)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of the grid, in the units in which its file gives its values unless the figure has
-        its own, whose caption states the values that differ from Table 1 and do not vary."""
+        """A figure of the grid, whose caption states the values that differ from Table 1 and do not
+        vary."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
         stated = {name: value for name, value in self.base.items() if value or name not in REQUIRED}
-        shown = plot.model_copy(update={"units": {**self.file.axis_units, **plot.units}})
-        values = values_text(stated, factors_of(shown.units))
+        values = values_text(stated, factors_of(plot.units))
         source = f"the grid study {self.name}"
         if values:
             source += f", with {values}"
         caption = f"{plot.caption} From {source}.".strip()
-        return FigureEntry(shown, inputs, category, plot.section, title, caption)
+        return FigureEntry(plot, inputs, category, plot.section, title, caption)
 
 
 # ---- Batches
