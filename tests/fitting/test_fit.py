@@ -368,9 +368,6 @@ def test_a_fit_shows_values_intervals_and_deviations() -> None:
         r"Fit\(E=1\.5\d*e\+11 ± [\d.e+]+; ± one standard deviation; chi squared .*freedom\)",
         repr(fit),
     )
-    page = fit._repr_html_()
-    for word in ("E", "Pa", "frequency_0_0", "239", "Hz", "consistent"):
-        assert word in page
     left, right = fit.plot()
     names = [f"frequency of mode ({number}, 0)" for number in (0, 2)]
     assert [text.get_text() for text in left.get_yticklabels()] == names
@@ -761,8 +758,7 @@ def test_a_fit_at_a_bound_shows_what_it_says() -> None:
     assert found.parameters["c_p"].value == pytest.approx(0.5)
     assert np.isnan(found.parameters["c_p"][1:]).all()
     assert found.covariance.item() == pytest.approx(1.0)
-    assert "c_p is below 2.14 N s/m" in found._repr_html_()
-    assert "nan" not in found._repr_html_() + repr(found)
+    assert "nan" not in repr(found)
     assert len(found.plot()) == 2
     pyplot.close("all")
 

@@ -179,11 +179,6 @@ def test_an_argument_of_a_sweep_has_the_name_of_an_option(
         dm.sweep(function, CASE, N=[200, 300], **arguments)
 
 
-def test_one_mode_is_counted_as_one() -> None:
-    case = dm.Parameters(N=300, Omega=12, r_0=0.1, disc=dm.Disc(**DISC))
-    assert "1 mode<" in case._repr_html_()
-
-
 # ---- Figures of a study with one axis more
 
 

@@ -18,7 +18,6 @@ from disc_model.display import (
     Summarised,
     aligned,
     counted,
-    html_table,
     number_text,
     rounded_text,
 )
@@ -463,24 +462,6 @@ class Fit(Summarised, Drawn, EqualByValue):
         if self.note:
             yield "note", self.note
         yield "search", self.message
-
-    def _repr_html_(self) -> str:
-        """The parameters, and the measurements beside what is computed, in a notebook."""
-        head = ("measurement", "measured", "uncertainty", "computed", "deviation", "unit")
-        rows = (
-            (
-                each.name,
-                f"{each.value:.6g}",
-                f"{each.uncertainty:.2g}",
-                f"{computed:.6g}",
-                f"{deviation:+.2f}",
-                "" if each.unit == "1" else each.unit,
-            )
-            for each, computed, deviation in zip(
-                self.measurements, self.computed, self.deviations, strict=True
-            )
-        )
-        return html_table(("fit", ""), self.summary()) + html_table(head, rows)
 
 
 def _listed(names: Sequence[str]) -> str:
