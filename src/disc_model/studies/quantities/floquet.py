@@ -11,7 +11,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     State,
-    UnitCosts,
     beside_motion_columns,
 )
 from disc_model.units import CycleTolerance
@@ -29,6 +28,7 @@ class Floquet(Quantity):
 
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
+    points_per_job: ClassVar = 1000
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     motion_by: ClassVar = {
@@ -47,10 +47,6 @@ class Floquet(Quantity):
         "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """One cycle."""
-        return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.floquet import cycle_near_start
