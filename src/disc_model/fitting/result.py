@@ -436,8 +436,8 @@ class Fit(Summarised, Drawn, EqualByValue):
         >>> data = found.to_dataset()
         >>> float(data["value"].sel(parameter="E")) == found.case.E
         True
-        >>> dm.save(found, "fit.mat")
-        >>> dm.load("fit.mat").identical(data)
+        >>> dm.save(found, "fit.nc")
+        >>> dm.load("fit.nc").identical(data)
         True
         """
         return dataset_of(self)
