@@ -234,6 +234,20 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], min
     assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
 
 
+def test_a_wrong_study_is_told_before_snakemake_starts(
+    command: Command, called: list[str], mine: Path
+) -> None:
+    """With one fault a line, as Snakemake shows them."""
+    mine.write_text(STUDY.replace("mu_k: [0.1, 0.2]", "mu: [1]").replace("floquet", "flo"))
+    code, out, err = command.run("study", str(mine))
+    head, *faults = err.splitlines()
+    assert code == 2
+    assert out == ""
+    assert head == f"error: {mine}: 2 faults"
+    assert [fault.split(":")[0] for fault in faults] == ["  quantity='flo'", "  axes.mu"]
+    assert called == []
+
+
 def test_the_exit_code_of_snakemake_is_passed_on(
     command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path
 ) -> None:

@@ -398,6 +398,9 @@ def study(
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
     import snakemake.cli  # type: ignore[import-untyped]
 
+    from disc_model.studies.study import load_study
+
+    load_study(*files)  # says what is wrong in fewer words than Snakemake
     go_on_without_reader()  # jobs would stay, and the lock of the folder
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
