@@ -19,7 +19,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce gc test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
+.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -34,10 +34,6 @@ $(STAMP): requirements.lock pyproject.toml
 
 reproduce: env
 	$(BIN)/snakemake -j$(CORES)
-
-# Removes batches of grid studies to which no study refers any more.
-gc: env
-	$(BIN)/snakemake -j1 gc
 
 # One HTML file with every figure, the ledger and the provenance, from results that are there.
 report: env

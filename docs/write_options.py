@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 
 from disc_model.studies.options import Option, options_of
-from disc_model.studies.python_names import FUNCTIONS, in_python
 from disc_model.studies.registry import quantity_names, quantity_of
 
 HEAD = """\
@@ -12,10 +11,8 @@ HEAD = """\
 All keys under `options` of a study file, by [quantity](study_quantities.md). *Required* ones have no default. Numbers
 may have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step` or `count`.
 [Starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
-`distributions`. `disc-model study my.yaml -n` shows the options of a study with their values.
-
-Some quantities are also functions of a case in Python, such as `dm.outcome`. Where their arguments have other names or
-defaults than the options, the last column says so. `dm.run_study` computes other quantities, with the options as here.
+`distributions`. In Python, `dm.run_study` takes them as here; functions of a case, such as `dm.outcome`, have
+[arguments](api.md) of their own.
 """
 HEADS = ("option", "given as", "default", "meaning")
 
@@ -25,13 +22,7 @@ def page_text() -> str:
     sections = []
     for name in quantity_names():
         rows = [_cells(option) for option in options_of(quantity_of(name))]
-        heads = list(HEADS)
-        other = [in_python(name, option.name) for option in options_of(quantity_of(name))]
-        if any(other):
-            heads.append(f"in Python, `dm.{FUNCTIONS[name].__name__}`")
-            for row, cell in zip(rows, other, strict=True):
-                row.append(cell)
-        lines = [heads, ["---"] * len(heads), *rows]
+        lines = [HEADS, ["---"] * len(HEADS), *rows]
         sections.append(f"\n## {name}\n\n{''.join(map(_line, lines))}")
     return HEAD + "".join(sections)
 
@@ -42,7 +33,7 @@ def _line(cells: Sequence[str]) -> str:
 
 
 def _cells(option: Option) -> list[str]:
-    """The cells of an option, but for the one about Python."""
+    """The cells of an option."""
     form = option.form
     if option.unit:
         form += f" in {option.unit.replace('that of', 'the unit of')}"

@@ -1,22 +1,15 @@
 """The command line: options, summary, plot."""
 
-import inspect
-import logging
-import os
 import re
 import sys
 from pathlib import Path
 
 import pytest
-import snakemake.cli
-import snakemake.workflow
 
 import disc_model
 from disc_model import Parameters, cli, simulate
 from disc_model.cli import option_name
 from disc_model.stability.sliding_modes import sliding_modes
-from disc_model.studies.study import load_study
-from tests.figures.made_up import campbell_study
 from tests.processes import run
 
 BASE = ("--N", "385", "--Omega", "15.1")
@@ -79,7 +72,7 @@ def test_help_shows_units_defaults_choices_and_the_version(
     assert re.findall(r"╭─ ([\w ]+) ─", out) == ["Options", "Case"]
     out = command.out()
     assert out == command.out("--help")
-    for name in ("run", "floquet", "modes", "study", "init", "--install-completion"):
+    for name in ("run", "floquet", "modes", "study", "--install-completion"):
         assert name in out
     assert command.out("--version") == f"disc_model {disc_model.__version__}\n"
 
@@ -133,7 +126,6 @@ def test_modes_tell_which_slider_is_at_rest_on_the_disc(command: Command) -> Non
 
 @pytest.mark.compiled
 def test_floquet_says_whether_the_quiet_motion_lasts(command: Command) -> None:
-    assert re.fullmatch(r"kernels compiled and cached: \d+\.\d s\n", command.out("compile"))
     rate = disc_model.floquet(Parameters(N=385, Omega=15)).growth_rate
     out = command.out("floquet", "--N", "385", "--Omega", "15")
     assert f"growth rate         {rate:.6g} 1/s (small disturbances die out)" in out
@@ -173,74 +165,11 @@ def test_a_run_is_drawn_and_saved_and_one_that_does_not_end_is_told(
     assert "status              paradox" in out
 
 
-def test_events_are_written_as_text_and_a_dataset_in_another_format(
-    command: Command, tmp_path: Path
-) -> None:
-    file = tmp_path / "run.nc"
-    new_path = tmp_path / "new"
-    out = command.out(*SHORT, "--csv", str(new_path), "--save", str(file))
-    events_path = tmp_path / "new" / "events.csv"
-    assert f"saved               {events_path}\n" in out
-    assert events_path.read_text().startswith("time (s),kind,phase,")
-    target = tmp_path / "run.mat"
-    assert command.out("convert", str(file), str(target)) == f"saved               {target}\n"
-    assert disc_model.load(target).identical(disc_model.load(file))
-    assert "must end in .nc or .mat or .csv" in command.error("convert", str(file), "x.txt")
-    assert "there is no such file" in command.error("convert", "none.nc", str(target))
-
-
-def test_a_grid_is_converted_to_a_table(command: Command, tmp_path: Path) -> None:
-    """Only the events and samples of a run could be written as text."""
-    case = disc_model.Parameters(N=200, Omega=50, n_diameters=1)
-    file = tmp_path / "grid.nc"
-    disc_model.save(disc_model.sweep(disc_model.steady_sliding, case, N=[150, 200]), file)
-    target = tmp_path / "grid.csv"
-    command.out("convert", str(file), str(target))
-    assert target.read_text().startswith("N (N),status,message,")
-
-
-def test_one_of_several_tables_is_chosen(command: Command, tmp_path: Path) -> None:
-    """Such a dataset was refused, with advice that is none for a terminal."""
-    file = tmp_path / "campbell.nc"
-    disc_model.save(campbell_study(), file)
-    target = tmp_path / "crossings.csv"
-    said = command.error("convert", str(file), str(target))
-    assert "crossing_frequency" in said
-    advice = said.split("; choose one, such as ")[1].split()
-    assert advice[0] == "--variables"
-    command.out("convert", str(file), str(target), "--variables", advice[1])
-    head, *rows = target.read_text().splitlines()
-    assert "crossing_frequency" in head
-    assert len(rows) == 3
-    assert advice[2:4] == ["or", "--variables"]
-    command.out("convert", str(file), str(target), "--variables", advice[4])
-    assert "growth_rate (s-1)" in target.read_text().splitlines()[0]
-    assert "or the folder tables/" in said
-    command.out("convert", str(file), f"{tmp_path}/tables/")
-    assert (tmp_path / "tables" / "crossing.csv").exists()
-    some = ("--variables", "growth_rate, stick_slip_frequency")
-    command.out("convert", str(file), str(target), *some)
-    assert target.read_text().startswith("Omega (rad s-1),growth_rate (s-1),stick_slip_frequency")
-    said = command.error("convert", str(file), str(target), "--variables", "growth_rat")
-    assert (
-        "variables='growth_rat': is no variable of the dataset, did you mean growth_rate?" in said
-    )
-
-
-def test_a_file_of_groups_has_no_variables_to_choose(command: Command, tmp_path: Path) -> None:
-    file = tmp_path / "run.nc"
-    command.out(*SHORT, "--save", str(file))
-    said = command.error("convert", str(file), str(tmp_path / "run.csv"))
-    assert "must be one group to be a table" in said
-    said = command.error("convert", str(file), str(tmp_path / "x.nc"), "--variables", "t_end")
-    assert "has groups" in said
-
-
 @pytest.mark.parametrize(
     ("option", "name", "rule"),
     [
-        ("--csv", "/dev/null", "must be a folder, and is a file"),
-        ("--save", "x.txt", "must end in .nc or .mat"),
+        ("--csv", "/dev/null", "must be the name of a folder: File exists"),
+        ("--save", "x.txt", "must end in .nc"),
         ("--save", "/dev/null", "must be the name of a file"),
         ("--save", "no/x.nc", "must be the name of a file in a folder that exists"),
         ("--save", f"{'x' * 300}.nc", "must be the name of a file: File name too long"),
@@ -277,11 +206,6 @@ def test_a_backend_of_a_notebook_does_not_matter(tmp_path: Path, backend: str) -
     assert picture.read_bytes().startswith(b"\x89PNG")
 
 
-@pytest.mark.parametrize("words", [("study",), ("list", "cases")])
-def test_a_missing_study_is_told_in_one_line(command: Command, words: tuple[str, ...]) -> None:
-    assert command.error(*words, "none.yaml") == "error: none.yaml: there is no such file\n"
-
-
 STUDY = (Path(__file__).parent / "workflow" / "studies" / "braces.yaml").read_text()
 
 
@@ -291,36 +215,6 @@ def mine(tmp_path: Path) -> Path:
     path = tmp_path / "mine.yaml"
     path.write_text(STUDY)
     return path
-
-
-@pytest.mark.parametrize(
-    ("what", "parts"),
-    [
-        ("studies", ("mine", "floquet", "mu_s x mu_k", "4")),
-        ("figures", ("growth", "heat_map", "seen", "history")),
-        ("cases", ("A", "one case", "μ_k = 0.2", "1")),
-    ],
-)
-def test_what_a_study_has_is_listed(
-    command: Command, monkeypatch, mine: Path, what: str, parts: tuple
-) -> None:
-    monkeypatch.setenv("COLUMNS", "200")
-    out = command.out("list", what, str(mine))
-    for part in parts:
-        assert part in out
-
-
-def test_a_folder_is_laid_out_and_its_study_is_right(command: Command, tmp_path: Path) -> None:
-    folder = tmp_path / "my own"
-    assert f"cd '{folder}' && disc-model study my_study.yaml" in command.out("init", str(folder))
-    study = load_study(folder / "my_study.yaml")
-    assert study.grid is not None
-    assert study.grid.n_points == 143
-    assert (folder / "profiles" / "default" / "config.yaml").is_file()
-    err = command.error("init", str(folder))
-    assert "must not hold my_study.yaml, Snakefile, profiles/default/config.yaml yet" in err
-    err = command.error("init", str(folder / "Snakefile"))  # a file
-    assert "cannot be written (File exists)" in err
 
 
 @pytest.fixture
@@ -338,56 +232,6 @@ def test_a_study_is_handed_to_snakemake(command: Command, called: list[str], min
     assert Path(called[called.index("-s") + 1]).is_file()
     assert called[-2:] == ["--configfile", str(mine)]
     assert {"-j2", "--unlock", "bench", "--dry-run", "--directory", folder} <= {*called}
-
-
-def test_a_dry_run_says_what_there_is_to_compute_and_by_which_options(
-    command: Command, called: list[str], mine: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("COLUMNS", "160")
-    options = ("--directory", str(mine.parent), "-j2", "-n")
-    out = command.out("study", str(mine), *options)
-    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1 +│ less than 1 s │", out)
-    assert re.search(r"│ mine +│ simulation +│ 1 +│ 1 +│ less than 1 s │", out)
-    assert re.search(r"│ tol +│ 1e-12 +│ +│ tolerance of cycles", out)
-    assert re.search(r"Estimated time: [\d.]+ s on 2 cores, to a factor of three", out)
-    assert "less than 1 s on 2 cores" not in out  # a run of seconds by the start of its jobs
-    folder = mine.parent / "results" / "mine" / "batches"
-    folder.mkdir(parents=True)
-    (folder / f"{next(iter(load_study(mine).grid.batches))}.nc").touch()  # type: ignore[union-attr]
-    out = command.out("study", str(mine), *options)
-    assert re.search(r"│ mine +│ floquet +│ 4 +│ 1, of which 1 is computed", out)
-    assert len(called) > 0
-    assert "plan of" not in command.out("study", str(mine), "--directory", str(mine.parent))
-
-
-def test_a_folder_that_cannot_hold_results_is_refused(
-    command: Command, called: list[str], mine: Path
-) -> None:
-    """Each ended in a traceback of Snakemake."""
-    folders = {
-        mine: "must be a folder, and is a file",
-        mine / "below": "cannot be written (Not a directory)",
-        mine.parent / ("x" * 300): "cannot be written (File name too long)",
-    }
-    for folder, rule in folders.items():
-        err = command.error("study", str(mine), "--directory", str(folder))
-        assert err == f"error: directory={str(folder)!r}: {rule}\n"
-    assert called == []
-
-
-def test_a_cache_is_found_where_there_is_no_home(
-    command: Command, called: list[str], mine: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
-    """Snakemake ended in a traceback about its cache."""
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "own"))
-    command.out("study", str(mine), "--directory", str(tmp_path))
-    assert os.environ["XDG_CACHE_HOME"] == str(tmp_path / "own")
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    monkeypatch.setattr("platformdirs.user_cache_path", lambda *_: tmp_path / "file" / "cache")
-    err = command.error("study", str(mine), "--directory", str(tmp_path))
-    assert "must be a folder that can be written, because Snakemake keeps its cache there" in err
-    assert len(called) > 0
 
 
 def test_a_wrong_study_is_told_before_snakemake_starts(
@@ -421,115 +265,9 @@ def test_the_exit_code_of_snakemake_is_passed_on(
     assert err.split()[-1] == "interrupted"
 
 
-@pytest.mark.parametrize(
-    ("code", "options", "says"),
-    [
-        (0, ["--target", "explorer"], True),
-        (1, ["--target", "explorer"], False),
-        (0, ["--target", "explorer", "--unlock"], False),
-        (0, ["--target", "gc"], False),
-    ],
-)
-def test_the_page_of_all_points_is_named_where_it_was_made(
-    command: Command,
-    monkeypatch: pytest.MonkeyPatch,
-    mine: Path,
-    code: int,
-    options: list[str],
-    says: bool,
-) -> None:
-    """Nobody said where it is."""
-
-    def ends(arguments: list[str]) -> None:
-        sys.exit(code)
-
-    monkeypatch.setattr("snakemake.cli.main", ends)
-    found = command.run("study", str(mine), "-d", str(mine.parent), *options)
-    page = mine.parent / "results" / mine.stem / "explorer.html"
-    assert found[:2] == (code, f"explorer: {page}\n" if says else "")
-
-
-@pytest.mark.parametrize("code", [0, 1])
-def test_a_study_that_was_made_says_where_its_results_are(
-    command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path, code: int
-) -> None:
-    """The last words were those of Snakemake, on its log and the time."""
-    folder = mine.parent / "results" / mine.stem
-    (folder / "figures").mkdir(parents=True)
-    (folder / f"{mine.stem}.nc").touch()
-    for name in ("growth.png", "growth.pdf"):
-        (folder / "figures" / name).touch()
-
-    def ends(arguments: list[str]) -> None:
-        sys.exit(code)
-
-    monkeypatch.setattr("snakemake.cli.main", ends)
-    found = command.run("study", str(mine), "-d", str(mine.parent))
-    says = f"results: {folder} ({mine.stem}.nc, figures/growth.png)\n"
-    assert found[:2] == (code, "" if code else says)
-
-
-@pytest.mark.parametrize("older", ["mine.nc", "figures/growth.png"])
-def test_a_run_says_that_it_leaves_an_older_page_of_all_points(
-    command: Command, monkeypatch: pytest.MonkeyPatch, mine: Path, older: str
-) -> None:
-    """A page of former values stayed without a word."""
-
-    def ends(arguments: list[str]) -> None:
-        sys.exit(0)
-
-    monkeypatch.setattr("snakemake.cli.main", ends)
-    folder = mine.parent / "results" / mine.stem
-    made = ["mine.nc", "figures/growth.png", "explorer.html"]
-    for time, name in enumerate(made):
-        _touched(folder / name, time)
-    ran = ["study", str(mine), "-d", str(mine.parent)]
-    assert "explorer.html" not in command.out(*ran)
-    _touched(folder / older, len(made))
-    remedy = f"disc-model study {mine} --directory {mine.parent} --target explorer"
-    page = folder / "explorer.html"
-    said = f"{page} is of an older state of the study; to make it anew: {remedy}"
-    assert command.out(*ran).splitlines()[-1] == said
-    assert "older state" not in command.out(*ran, "--target", "explorer")
-
-
-def _touched(file: Path, time: float) -> None:
-    """Make a file, and set its time."""
-    file.parent.mkdir(parents=True, exist_ok=True)
-    file.touch()
-    os.utime(file, (time, time))
-
-
 def test_pictures_are_files_whatever_a_notebook_has_chosen(tmp_path: Path) -> None:
     """A kernel in another environment chooses a module that is not here."""
     picture = tmp_path / "run.png"
     notebook = {"MPLBACKEND": "module://no_such_module.backend"}
     run(sys.executable, "-m", "disc_model", *SHORT, "--plot", picture, **notebook)
     assert picture.read_bytes().startswith(b"\x89PNG")
-
-
-def test_the_advice_to_look_at_times_of_files_alone_is_not_passed_on() -> None:
-    """`disc-model study -n` ended with advice of Snakemake by which stale results would stay."""
-    said = inspect.getsource(snakemake.workflow.Workflow.log_provenance_info)
-    advice = "use the command line option '--rerun-triggers mtime' (also see --help)."
-    assert "--rerun-triggers mtime" in said, "Snakemake has other words now"
-    for text, kept in ((advice, False), ("Job stats:", True)):
-        record = logging.LogRecord("snakemake.logging", logging.INFO, "", 0, text, (), None)
-        assert cli._is_told(record) == kept
-
-
-@pytest.mark.parametrize("text", cli.NOT_TOLD[1:])
-def test_how_snakemake_is_set_up_is_not_told(text: str) -> None:
-    """Such lines stood between the tables of a plan and its end."""
-    logging_parts = (snakemake.workflow.Workflow, snakemake.api.DAGApi)
-    said = "".join(map(inspect.getsource, logging_parts))
-    assert text in said, "Snakemake has other words now"
-    record = logging.LogRecord("snakemake.logging", logging.INFO, "", 0, f"{text}.", (), None)
-    assert not cli._is_told(record)
-
-
-def test_batches_of_a_plan_say_how_many_are_computed() -> None:
-    """A plan had "1, 1 there"."""
-    assert cli._batches_text(4, 0) == "4"
-    assert cli._batches_text(1, 1) == "1, of which 1 is computed"
-    assert cli._batches_text(4, 3) == "4, of which 3 are computed"

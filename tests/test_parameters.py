@@ -201,12 +201,9 @@ def test_a_value_of_no_kind_is_one_fault(name: str, value: object, fault: str) -
     assert [str(each) for each in error.value.faults] == [fault]
 
 
-def test_a_disc_of_ones_own_shows_and_stores_nothing_of_the_plate() -> None:
+def test_a_disc_of_ones_own_stores_nothing_of_the_plate() -> None:
     disc = Disc(diameters=[0, 3], omega=[1490, 1515], amplitude=[1.53, 2.16])
     case = Parameters(N=385, Omega=15.1, disc=disc, r_0=0.1)
-    rows = re.findall(r"<tr><td>(\w+)</td><td>([^<]*)", case._repr_html_())
-    assert dict(rows)["disc"] == "2 modes"
-    assert not {*PLATE} & {*dict(rows)}
     assert not {*PLATE} & {*json.loads(case.canonical_json)}
     assert Parameters.model_validate_json(case.canonical_json) == case
     values = scalars_dataset(case, {}, "ok", "")

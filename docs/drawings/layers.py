@@ -35,7 +35,7 @@ WHAT = {
     "units": "kinds of numbers, units, strict bases",
     "engine": "equations, series, roots, events: numbers and arrays only",
     "errors": "statuses, exceptions and their messages",
-    "display": "tables and pictures in notebooks, progress",
+    "display": "summaries, pictures, progress",
     "attachable": "the bases that have these methods",
     "arrays": "types of arrays",
     "hashing": "one text for equal values, and its hash",

@@ -1,37 +1,21 @@
-"""What is shown to a reader: summaries of objects, as tables in notebooks too, their pictures, and
-the progress of what takes long."""
+"""What is shown to a reader: summaries of objects, their pictures, and the progress of what takes
+long."""
 
 from __future__ import annotations
 
 import math
-import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from html import escape
 from importlib import import_module
 from importlib.util import find_spec
-from threading import Timer
 from types import ModuleType
 from typing import Any
 
 WRITTEN_OUT = 1e6  # numbers below it have no power of ten
 
 
-def html_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
-    """A table for notebooks."""
-    lines = [_html_row("th", head)]
-    lines += [_html_row("td", row) for row in rows]
-    return f"<table>{''.join(lines)}</table>"
-
-
-def _html_row(tag: str, row: Iterable[object]) -> str:
-    """Return a row of a table whose cells have a tag."""
-    cells = [f"<{tag}>{escape(str(cell))}</{tag}>" for cell in row]
-    return f"<tr>{''.join(cells)}</tr>"
-
-
 class Summarised:
-    """An object that has a summary, which a notebook and the command line show."""
+    """An object that has a summary, which the command line shows."""
 
     def _summary(self) -> Iterable[tuple[str, object]]:
         raise NotImplementedError
@@ -39,9 +23,6 @@ class Summarised:
     def summary(self) -> list[tuple[str, str]]:
         """Names and values in words; those without a value are left out."""
         return [(name, str(value)) for name, value in self._summary() if value not in ("", None)]
-
-    def _repr_html_(self) -> str:
-        return html_table((type(self).__name__, ""), self.summary())
 
 
 def number_text(value: float, unit: str = "", digits: int = 6) -> str:
@@ -135,9 +116,6 @@ class Drawn:
 # ---- Progress
 
 NOTEBOOK = 90  # characters of a line in a notebook
-PATIENCE = 10.0  # s, after which a reader is told how to see a bar
-_SAID: set[str] = set()  # titles of which this was told
-_BARS: list[str] = []  # titles of what is being done, the outermost first
 
 
 class Bar:
@@ -169,29 +147,11 @@ class Bar:
 
 @contextmanager
 def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error, while it is needed; it only counts if the total is not known.
-
-    Where it is not shown, a line after `PATIENCE` says how to see it, unless this is part of what has a
-    bar, or a line, of its own.
-    """
-    is_part = bool(_BARS)
-    _BARS.append(title)
-    try:
-        if shown:
-            with _shown_bar(title, total) as bar:
-                yield bar
-        elif is_part:
-            yield Bar(total)
-        else:
-            with _named_after_a_while(title):
-                yield Bar(total)
-    finally:
-        _BARS.pop()
-
-
-@contextmanager
-def _shown_bar(title: str, total: int | None) -> Iterator[Bar]:
-    """A bar on standard error, while it is needed."""
+    """A bar on standard error, while it is needed; it only counts if the total is not known, and if it
+    is not shown."""
+    if not shown:
+        yield Bar(total)
+        return
     from rich.progress import (
         BarColumn,
         MofNCompleteColumn,
@@ -208,26 +168,6 @@ def _shown_bar(title: str, total: int | None) -> Iterator[Bar]:
         counts = [BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), *left]
     with Progress(TextColumn("{task.description}"), *counts, console=_console()) as bar:
         yield Bar(total, bar, bar.add_task(title, total=total))
-
-
-@contextmanager
-def _named_after_a_while(title: str) -> Iterator[None]:
-    """Say on standard error how to see a bar, if what is done takes longer than `PATIENCE`; once
-    for each title."""
-    timer = Timer(PATIENCE, _say_once, [title])
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-
-
-def _say_once(title: str) -> None:
-    """Say on standard error how to see a bar, unless it was said before."""
-    if title not in _SAID:
-        _SAID.add(title)
-        print(f"{title} is computing; progress=True shows how far it is", file=sys.stderr)
 
 
 def _console() -> Any:

@@ -17,7 +17,7 @@ from pydantic import (
     model_validator,
 )
 
-from disc_model.display import counted, html_table
+from disc_model.display import counted
 from disc_model.errors import Fault, raise_faults
 from disc_model.mode_units import OF_COLUMNS, UNCERTAIN, mode_number, mode_numbers
 from disc_model.units import (
@@ -221,17 +221,6 @@ class Disc(Strict):
         return f"Disc({counted(len(self.omega), 'mode')}, {extent} Hz)"
 
     __str__ = __repr__
-
-    def _repr_html_(self) -> str:
-        """The table of modes in a notebook."""
-        columns = {
-            "diameters": self.diameters,
-            "circles": self.circles,
-            "frequency (Hz)": [f"{omega / math.tau:.5g}" for omega in self.omega],
-            "amplitude (kg^-1/2)": [f"{amplitude:.5g}" for amplitude in self.amplitude],
-            "damping ratio": [f"{damping:.3g}" for damping in self.damping_ratio],
-        }
-        return html_table(columns, zip(*columns.values(), strict=True))
 
     @property
     def numbers(self) -> dict[str, float]:

@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self, get_a
 import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from disc_model.display import counted, html_table
 from disc_model.errors import Fault, ImplausibleValue, as_text, raise_faults
 from disc_model.hashing import canonical_json, content_key
 from disc_model.modal_disc import Disc, Quantity
@@ -372,22 +371,6 @@ class Parameters(Strict):
         for name, value in self.stated.items():
             if DEFAULTS.get(name, ...) != value:
                 yield name, value
-
-    def _repr_html_(self) -> str:
-        """The case as a table in a notebook."""
-        fields = type(self).model_fields
-        rows = []
-        for name, value in self:
-            if value is None or (self.disc is not None and name in PLATE):
-                continue
-            text = str(value)
-            if is_number(value):
-                text = f"{value:.15g}"
-            if isinstance(value, Disc):
-                text = counted(len(value.omega), "mode")
-            unit = self.unit(name).removeprefix("1")
-            rows.append((name, text, unit, fields[name].description))
-        return html_table(("symbol", "value", "unit", "meaning"), rows)
 
     @property
     def D(self) -> float:

@@ -62,7 +62,7 @@ def test_every_example_is_in_a_block_that_is_run(page: Path) -> None:
     assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
 
 
-def test_the_script_from_a_universal_file_to_a_file_for_matlab_runs(tmp_path: Path) -> None:
+def test_the_script_from_a_universal_file_to_a_file_runs(tmp_path: Path) -> None:
     """It is what a laboratory with the modes of a disc writes, in at most 25 lines."""
     page = DOCS / "howto" / "sweep.md"
     (script,) = [block for block in blocks(page) if "from_uff" in block]
@@ -76,7 +76,7 @@ def test_the_script_from_a_universal_file_to_a_file_for_matlab_runs(tmp_path: Pa
     assert "1000/1000" in done.stderr
     map_path = tmp_path / "map.png"
     assert map_path.read_bytes().startswith(b"\x89PNG")
-    spread_path = tmp_path / "spread.mat"
+    spread_path = tmp_path / "spread.nc"
     spread = disc_model.load(spread_path)
     assert spread["growth_rate"].sizes == {"mu_k_mu_s_k_k_p": 1000}
     assert (spread["status"] == "ok").mean() > 0.9

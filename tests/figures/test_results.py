@@ -127,8 +127,6 @@ def test_multipliers_eigenvalues_and_a_branch_show_their_stability() -> None:
     assert named[:count] == expected
     branch = dm.continue_cycle(P.replace(Omega=14.9), "Omega", (14.8, 15.2))
     assert "fold at 15.095 rad/s" in labels(branch.plot().figure)
-    for shown, text in ((run(), "54.418905"), (cycle, "-0.10"), (sliding, "135"), (P, "15.1")):
-        assert text in shown._repr_html_()
 
 
 def test_critical_values_neutral_curves_and_exponents_are_drawn_with_their_case() -> None:
@@ -259,7 +257,6 @@ def test_a_disc_shows_its_modes_and_what_is_not_there_is_said() -> None:
     )
     assert repr(disc) == "Disc(2 modes, 159.15 to 318.31 Hz)"
     assert repr(disc.first(1)) == "Disc(1 mode, 159.15 Hz)"
-    assert "318.31" in disc._repr_html_()
     assert len(dm.plot_modes(P.replace(disc=disc))) == 2
     with refusal("no eigenvalues: The disc is not driven"):
         dm.steady_sliding(P.replace(Omega=0)).plot()

@@ -142,7 +142,6 @@ def test_it_works_without_the_sources(installed: Installed) -> None:
 
 
 def test_a_study_needs_no_clone(installed: Installed) -> None:
-    installed.run("disc-model", "init", "own")
-    installed.run("disc-model", "study", "own/my_study.yaml", "-n", "--directory", "own")
-    assert "my_study" in installed.run("disc-model", "list", "studies", "own/my_study.yaml")
-    installed.run("snakemake", "-n", "--directory", "own", "-s", "own/Snakefile")
+    study = installed.work / "s.yaml"
+    study.write_text("{study: s, quantity: floquet, base: {N: 385}, axes: {Omega: [12, 15]}}")
+    assert "compute_batch" in installed.run("disc-model", "study", study, "-n", "-d", "own")

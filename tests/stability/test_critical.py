@@ -109,7 +109,6 @@ def test_a_value_that_is_no_border_is_said_to_be_none(
     assert bool(found.message) == bool(message)
     assert found.at_lower_bound == ("lower bound" in message)
     assert message in repr(found)
-    assert message in found._repr_html_()
 
 
 BLOCK = RIG.replace(m=0.5, k_p=7e3, c_p=6)
@@ -125,7 +124,6 @@ def test_sliding_of_a_block_is_stable_above_the_slope_of_friction() -> None:
     assert found.unstable_above.tolist() == [False]
     assert found.message == "already unstable at the lower bound, c_p = 0.1 N s/m"
     assert "N s/m, 1 crossing" in repr(found)
-    assert "steady sliding" in found._repr_html_()
 
 
 def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> None:
@@ -300,16 +298,6 @@ def test_intervals_of_instability_lie_between_crossings(
         0.1,
     )
     assert [tuple(row) for row in found.unstable.tolist()] == unstable
-    rows = found._repr_html_()
-    # of as many rows as there are intervals
-    edges = len(crossings) + 1
-    assert rows.count(">unstable<") == len(unstable)
-    assert rows.count(">stable<") == edges - len(unstable)
-    # the range is from 0 to 1, of a number without a unit
-    assert ">0<" in rows
-    assert ">1<" in rows
-    assert ">to<" in rows
-    assert ">narrower than 0.1<" in rows
 
 
 def test_neutral_sliding_is_not_said_to_be_stable() -> None:

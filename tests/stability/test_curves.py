@@ -120,20 +120,6 @@ def test_a_branch_that_ends_elsewhere_is_told() -> None:
     assert failures == [ended]
 
 
-def test_curves_are_a_table_in_a_notebook() -> None:
-    values = np.array([[14.0, 0.38], [14.5, 0.4], [15.25, 0.39]])
-    resonance = Resonance(2.0, 135.42, 2, 0, 0.0)
-    beside = np.array([True, True, False])
-    curve = curves.StabilityCurve("fold", values, beside, np.ones(3), np.ones(3), resonance)
-    bounds = {"Omega": (14.0, 15.5), "mu_s": (0.38, 0.42)}
-    found = curves.NeutralCurves(Parameters(N=385, Omega=15), bounds, (curve,), ("a <failure>",))
-    shown = found._repr_html_()
-    assert "<th>Omega (rad/s)</th><th>mu_s</th>" in shown
-    cells = ("fold", "14 to 15.25", "0.38 to 0.4", "2 f_s = 135.42 Hz", "66.7 %")
-    assert "".join(f"<td>{cell}</td>" for cell in cells) in shown
-    assert "<td>not followed</td><td>a &lt;failure&gt;</td>" in shown
-
-
 def test_lines_lie_within_the_bounds() -> None:
     plane = {"Omega": (14, 15), "mu_s": (0.38, 0.42)}
     with refusal(r"lines=\[0.5\]: must lie within the bounds of mu_s"):

@@ -20,9 +20,9 @@ from disc_model.studies import run
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.point_lists import failures
-from disc_model.studies.quantity import WORK, Point
+from disc_model.studies.quantity import Point
 from disc_model.studies.run import run_batch
-from disc_model.studies.study import parse_study
+from disc_model.studies.study import load_study, parse_study
 from tests.studies.conftest import computed, study
 from tests.studies.refused import faults_of, parse_grid
 
@@ -164,22 +164,6 @@ def test_up_to_three_parts_of_a_block_are_equal(count: int, sizes: list[int]) ->
     assert [value for part in parts for (value,) in part] == block
 
 
-@pytest.mark.parametrize(("over", "batches"), [(["N", "Omega"], 8), (["N", "Omega", "c_p"], 9)])
-def test_a_tile_of_several_planes_is_so_much_smaller(
-    over: list[str], batches: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Stretches of twenty intervals, two a side, and of thirteen or fourteen, three a side."""
-    monkeypatch.setattr(GridStudy, "_cost_of", lambda self, points: WORK / 20**2)
-    axes = {
-        "N": {"start": 100, "stop": 140, "step": 1},
-        "Omega": {"start": 10, "stop": 50, "step": 1},
-        "c_p": [0.0, 0.1],
-    }
-    options = {"horizon": 1}
-    grid = parse_grid(study(quantity="regions", options=options, axes=axes, batch={"over": over}))
-    assert len(grid.batches) == batches
-
-
 def test_a_value_belongs_to_the_first_block_that_has_it() -> None:
     made = parts_of.Dimension(["c"], [[(2.0,), (0.0,)], [(2.0,), (3.0,)], [(0.0,)]])
     assert made.blocks == [[(0.0,), (2.0,)], [(3.0,)]]
@@ -259,16 +243,54 @@ def test_a_grid_may_have_the_greatest_number_of_points(monkeypatch: pytest.Monke
     assert told == ["axes: must make at most 5 points, and not 6"]
 
 
-def test_a_tile_has_at_most_32_intervals_a_side(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Of 64 there are two stretches, however cheap its points are."""
-    monkeypatch.setattr(GridStudy, "_cost_of", lambda self, points: WORK / 100**2)
-    side = {"start": 100, "stop": 164, "step": 1}
-    changes = {
-        "quantity": "regions",
-        "options": {"horizon": 1},
-        "axes": {"N": side, "Omega": side},
-        "batch": {},
+def sizes(**changes: Any) -> list[int]:
+    """Numbers of points of the batches of a study."""
+    return sorted(map(len, points(parse_grid(study(**changes)))))
+
+
+def test_a_batch_has_the_points_of_its_quantity_or_of_its_file() -> None:
+    axes = {"N": [200], "Omega": {"start": 10, "stop": 20, "count": 161}}
+    assert sizes(axes=axes, batch={}) == [53, 54, 54]  # of at most 80 of `outcome`, made equal
+    assert sizes(axes=axes, batch={"size": 100}) == [80, 81]
+    axes["Omega"] = {"start": 10, "stop": 20, "count": 401}
+    assert sizes(axes=axes, batch={"size": 80}) == [1, 80, 80, 80, 80, 80]
+
+
+SIDES = {
+    "N": {"start": 100, "stop": 140, "step": 1},
+    "Omega": {"start": 10, "stop": 50, "step": 1},
+    "c_p": [0.0, 0.1],
+}
+
+
+@pytest.mark.parametrize(
+    ("batch", "count"),
+    [
+        ({"over": ["N", "Omega"]}, 2),  # of 40 intervals a side, of at most 28
+        ({"over": ["N", "Omega"], "size": 400}, 8),
+        ({"over": ["N", "Omega", "c_p"], "size": 400}, 9),
+    ],
+)
+def test_a_plane_is_cut_into_tiles_of_about_so_many_points(
+    batch: dict[str, Any], count: int
+) -> None:
+    """Stretches of twenty intervals, two a side, and of thirteen or fourteen, three a side."""
+    made = parse_grid(study(quantity="regions", options={"horizon": 1}, axes=SIDES, batch=batch))
+    assert len(made.batches) == count
+    every = [tuple(point) for batch in points(made) for point in batch]
+    assert len(every) == len({*every}) == made.n_points
+
+
+@pytest.mark.parametrize("name", ["map_N", "map_m", "map_D_star", "map_k"])
+def test_tiles_of_the_maps_on_which_inferred_outcomes_depend(name: str) -> None:
+    """Cells are refined within a tile, so that other tiles may infer other outcomes."""
+    grid = load_study(Path(f"config/studies/{name}.yaml")).grid
+    assert grid is not None
+    tiles = [json.loads(text)["tile"]["along"] for text in grid.batches.values()]
+    expected = {
+        "map_N": [(24, 24)] * 8,
+        "map_m": [(19, 25)] * 4,
+        "map_D_star": [(37, 25)] * 2,
+        "map_k": [(37, 34)] * 2,
     }
-    raw = study(**changes)
-    grid = parse_grid(raw)
-    assert len(grid.batches) == 4
+    assert [tuple(map(len, along)) for along in tiles] == expected[name]

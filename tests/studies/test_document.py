@@ -33,8 +33,7 @@ def test_what_is_shipped_is_made_from_the_models() -> None:
     "path", sorted((ROOT / "config").rglob("*.yaml")), ids=lambda path: path.stem
 )
 def test_a_shipped_file_is_right(path: Path) -> None:
-    """It fits the schema that it names, bears the name of its study, and says nothing
-    implausible."""
+    """It fits the schema that it names, and bears the name of its study."""
     phrase = path.read_text(encoding="utf-8")
     assert [error.message for error in CHECK.iter_errors(yaml.safe_load(phrase))] == []
     named = re.match(r"# yaml-language-server: \$schema=(\S+)\n", phrase)
@@ -42,7 +41,6 @@ def test_a_shipped_file_is_right(path: Path) -> None:
     assert (path.parent / named[1]).resolve() == SHIPPED
     study = load_study(path)
     assert study.name == path.stem
-    assert not (study.grid and [*study.grid.doubts])
     if study.grid and not study.cases:  # what its figures show besides is found beside it
         grids, names = study.grids([Path(), path.parent])
         assert names == (study.name,)

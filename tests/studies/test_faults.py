@@ -21,8 +21,6 @@ from hypothesis import strategies as st
 import disc_model as dm
 from disc_model import cli
 from disc_model.stability.lyapunov import lyapunov_exponents
-from disc_model.studies.closing import closing_lines
-from disc_model.studies.point_lists import listed_in, point_list
 from disc_model.studies.study import StudyError, parse_study, read_file
 from tests.studies.refused import faults_of
 
@@ -48,44 +46,6 @@ def test_a_fault_of_a_study_is_named(raw: dict[str, Any], words: str) -> None:
     assert_named(faults_of(lambda: parse_study(raw).grids()), words)
 
 
-def test_the_faults_of_a_study_come_in_one_error() -> None:
-    faults = faults_of(
-        parse_study,
-        GRID | {"base": {"N": -1, "m": "x", "mu": 1}, "figures": {"f": {"kind": "heat"}}},
-    )
-    for words in ("base.N -1", "base.m 'x' number", "base.mu mu_s", "figures.f.kind"):
-        assert_named(faults, words)
-
-
-TYPO_OF_AN_AXIS = {
-    "study": "q",
-    "quantity": "floquet",
-    "base": {"damping_ratio": 0.001},
-    "axes": {"Omega": {"strat": 20, "stop": 30, "count": 3}, "N": [200, 300]},
-}
-
-
-def test_a_typo_in_an_axis_adds_no_fault_of_what_was_never_written() -> None:
-    """The third fault was of a D_star, which stood for the start."""
-    faults = faults_of(parse_study, TYPO_OF_AN_AXIS)
-    assert [fault.split(":")[0] for fault in faults] == ["axes.Omega.start", "axes.Omega.strat=20"]
-
-
-@pytest.mark.parametrize("part", ["start", "stop"])
-def test_without_a_part_of_an_axis_the_rest_is_still_checked(part: str) -> None:
-    axis = {"start": 20, "stop": 30, "count": 3}
-    del axis[part]
-    changes = {"axes": {"Omega": axis, "N": [200], "k": [4e4]}, "base": {"k": 5e4}}
-    faults = faults_of(parse_study, TYPO_OF_AN_AXIS | changes)
-    assert [fault.split(":")[0] for fault in faults] == [f"axes.Omega.{part}", "axes.k"]
-
-
-def test_a_typo_of_the_step_of_an_axis_is_one_fault() -> None:
-    axes = {"Omega": {"start": 20, "stop": 30, "setp": 5}, "N": [200]}
-    [fault] = faults_of(parse_study, TYPO_OF_AN_AXIS | {"axes": axes})
-    assert fault.startswith("axes.Omega.setp=5: unknown key")
-
-
 @pytest.mark.parametrize("record", ["every second", {"windows": "late"}])
 def test_a_figure_of_a_window_is_not_at_fault_where_the_record_is(record: Any) -> None:
     case = {"t_end": 3, "parameters": {"N": 300, "Omega": 10}}
@@ -93,43 +53,6 @@ def test_a_figure_of_a_window_is_not_at_fault_where_the_record_is(record: Any) -
     raw = {"study": "q", "cases": {"A": case}, "figures": {"f": figure}, "record": record}
     [fault] = faults_of(parse_study, raw)
     assert fault.startswith("record")
-
-
-MANY = """
-study: many
-quantity: floquet
-base: {N: -5, mu_k: abc, friction_ofset: surface, E: 150 kg}
-axes:
-  Omga: {start: 10, stop: 20, count: 5}
-  normalization: [as_publised, orthonormal]
-  mu_s: [0.4, 0.5]
-options: {tool: 1.0e-12}
-figures:
-  growth: {kind: curve, variable: growth_rat, x: Omega, by: mu_s, at: {normalization: orthonormal}}
-  map: {kind: heat_mp, variable: period, x: Omega, y: mu_s}
-  last: {kind: heat_map, variable: period, x: mu_z, y: Omega, foo: 1}
-"""
-ALL_OF_THEM = (
-    "base.N -5",
-    "base.mu_k 'abc'",
-    "base.friction_ofset friction_offset",
-    "base.E '150 kg'",
-    "axes.Omga Omega",
-    "axes.normalization 'as_publised'",
-    "options.tool tol",
-    "figures.growth.variable 'growth_rat' growth_rate",
-    "figures.map.kind 'heat_mp' heat_map",
-    "figures.last.foo",
-    "figures.last.x 'mu_z' mu_s",
-)
-
-
-def test_faults_of_all_kinds_come_in_one_round() -> None:
-    """They came in four: of the second, the first ones had to be mended to see them."""
-    faults = faults_of(parse_study, yaml.safe_load(MANY))
-    for words in ALL_OF_THEM:
-        assert_named(faults, words)
-    assert len(faults) == len(ALL_OF_THEM), "and none that only what was left out makes"
 
 
 SAMPLED = {"distributions": {"mu_s": {"mean": 0.4, "deviation": 0.01}}, "samples": 8}
@@ -149,16 +72,6 @@ SAMPLED = {"distributions": {"mu_s": {"mean": 0.4, "deviation": 0.01}}, "samples
 def test_a_fault_makes_no_other_ones(change: dict[str, Any], count: int) -> None:
     faults = faults_of(parse_study, GRID | change)
     assert len(faults) == count, faults
-
-
-def test_the_name_of_a_study_hides_no_other_fault() -> None:
-    """With a wrong name the rules between values were not checked."""
-    faults = faults_of(
-        parse_study, GRID | {"study": "b 6", "axes": {"Omega": [10, 20], "mu_k": [1.0]}}
-    )
-    assert_named(faults, "study 'b pattern")
-    assert_named(faults, "axes.mu_k 1 <= mu_s")
-    assert len(faults) == 2
 
 
 def test_cases_with_wrong_names_are_not_missed_elsewhere() -> None:
@@ -348,73 +261,6 @@ def test_any_command_line_ends_with_help_or_code_2(arguments: list[str]) -> None
     assert ended.value.code in (0, 2)
     assert "Traceback" not in stderr.getvalue()
     assert re.search(r"\S", stderr.getvalue()) or ended.value.code == 0
-
-
-# ---- what a run says in the end
-
-
-def test_a_run_says_in_the_end_what_has_no_result(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    grids = parse_study(GRID).grids()[0]
-    folder = tmp_path / "results" / "s"
-    folder.mkdir(parents=True)
-    (folder / "s.failed.txt").write_text("Omega = 10: paradox\nOmega = 20: paradox\n")
-    (folder / "s.remarks.txt").write_text(point_list([]))
-    file = Path("results/s/s.failed.txt")
-    assert list(closing_lines(grids)) == [f"s: 2 of 4 points have no result, see {file}"]
-    # a motion that has not settled has its samples all the same
-    (folder / "s.failed.txt").write_text("Omega = 10: paradox\n")
-    remarked = Path("results/s/s.remarks.txt")
-    remarked.write_text("Omega = 20: not settled after 80 s: changing at 0.1/s\n")
-    assert list(closing_lines(grids)) == [
-        f"s: 1 of 4 points have no result, see {file}",
-        f"s: 1 of 4 points have a remark, see {remarked}",
-    ]
-
-
-def test_a_file_that_lists_no_point_says_so(tmp_path: Path) -> None:
-    """Each folder of results had two empty files."""
-    file = tmp_path / "s.failed.txt"
-    file.write_text(point_list([]))
-    assert file.read_text() == "no point\n"
-    assert listed_in(file) == []
-    lines = ["Omega = 10: paradox", "Omega = 20: paradox"]
-    file.write_text(point_list(lines))
-    assert listed_in(file) == lines
-
-
-def test_no_cycle_is_an_answer_and_no_failure(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """500 points of a Campbell diagram had "no result" though frequencies were there."""
-    monkeypatch.chdir(tmp_path)
-    grids = parse_study(GRID).grids()[0]
-    file = Path("results/s/s.failed.txt")
-    file.parent.mkdir(parents=True)
-    file.with_name("s.remarks.txt").write_text(point_list([]))
-    file.write_text(
-        "Omega = 10: no cycle found: The slider moves on\nOmega = 15: no cycle found\n"
-        "Omega = 20: steady sliding: it does not stick\nOmega = 25: failed: no cycle found\n"
-    )
-    assert list(closing_lines(grids)) == [
-        f"s: 1 of 4 points have no result, see {file}",
-        "s: 3 of 4 points have no stick-slip cycle (2 no cycle found, 1 steady sliding), see"
-        f" {file}",
-    ]
-
-
-def test_a_name_with_ok_in_it_is_no_remark(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.chdir(tmp_path)
-    grids = parse_study(GRID).grids()[0]
-    folder = tmp_path / "results" / "s"
-    folder.mkdir(parents=True)
-    (folder / "s.remarks.txt").write_text(point_list([]))
-    file = folder / "s.failed.txt"
-    file.write_text("start = broken: paradox\nstart = smoke: failed: no steps\n")
-    [line] = closing_lines(grids)
-    assert line.startswith("s: 2 of 4 points have no result")
 
 
 @pytest.mark.parametrize(

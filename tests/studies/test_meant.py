@@ -133,15 +133,6 @@ def test_a_parameter_that_the_quantity_varies_has_its_dimension(
     assert fault.endswith(f"write {written}")
 
 
-def test_units_that_no_figure_shows_are_told() -> None:
-    figures = {
-        "f": {**MAP, "variable": "P_max", "units": {"Omega": "rpm", "P": "kN", "c_p": "N s/mm"}}
-    }
-    [grids, _] = parse_study({**GRID, "figures": figures}).grids()
-    told = [doubt for doubt in grids["s"].doubts if "unit" in doubt]
-    assert told == ["figures.f.units.c_p='N s/mm': no figure shows anything in this unit"]
-
-
 # ---- Names of options and arguments
 
 
@@ -186,11 +177,6 @@ def test_an_argument_of_a_sweep_has_the_name_of_an_option(
 ) -> None:
     with refusal(f"did you mean {meant}"):
         dm.sweep(function, CASE, N=[200, 300], **arguments)
-
-
-def test_one_mode_is_counted_as_one() -> None:
-    case = dm.Parameters(N=300, Omega=12, r_0=0.1, disc=dm.Disc(**DISC))
-    assert "1 mode<" in case._repr_html_()
 
 
 # ---- Figures of a study with one axis more

@@ -1,7 +1,6 @@
 """Batches put together again: in the grid's order, whole, and with failures named."""
 
 import json
-import math
 from pathlib import Path
 
 import numpy as np
@@ -57,33 +56,12 @@ def test_a_remark_on_a_point_with_a_result_is_no_failure() -> None:
     )
     assert list(failures(study)) == ["N = 3 N: failed: ParameterError: x"]
     assert list(remarks(study)) == ["N = 2 N: not settled"]
-    assert list(failures(study, {"N": "kN"})) == ["N = 0.003 kN: failed: ParameterError: x"]
-    assert list(remarks(study, {"N": "kN"})) == ["N = 0.002 kN: not settled"]
-
-
-def test_lists_of_points_have_the_units_of_the_file() -> None:
-    """The speed of 200 rpm was 20.943951023932."""
-    axes = {"Omega": ["200 rpm", "300 rpm"], "N": ["1 kN", "2 kN"], "c": [0.0]}
-    grid = parse_grid({"study": "s", "quantity": "floquet", "axes": axes})
-    units = grid.merge_plan.units
-    assert units == {"Omega": "rpm", "N": "kN"}
-    point = {"N": 1000.0, "Omega": 200 * math.tau / 60, "c": 0.0}
-    assert point_text(point, units) == "N = 1 kN, Omega = 200 rpm, c = 0 N s/m"
-    assert point_text(point, {}) == "N = 1000 N, Omega = 20.943951 rad/s, c = 0 N s/m"
 
 
 def test_what_is_no_parameter_has_its_unit_in_lists_of_points() -> None:
     point = {"start": "static", "perturbation_f": 0.1, "mu_k_over_mu_s": 0.5, "sample": 3}
     expected = "start = static, perturbation_f = 0.1 rad/s, mu_k_over_mu_s = 0.5, sample = 3"
-    assert point_text(point, {}) == expected
-
-
-def test_units_that_figures_have_by_themselves_are_those_of_lists_too() -> None:
-    axes = {"E": ["200 GPa", "210 GPa"], "mu_s": [0.4]}
-    grid = parse_grid(
-        {"study": "s", "quantity": "floquet", "axes": axes | {"N": [300], "Omega": [12]}}
-    )
-    assert grid.merge_plan.units == {"E": "GPa"}
+    assert point_text(point) == expected
 
 
 def test_a_study_states_the_starts_of_all_batches_and_its_rules() -> None:

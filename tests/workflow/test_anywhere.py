@@ -2,7 +2,6 @@
 installed."""
 
 import re
-import subprocess
 import sys
 from pathlib import Path
 
@@ -92,10 +91,6 @@ def test_neither_the_folder_of_the_environment_nor_the_locale_matters(tmp_path: 
         assert study.attrs["title"].startswith("Grüße Ω")
 
 
-def disc_model(folder: Path, *options: str) -> subprocess.CompletedProcess[str]:
-    return run(sys.executable, "-m", "disc_model", *options, cwd=folder, timeout=300)
-
-
 def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> None:
     """What an included file makes by default is not the default: the root's made nothing, and said
     that all was so."""
@@ -107,9 +102,6 @@ def test_all_is_made_by_default_wherever_the_snakefile_is(tmp_path: Path) -> Non
             snakemake(tmp_path, "-n", "-s", place, "--configfile", "mine.yaml"),
             re.M,
         )
-    disc_model(tmp_path, "init", "own")
-    own_path = tmp_path / "own"
-    assert re.search(r"^compute_batch +1$", snakemake(own_path, "-n"), re.M)
     phrase = snakemake(tmp_path, "-n", "-s", ROOT / "Snakefile", "results/paper/figures/fig13.pdf")
     assert re.search(r"^simulate_case +2$", phrase, re.M), (
         "the two cases of the paper's figure, if no study is given"

@@ -86,34 +86,6 @@ def test_damaged_files(
     assert_recovered(project, finished)
 
 
-def test_check_finds_damage_that_left_the_times_and_puts_times_right(
-    project: Project, finished: Project
-) -> None:
-    results = project.folder / "results"
-    damaged = sorted(results.glob("small/cases/*.nc"))
-    early = sorted(results.glob("small_map/batches/*.nc"))
-    for path in damaged:
-        times = path.stat()
-        os.truncate(path, times.st_size - 1)
-        os.utime(path, ns=(times.st_atime_ns, times.st_mtime_ns))
-    set_times(early, days=1)
-    (results / "small_map" / "small_map.nc").unlink()
-    (results / "small" / "cases" / ".F11.nc.abc.tmp").write_text("left by a killed job")
-    assert "has older modification time" in project.refused("-j2")
-    checked = project.complete("-j1", "check")
-    for path in damaged:
-        assert f"{path.relative_to(project.folder)}: cannot be read" in checked
-    assert not list(results.rglob(".*.tmp"))
-    project.complete("-j2")
-    assert_recovered(project, finished)
-
-
-def set_times(paths: list[Path], days: float) -> None:
-    at = time.time() + 86400 * days
-    for path in paths:
-        os.utime(path, (at, at))
-
-
 # ---- bad study files
 
 
@@ -151,7 +123,7 @@ def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path:
     """They were, without a word."""
     path = tmp_path / "project"
     project = copy_repository(path, {"first.yaml": STUDIES["config/small_growth.yaml"]})
-    project.complete("check", "-j1")  # a run in which nothing is computed
+    project.complete("-j2")
     (project.folder / "second.yaml").write_text(
         (project.folder / "first.yaml").read_text().replace("25", "30")
     )

@@ -90,14 +90,3 @@ def test_a_notebook_s_choice_for_pictures_does_not_count(folder: Path) -> None:
     notebook = {"MPLBACKEND": "module://no_such_module.backend"}
     run(*COMMAND, cwd=folder, timeout=300, **notebook)
     results(folder)
-
-
-def test_no_home_that_can_be_written_is_needed(folder: Path) -> None:
-    """Snakemake ended in a traceback about its cache of sources."""
-    home = folder / "home"
-    home.write_text("a file, in which nothing can be made")
-    environment = {"HOME": str(home), "XDG_CACHE_HOME": "", "XDG_CONFIG_HOME": ""}
-    done = run(*COMMAND, cwd=folder, timeout=300, **environment)
-    results(folder)
-    assert "Traceback" not in done.stdout + done.stderr
-    assert (folder / ".snakemake" / "cache").is_dir()

@@ -6,10 +6,8 @@ import shlex
 import sys
 from importlib.util import find_spec
 from pathlib import Path
-from signal import SIGINT, signal
 from subprocess import DEVNULL, PIPE, Popen
 from tempfile import TemporaryDirectory
-from threading import current_thread, main_thread
 from weakref import finalize
 
 from snakemake.exceptions import WorkflowError
@@ -55,7 +53,6 @@ if LOCAL and sys.platform == "linux":
 
 try:
     from disc_model.figures.kinds import Plot
-    from disc_model.data.files import RUN_BY
     from disc_model.errors import DiscModelError
     from disc_model.sources import (
         BATCHES,
@@ -64,9 +61,6 @@ try:
         quantity_file,
         source_hash,
     )
-    from disc_model.studies.closing import closing_lines
-    from disc_model.studies.messages import RunMessages
-    from disc_model.studies.older_page import line_of_older_page
     from disc_model.studies.point_calls import call_of
     from disc_model.studies.study import (
         mapping,
@@ -84,20 +78,6 @@ except ModuleNotFoundError as error:
         f"There is no module {error.name}: `pip install 'disc_model[workflow]'`, or `make env` in a clone of the"
         " repository, brings all that is needed; use that environment's snakemake."
     ) from None
-
-# Another workflow that uses this one decides by itself what it shows.
-if MAIN and not workflow.modifier.parent_modifier:
-    SHOWN = workflow.output_settings
-    MESSAGES = RunMessages(
-        lambda: [rule.name for rule in workflow.rules if not rule.has_wildcards()]
-        + PRODUCTS,
-        brief=not (SHOWN.verbose or SHOWN.printshellcmds or SHOWN.dryrun),
-    )
-    for handler in logger.handlers:
-        if handler.name == "DefaultStreamHandler":
-            handler.addFilter(MESSAGES)
-    if current_thread() is main_thread():
-        signal(SIGINT, MESSAGES.interrupt)
 
 # A study named with --configfile replaces the paper's instead of being mixed with it.
 PAPER = Path("config/paper.yaml")
@@ -119,11 +99,6 @@ try:
     GRIDS, ASKED = STUDY.grids([Path(), *FOLDERS, WORKFLOW.parent])
 except DiscModelError as error:
     raise WorkflowError(str(error)) from None
-
-if MAIN:
-    for checked in (GRIDS[name] for name in ASKED):
-        for doubt in checked.doubts:
-            logger.warning(f"{checked.name}: warning: {doubt}")
 
 RESULTS = f"results/{STUDY.name}"
 

@@ -70,10 +70,10 @@ def check_owner(files, owner):
 
 
 def stated_of(grid):
-    """What a study's file says of its page: units of the first figure that has any, or else those of its axes, axes of
-    the first one that has two, the variable of the first one that shows one, and values at which figures are drawn.
+    """What a study's file says of its page: units of the first figure that has any, axes of the first one that has two,
+    the variable of the first one that shows one, and values at which figures are drawn.
     """
-    units = dict(grid.file.axis_units)
+    units = {}
     places = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)

@@ -19,6 +19,6 @@ def main(output: str, failed: str, remarked: str, folder: str) -> None:
     batches = [load_result(Path(folder, f"{name}.nc")).to_dataset() for name in plan.batches]
     study = merge_batches(batches, plan.grid, plan.attrs)
     for path, listed in ((failed, failures), (remarked, remarks)):
-        lines = listed(study, plan.units)
+        lines = listed(study)
         Path(path).write_text(point_list(lines), encoding="utf-8")
     save(xr.DataTree(study), output)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -18,15 +19,12 @@ from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
     WriteError,
-    check_command,
-    check_netcdf,
     regular_file,
-    seal_netcdf,
     unreadable,
     write_atomically,
 )
 from disc_model.data.variables import STATUSES
-from disc_model.errors import DiscModelError, require
+from disc_model.errors import require
 
 __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 
@@ -44,14 +42,10 @@ def save(tree: xr.DataTree, path: str | Path, *, compressed: bool = True) -> Non
         (isinstance(compressed, bool), "compressed", compressed, "must be True or False"),
     )
 
-    def write(name: str) -> None:
-        _write(tree, name, compressed)
-        seal_netcdf(name)
-
-    write_atomically(regular_file(path), write)
+    write_atomically(regular_file(path), partial(_write, tree, compressed=compressed))
 
 
-def _write(tree: xr.DataTree, name: str, compressed: bool) -> None:
+def _write(tree: xr.DataTree, name: str, *, compressed: bool) -> None:
     """Write a new file of a tree, with all groups defined before an array is written.
     `DataTree.to_netcdf` writes each array as soon as it is defined, after a pass through all of the
     file's metadata: eight times the time for 70 cases."""
@@ -75,13 +69,8 @@ def _write(tree: xr.DataTree, name: str, compressed: bool) -> None:
 def load(path: str | Path) -> xr.DataTree:
     """Read a netCDF file as a tree, into memory; raises `ParameterError`, `UnreadableFile` or
     `MissingFile`."""
-    return read_tree(regular_file(path))
-
-
-def read_tree(file: Path, *, sealed: bool = False) -> xr.DataTree:
-    """As `load`; a file that has to be `sealed` is unreadable without the checksum of `save`."""
+    file = regular_file(path)
     try:
-        check_netcdf(file, required=sealed)
         groups = xr.open_groups(file, engine="netcdf4", decode_timedelta=False)
         try:
             # a tree of loaded groups is made in three quarters of the time of a tree that is loaded,
@@ -92,8 +81,6 @@ def read_tree(file: Path, *, sealed: bool = False) -> xr.DataTree:
                 each.close()
     except FileNotFoundError:
         raise MissingFile(f"{file}: there is no such file") from None
-    except DiscModelError:
-        raise
     except Exception as error:  # whatever a file of another kind leads the libraries to
         raise unreadable(file, getattr(error, "strerror", None) or error) from error
 
@@ -143,10 +130,7 @@ def load_result(path: str | Path) -> xr.DataTree:
     try:
         return load(path)
     except UnreadableFile as error:
-        remedy = (
-            f"Run `{check_command()}`, which deletes damaged files, and then the same command again"
-        )
-        raise UnreadableFile(f"{error}\n{remedy}") from None
+        raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

@@ -1,10 +1,11 @@
-"""Datasets of sweeps, studies and of anyone's own in files that other programs read: netCDF, the
-format of MATLAB, and tables of text."""
+"""Datasets of sweeps, studies and of anyone's own in files that other programs read: netCDF, and
+tables of text."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import is_dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -14,18 +15,12 @@ import xarray as xr
 from disc_model.data import dataset
 from disc_model.data.complex_parts import joined, with_parts
 from disc_model.data.discs_as_text import with_discs, with_texts
-from disc_model.data.files import SUFFIXES, regular_file
-from disc_model.data.matlab import load_mat, save_mat
-from disc_model.data.tables import check_suffix
-from disc_model.data.text_tables import names_folder, save_all_tables, save_table
+from disc_model.data.files import regular_file, write_atomically
+from disc_model.data.tables import check_suffix, table_of
 from disc_model.errors import Fault, ParameterError, raise_faults, require
 
 TEXTS = (".csv", ".json", ".txt", ".yaml", ".yml")
 """Suffixes of files that are certainly no datasets."""
-TABLE = ".csv"
-"""Suffix of a table of text."""
-WRITTEN = (*SUFFIXES, TABLE)
-"""Suffixes of files that `save` writes."""
 
 
 class HasDataset(Protocol):
@@ -44,27 +39,20 @@ class SavesItself(Protocol):
 def save(
     data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset | SavesItself, path: str | Path
 ) -> None:
-    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table;
-    or all of its tables to a folder.
+    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
 
     Parameters
     ----------
     data : of numbers and words; discs along a dimension are written as text, in JSON, and None beside them, the
         plate, as "plate". A `Branch` and
         what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
-        has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc or .mat,
+        has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc,
         and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
-        imaginary part `x_imag`. ".mat": an array for each variable, complex ones too, with its dimensions in their
-        order, a structure for each group, and `units`, `dimensions` and `meanings`, the words of the numbers 0, 1, ...
-        Both hold a checksum, by which `load` notices any damage. ".csv": a table with a row for each point, units in
-        the heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`; a variable with further
-        dimensions has a column for each place along them, such as `multipliers_real[0]`, and a row for each place if
-        only such variables are chosen, as by ``data[["crossing_Omega", "crossing_effect"]]``. Places at which nothing
-        was found, such as those after the last crossing, are left out. A branch, and a sweep of branches, has a row
-        for each of its points and special points, without its attributes. A folder, which is there or whose name ends
-        in "/": a table of this form for each set of dimensions that variables have, such as "energy_start.csv", that of
-        single numbers in "single_numbers.csv". Tables are for other programs: `load` reads none
+        imaginary part `x_imag`. ".csv": a table of pandas with a row for each point, units in the heads, such as
+        "Omega (rad s-1)", and words for what stands as numbers in `data`. All variables must stand along the
+        dimensions of one of them: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``. Tables are for
+        other programs: `load` reads none
 
     Returns
     -------
@@ -81,8 +69,8 @@ def save(
     --------
     >>> import disc_model as dm
     >>> cycles = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[12, 14])
-    >>> dm.save(cycles, "cycles.mat")
-    >>> dm.load("cycles.mat").identical(cycles)
+    >>> dm.save(cycles, "cycles.nc")
+    >>> dm.load("cycles.nc").identical(cycles)
     True
     """
     if _saves_itself(data):
@@ -94,19 +82,16 @@ def save(
     if hasattr(data, "to_dataset"):
         rule = f"{rule}, such as its method to_dataset() returns"
     require((isinstance(given, xr.Dataset | xr.DataTree), "data", data, rule))
-    file = None if names_folder(path) else check_suffix(regular_file(path), WRITTEN)
+    file = check_suffix(regular_file(path), ".nc", ".csv")
     tree = xr.DataTree(given) if isinstance(given, xr.Dataset) else given
     groups = {node.path: with_texts(node.to_dataset(inherit=False)) for node in tree.subtree}
     raise_faults(list(_faults(groups)))
-    if file is None:
-        save_all_tables(groups, path)
-    elif file.suffix == ".nc":
+    if file.suffix == ".nc":
         parts = {path: with_parts(group) for path, group in groups.items()}
         dataset.save(xr.DataTree.from_dict(parts), file)
-    elif file.suffix == TABLE:
-        save_table(groups, file)
-    else:
-        save_mat(groups, file)
+        return
+    require((len(groups) == 1, "data", ", ".join(groups), "must be one group to be a table"))
+    write_atomically(file, partial(table_of(groups["/"]).to_csv, index=False))
 
 
 def load(path: str | Path) -> xr.Dataset | xr.DataTree:
@@ -114,7 +99,7 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
 
     Parameters
     ----------
-    path : of a netCDF file, or of a .mat file of `disc_model.save`
+    path : of a netCDF file
 
     Returns
     -------
@@ -141,8 +126,9 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     """
     file = regular_file(path)
     readable = file.suffix not in TEXTS
-    require((readable, "path", path, "must be a .nc or .mat file; tables are for pandas"))
-    stored = load_mat(file) if file.suffix == ".mat" else _load_netcdf(file)
+    require((readable, "path", path, "must be a .nc file; tables are for pandas"))
+    tree = dataset.load(file)
+    stored = {node.path: joined(node.to_dataset(inherit=False)) for node in tree.subtree}
     groups = {path: with_discs(group) for path, group in stored.items()}
     if len(groups) == 1:
         return next(iter(groups.values()))
@@ -205,12 +191,3 @@ def _attribute_faults(place: tuple[str, ...], attrs: Mapping[Any, Any]) -> Itera
         kind = np.asarray(value).dtype.kind
         if not isinstance(value, str) and kind not in "iuf":
             yield Fault.of((*place, str(name)), value, "must be text or numbers, as an attribute")
-
-
-# ---- netCDF
-
-
-def _load_netcdf(file: Path) -> dict[str, xr.Dataset]:
-    """The groups of a netCDF file by their paths."""
-    tree = dataset.read_tree(file)
-    return {node.path: joined(node.to_dataset(inherit=False)) for node in tree.subtree}

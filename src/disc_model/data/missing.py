@@ -10,11 +10,6 @@ import xarray as xr
 _REASONS = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 _OF_DIMENSIONS: Mapping[str, str] = _REASONS.pop("dimensions")
 
-WITH_ROOM = tuple(dimension for dimension in _OF_DIMENSIONS if dimension != "mode")
-"""Dimensions with room for more than is found at most points; all points have their modes."""
-NUMBERED = tuple(_OF_DIMENSIONS)
-"""Dimensions of which there may be places that no point fills: those, and modes."""
-
 
 def reason_of(kind: str, name: str, dims: Iterable[Any] = ()) -> str:
     """Why a variable of a quantity, or of a class of results, may be nan: a clause such as "if there

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import xarray as xr
 
-from disc_model.data.variables import flag_names, unit_of_parameter
+from disc_model.data.variables import flag_names
 from disc_model.mode_units import column_of
 from disc_model.parameters import RATIOS, Parameters
 
@@ -79,11 +79,6 @@ def number_swept(study: xr.Dataset) -> str:
         if name != variable and is_number:
             return name
     return ""
-
-
-def text_swept(study: xr.Dataset, value: float) -> str:
-    """A value along the sweeps of a study, in its unit."""
-    return f"{value:g} {unit_of_parameter(number_swept(study))}".strip()
 
 
 def doubtful_contact(sweep: xr.Dataset) -> xr.DataArray:

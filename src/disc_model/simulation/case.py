@@ -21,7 +21,6 @@ from pydantic import (
 )
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
-from disc_model.display import html_table
 from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import AUTO, FORMAT, Parameters
@@ -51,16 +50,6 @@ class Interval(Strict):
         end = "end" if "end" in values else "stop"
         require((start < values[end], "start", start, f"must be < {end}={as_text(values[end])}"))
         return self
-
-    def _repr_html_(self) -> str:
-        """What is given, and not as usual, as a table in a notebook."""
-        units = self._units(dict(self))
-        rows = []
-        for name, value in self.__repr_args__():
-            if value != type(self).model_fields[str(name)].default:
-                unit = str(units.get(str(name), "")).removeprefix("1")
-                rows.append((name, value, unit))
-        return html_table((type(self).__name__, "value", "unit"), rows)
 
 
 class Span(Interval):

@@ -208,15 +208,13 @@ class Result(Summarised, EqualByValue):
 
         Parameters
         ----------
-        path : its suffix says how. ".nc": netCDF, the tree of `to_tree`, which `disc_model.load` reads as well. ".mat":
-            a structure of columns for each window, the events and the final state; ``units``; ``meanings``, the words
-            of the numbers 0, 1, ...; and the text ``result``: JSON of the case and of what was found. Both hold a
-            checksum, by which `load` notices any damage
+        path : of a netCDF file, ".nc": the tree of `to_tree`, which `disc_model.load` reads as well, with the text
+            ``result``, JSON of the case and of what was found
 
         Raises
         ------
         ParameterError
-            If the file has another suffix, or a window a name that MATLAB does not allow.
+            If the file has another suffix.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
 
@@ -224,8 +222,8 @@ class Result(Summarised, EqualByValue):
         --------
         >>> import disc_model as dm
         >>> run = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1, windows={"late": dm.Window(last=0.1, rate=2e4)})
-        >>> run.save("run.mat")
-        >>> dm.Result.load("run.mat")["late"].equals(run["late"])
+        >>> run.save("run.nc")
+        >>> dm.Result.load("run.nc")["late"].equals(run["late"])
         True
         """
         from disc_model.data import tables
@@ -248,10 +246,8 @@ class Result(Summarised, EqualByValue):
 
         Raises
         ------
-        ParameterError
-            If there can be no such folder.
-        disc_model.data.dataset.WriteError
-            If a file cannot be written.
+        OSError
+            If there can be no such folder, or a file cannot be written.
 
         Examples
         --------
@@ -262,10 +258,14 @@ class Result(Summarised, EqualByValue):
         time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
         """
         from disc_model.data.columns import series_dataset
-        from disc_model.data.tables import save_csv
+        from disc_model.data.tables import table_of
 
-        tables = {name: self[name] for name in self.samples}
-        save_csv({"events": series_dataset(self._event_columns, "event"), **tables}, path)
+        folder = Path(path)
+        folder.mkdir(parents=True, exist_ok=True)
+        events = series_dataset(self._event_columns, "event")
+        table_of(events).drop(columns="event").to_csv(folder / "events.csv", index=False)
+        for name in self.samples:
+            table_of(self[name]).to_csv(folder / f"{name}.csv", index=False)
 
     def _header(self, states: Mapping[str, tuple[dict[str, Any], Any]]) -> Header:
         """What a file holds beside the arrays; states : the `State.parts` by name."""

@@ -18,7 +18,7 @@ from pydantic import Field
 
 from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
-from disc_model.data.variables import PHASES, SERIES
+from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import (
     modal_damping,
@@ -28,7 +28,6 @@ from disc_model.disc.plate import (
     radial_range,
     tangential_amplitudes,
 )
-from disc_model.display import html_table
 from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
@@ -155,18 +154,6 @@ class State(EqualByValue):
         """What names it in a row of a table."""
         return f"State({self.time:.6g} s, {self.phase})"
 
-    def _repr_html_(self) -> str:
-        """The state without its modes as a table in a notebook."""
-        rows: list[tuple[object, ...]] = [
-            ("time", f"{self.time:.9g}", "s"),
-            ("phase", self.phase, ""),
-        ]
-        for name in ("psi", "f", "u", "u_velocity"):
-            unit = SERIES[name].units.replace(" s-1", "/s")
-            rows.append((name, f"{getattr(self, name):.6g}", unit))
-        rows.append(("modes", len(self.a), ""))
-        return html_table((type(self).__name__, "value", "unit"), rows)
-
     def slider_angle(self, case: Parameters) -> float:
         """Angle of the slider on the disc, rad, from the place where it was at the time 0: that of
         the drive point, less psi. Raises `ParameterError` unless `case` is a `Parameters`."""
@@ -192,13 +179,12 @@ class State(EqualByValue):
         }
 
     def save(self, path: str | Path) -> None:
-        """Write the state in one of the forms of `Result.save`, such as netCDF; `load` reads back
-        the same bits.
+        """Write the state as netCDF; `load` reads back the same bits.
 
         Raises
         ------
         ParameterError
-            If the file has another suffix than .nc or .mat, or the state numbers that are not finite.
+            If the file has another suffix than .nc, or the state numbers that are not finite.
         disc_model.data.dataset.WriteError
             If the folder does not exist, or the disk is full.
         """

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,7 @@ from disc_model.data.variables import (
     unit_of_parameter,
     value_with_unit,
 )
-from disc_model.display import Drawn, counted, html_table
+from disc_model.display import Drawn, counted
 from disc_model.parameters import Parameters
 from disc_model.sources import versions_text
 from disc_model.stability.cycle import STICK_SLIP
@@ -106,23 +105,6 @@ class Critical(Drawn, EqualByValue):
         seen = f"{len(self.values)} values, steps of at most {steps}"
         return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {seen})"
 
-    def _repr_html_(self) -> str:
-        """The intervals of one stability in a notebook, and the largest step between values."""
-        unit = unit_of_parameter(self.name)
-        edges = [float(self.values[0]), *self.crossings.tolist(), float(self.values[-1])]
-        unstable = {float(low) for low, _ in self.unstable}
-        rows = []
-        for low, high in pairwise(edges):
-            stability = "stable"
-            if low in unstable:
-                stability = f"unstable{self._sliding_between(low, high)}"
-            rows.append((f"{low:.9g}", f"{high:.9g}", stability))
-        if self.message:
-            rows.append((self.message, "", ""))
-        rows.append(("tongues missed", f"narrower than {self.resolution:.2g} {unit}".strip(), ""))
-        upper = f"to ({unit})" if unit else "to"
-        return html_table((f"{self.name} from", upper, MOTIONS[self.kind]), rows)
-
     @property
     def message(self) -> str:
         """Why `value` is no value at which the motion loses stability, in words; "" where it is one."""
@@ -151,17 +133,6 @@ class Critical(Drawn, EqualByValue):
         if places.size == 1:
             return f"at {lowest} {said}"
         return f"at values from {lowest} to {highest.partition(' = ')[2]} {said}"
-
-    def _sliding_between(self, low: float, high: float) -> str:
-        """That steady sliding is the unstable motion between two values, or at some of them, to stand
-        after a word; "" of a cycle."""
-        if self.kind == SLIDING:
-            return ""
-        within = (self.values >= low) & (self.values <= high)
-        grows = self.sliding_growth_rate[within] > 0
-        if not grows.any():
-            return ""
-        return ", steady sliding" if grows.all() else ", partly steady sliding"
 
     def to_dataset(self) -> xr.Dataset:
         """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.

@@ -10,7 +10,7 @@ import numpy as np
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
-from disc_model.display import Drawn, counted, html_table, number_text
+from disc_model.display import Drawn, counted
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, ParameterError, raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
@@ -94,21 +94,6 @@ class NeutralCurves(Drawn):
         ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
         plane = " and ".join(ranges)
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
-
-    def _repr_html_(self) -> str:
-        """The curves in a notebook, how far each reaches, and what could not be followed."""
-        units = [Parameters.unit(name).removeprefix("1") for name in self.bounds]
-        named = zip(self.bounds, units, strict=True)
-        head = [f"{name} ({unit})" if unit else name for name, unit in named]
-        rows: list[tuple[object, ...]] = []
-        for curve in self:
-            lows = curve.values.min(axis=0)
-            highs = curve.values.max(axis=0)
-            reach = [f"{low:.6g} to {high:.6g}" for low, high in zip(lows, highs, strict=True)]
-            beside_stable = number_text(100 * curve.adjoins_stable_cycle.mean(), "%", 3)
-            rows.append((curve.kind, *reach, curve.resonance.label, beside_stable))
-        rows += [("not followed", failure, "", "", "") for failure in self.failures]
-        return html_table(("kind", *head, "resonance", "beside a stable cycle"), rows)
 
 
 class _Seed(NamedTuple):

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.arrays import EqualByValue, Indices, Mask
-from disc_model.display import Drawn, counted, html_table, number_text
+from disc_model.display import Drawn
 from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
@@ -74,19 +74,6 @@ class Lyapunov(Drawn, EqualByValue):
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
         return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
-
-    def _repr_html_(self) -> str:
-        """The exponents in a notebook, with their errors, and what they are of."""
-        rows = []
-        for i, exponent in enumerate(self.exponents):
-            error = number_text(float(self.errors[i]), digits=2)
-            rows.append((f"{exponent:.4g}", error, "yes" if self.converged[i] else "no"))
-        trivial = number_text(self.trivial_exponent, digits=2)
-        if trivial:
-            rows.append((trivial, "", "left out: along the motion"))
-        lost = counted(self.separations, "separation")
-        rows.append((str(self.status), f"over {self.duration:g} s", lost))
-        return html_table(("exponent (1/s)", "standard error (1/s)", "converged"), rows)
 
 
 @compiling()

@@ -53,13 +53,11 @@ class GridAxis(Strict):
 
 
 class MergePlan(Strict):
-    """Names of the batches of a grid, its dimensions, attributes of the merged dataset, and units in which
-    lists of points are written."""
+    """Names of the batches of a grid, its dimensions, and attributes of the merged dataset."""
 
     batches: tuple[str, ...]
     grid: tuple[GridAxis, ...]
     attrs: dict[str, str]
-    units: dict[str, str] = Field({})
 
     @property
     def text(self) -> str:

@@ -1,6 +1,6 @@
 """A grid study: its axes, their points and batches, and the rules between its parts.
 
-The hash of a batch's text is its name. Blocks of values are cut into batches of similar cost, only
+The hash of a batch's text is its name. Blocks of values are cut into batches of so many points, only
 inside a block: a finer axis adds batches and keeps the others.
 """
 
@@ -31,9 +31,7 @@ from disc_model.parameters import (
 )
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
-from disc_model.studies.costs import unit_costs
-from disc_model.studies.quantity import WORK, Blocks, Quantity, Range, Value, compiled_rule, holds
-from disc_model.studies.unused_units import unused_units
+from disc_model.studies.quantity import Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
 
 GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
@@ -44,9 +42,6 @@ ALL_MOTIONS = (
     100  # points of a grid up to which a motion of each is stored, some 3 kB of the explorer each
 )
 FEW_PARTS = 3  # of a block; so many are equal
-# intervals along the side of a tile of a plane, whose cells are refined together
-SMALLEST_TILE = 8
-LARGEST_TILE = 32
 
 # ---- Values along an axis: lists, linear and logarithmic ranges, and blocks of them
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
@@ -121,7 +116,7 @@ class BatchSpec(Strict):
     # only ones that are numbers, then those whose values share a batch, by default none
     over: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
     size: Annotated[Count, Field(ge=1)] | None = (
-        None  # most points in a batch; if not given, about 20 s of work
+        None  # most points in a batch, of a plane about; if not given, the quantity's `points_per_job`
     )
 
 
@@ -200,22 +195,11 @@ class Part(NamedTuple):
     Attributes
     ----------
     points : for each, the values along the dimensions in their order
-    cost : estimated processor time of a point, s
     tile : sides of the tile, of a plane whose points are refined together
     """
 
     points: Iterable[Any]
-    cost: float
     tile: TileSides | None = None
-
-
-class PlannedBatch(NamedTuple):
-    """A batch: its name, its text, how many points it has, and its estimated processor time, s."""
-
-    name: str
-    text: str
-    points: int
-    seconds: float
 
 
 class Cut(NamedTuple):
@@ -270,22 +254,11 @@ class GridStudy:
         breaks that breaks any."""
         return self._base_of_points()
 
-    @property
+    @cached_property
     def batches(self) -> dict[str, str]:
         """JSON text of each batch by its name, 12 hexadecimal digits."""
-        return {name: batch.text for name, batch in self._batches.items()}
-
-    @property
-    def work(self) -> dict[str, float]:
-        """Estimated processor time of each batch by its name, s, on the machine of
-        `disc_model.studies.costs`."""
-        return {name: batch.seconds for name, batch in self._batches.items()}
-
-    @cached_property
-    def _batches(self) -> dict[str, PlannedBatch]:
-        """The batches by name."""
         parts = self._tiles() if self.options.tiled else self._pieces()
-        return {batch.name: batch for batch in map(self._batch, parts) if batch.points}
+        return {batch.key: batch.text for batch in map(self._batch, parts) if batch.points}
 
     @cached_property
     def motions(self) -> dict[str, str]:
@@ -296,24 +269,25 @@ class GridStudy:
         few: Sequence[Dimension] = self.dims
         if math.prod(len(dim.values) for dim in self.dims) > ALL_MOTIONS:
             few = [dim.thinned(self.options.motions) for dim in self.dims]
-        batch = self._batch(Part(product(*(dim.values for dim in few)), 0.0))
+        batch = self._batch(Part(product(*(dim.values for dim in few))))
         if not batch.points:
             return {}
-        return {batch.name: batch.text}
+        return {batch.key: batch.text}
+
+    @property
+    def _batch_size(self) -> int:
+        """Most points of a batch."""
+        return self.file.batch.size or self.options.points_per_job
 
     def _pieces(self) -> Iterator[Part]:
-        """Parts of blocks of the grid, of about equal cost or of the size that the file says."""
-        spec = self.file.batch
-        cut = spec.over or self.values
+        """Parts of blocks of the grid."""
+        cut = self.file.batch.over or self.values
         # a dimension that is not cut is taken as blocks of one value each
         blocks = []
         for dim in self.dims:
             blocks.append(dim.blocks if dim.name in cut else dim.single_values)
         for chosen in product(*blocks):
-            cost = self._cost_of(product(*chosen))
-            size = spec.size or max(1, round(WORK / cost))
-            for points in _parts(chosen, size):
-                yield Part(points, cost)
+            yield from map(Part, _parts(chosen, self._batch_size))
 
     def _tiles(self) -> Iterator[Part]:
         """Tiles of a plane, for each combination of the other dimensions' values, or for those
@@ -327,20 +301,13 @@ class GridStudy:
             shares.append([dim.values] if together else dim.single_values)
         for chosen in product(*shares):
             values = dict(zip([dim.name for dim in others], chosen, strict=True))
-            first = [values.get(dim.name, dim.values) for dim in self.dims]
-            cost = self._cost_of(product(*first))
             planes = math.prod(map(len, chosen))
-            side = math.sqrt(WORK / (cost * planes))
-            size = round(min(max(side, SMALLEST_TILE), LARGEST_TILE))
-            for tile in product(*(_cuts(dim.values, size) for dim in plane)):
-                yield self._tile(plane, tile, values, cost)
+            side = max(1, round(math.sqrt(self._batch_size / planes)))
+            for tile in product(*(_cuts(dim.values, side) for dim in plane)):
+                yield self._tile(plane, tile, values)
 
     def _tile(
-        self,
-        plane: Sequence[Dimension],
-        cuts: Sequence[Cut],
-        others: Mapping[str, Any],
-        cost: float,
+        self, plane: Sequence[Dimension], cuts: Sequence[Cut], others: Mapping[str, Any]
     ) -> Part:
         """A tile: its points, and the values along its sides, with those of the next tiles that
         bound its last cells; `cuts` are those of both sides by `_cuts`."""
@@ -358,31 +325,23 @@ class GridStudy:
             along=(rows.along, columns.along),
             sampled=tuple(sorted(sampled)),
         )
-        return Part(points, cost, sides)
+        return Part(points, sides)
 
     def _marked(self) -> list[dict[str, float]]:
         """Points of the plane that figures mark, by the names of its dimensions."""
         maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
         return [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
 
-    def _cost_of(self, points: Iterable[Any]) -> float:
-        """Estimated processor time (s) of the first point that keeps the file's rules: the cost of
-        others differs little, and a value that is added elsewhere does not change it."""
-        first = next(self.points_along(self.dims, points), None)
-        if first is None:
-            return WORK
-        return self.options.cost(unit_costs(self._case_at(first)))
-
     def _case_at(self, point: Mapping[str, Value]) -> Parameters:
         """The case of a point."""
         return Parameters(**case_of({**self.base, **point}, self.discs))
 
-    def _batch(self, part: Part) -> PlannedBatch:
+    def _batch(self, part: Part) -> Batch:
         """A part of the grid as a text with everything that its result depends on."""
         points = [*self.points_along(self.dims, part.points)]
         starts = {str(point[START]) for point in points if START in point}
         discs = {str(point["disc"]) for point in points if "disc" in point}
-        batch = Batch(
+        return Batch(
             quantity=self.quantity,
             options=self.options.model_dump(),
             base=self.base,
@@ -392,7 +351,6 @@ class GridStudy:
             discs={name: self.discs[name] for name in sorted(discs)},
             tile=part.tile,
         )
-        return PlannedBatch(batch.key, batch.text, len(points), len(points) * part.cost)
 
     def points_along(
         self, dims: Sequence[Dimension], every: Iterable[Any] | None = None
@@ -425,10 +383,7 @@ class GridStudy:
     @property
     def merge_plan(self) -> MergePlan:
         """What merging the batches needs beside their files."""
-        known = self.file.stated_units
-        units = {name: known[name] for name in self.varied if name in known}
-        batches = tuple(sorted(self.batches))
-        return MergePlan(batches=batches, grid=self.grid, attrs=self.attrs, units=units)
+        return MergePlan(batches=tuple(sorted(self.batches)), grid=self.grid, attrs=self.attrs)
 
     @property
     def values(self) -> dict[str, tuple[tuple[Value, ...], ...]]:
@@ -445,11 +400,6 @@ class GridStudy:
         if self.where:
             attrs["where"] = " and ".join(f"({rule})" for rule in self.where)
         return attrs
-
-    @property
-    def doubts(self) -> Iterator[str]:
-        """Warnings about units of what figures do not show."""
-        yield from unused_units(self.plots, [*self.varied, *self.given], self.options)
 
     # ---- what the file says
 
@@ -714,19 +664,18 @@ class GridStudy:
                     yield Fault.of((axis,), name, rule)
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
-        """A figure of the grid, in the units in which its file gives its values unless the figure has
-        its own, whose caption states the values that differ from Table 1 and do not vary."""
+        """A figure of the grid, whose caption states the values that differ from Table 1 and do not
+        vary."""
         inputs = {"study": self.name, **dict(sorted(plot.overlays.items()))}
         category = "Figures" if plot.section else "Maps and curves"
         title = plot.title or f"{self.title or self.name}: {name}"
         stated = {name: value for name, value in self.base.items() if value or name not in REQUIRED}
-        shown = plot.model_copy(update={"units": {**self.file.axis_units, **plot.units}})
-        values = values_text(stated, factors_of(shown.units))
+        values = values_text(stated, factors_of(plot.units))
         source = f"the grid study {self.name}"
         if values:
             source += f", with {values}"
         caption = f"{plot.caption} From {source}.".strip()
-        return FigureEntry(shown, inputs, category, plot.section, title, caption)
+        return FigureEntry(plot, inputs, category, plot.section, title, caption)
 
 
 # ---- Batches

@@ -1,4 +1,4 @@
-"""The options of quantities as tables: for pages, and for the plan of a study."""
+"""The options of quantities as tables, for pages and messages."""
 
 from collections.abc import Mapping
 from typing import Any, NamedTuple

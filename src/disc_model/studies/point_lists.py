@@ -1,8 +1,6 @@
 """Lists of the points of a study of which there is something to say, in files beside its dataset."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from pathlib import Path
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -16,7 +14,7 @@ from disc_model.data.variables import (
     unit_of_parameter,
 )
 from disc_model.parameters import RATIOS, Parameters
-from disc_model.units import is_number, size_of_unit
+from disc_model.units import is_number
 
 NONE = "no point"
 """The line of a file that lists none."""
@@ -27,39 +25,29 @@ def point_list(lines: Iterable[str]) -> str:
     return "".join(f"{line}\n" for line in [*lines] or [NONE])
 
 
-def listed_in(file: Path) -> list[str]:
-    """The lines of the points that a file lists."""
-    lines = file.read_text(encoding="utf-8").splitlines()
-    return [] if lines == [NONE] else lines
-
-
-def failures(study: xr.Dataset, units: Mapping[str, str] = MappingProxyType({})) -> Iterator[str]:
-    """Yield one line for each point without a result: its parameters, in units by their names or those of
-    SI, status and message."""
+def failures(study: xr.Dataset) -> Iterator[str]:
+    """Yield one line for each point without a result: its parameters, status and message."""
     status = flag_names(study["status"])
-    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED), units):
+    for place, point in _points_at(study, (status != "ok") & (status != EXCLUDED)):
         word = str(flag_names(point["status"]))
         yield f"{place}: {_status_text(word, str(point['message'].item()))}"
 
 
-def remarks(study: xr.Dataset, units: Mapping[str, str] = MappingProxyType({})) -> Iterator[str]:
-    """Yield one line for each point with a result and a message: its parameters, in units as of
-    `failures`, and the message."""
+def remarks(study: xr.Dataset) -> Iterator[str]:
+    """Yield one line for each point with a result and a message: its parameters, and the message."""
     status = flag_names(study["status"])
     remarked = (status == "ok") & (study["message"].values != "")
-    for place, point in _points_at(study, remarked, units):
+    for place, point in _points_at(study, remarked):
         yield f"{place}: {point['message'].item()}"
 
 
-def _points_at(
-    study: xr.Dataset, mask: np.ndarray, units: Mapping[str, str]
-) -> Iterator[tuple[str, xr.Dataset]]:
+def _points_at(study: xr.Dataset, mask: np.ndarray) -> Iterator[tuple[str, xr.Dataset]]:
     """Yield some points of a study, each with its parameters as a text."""
     dims = study["status"].dims
     varied = [str(name) for name in study.coords if {*study[name].dims} <= {*dims}]
     for index in np.argwhere(mask):
         point = study.isel(dict(zip(dims, index, strict=True)))
-        yield point_text({name: point[name].item() for name in varied}, units), point
+        yield point_text({name: point[name].item() for name in varied}), point
 
 
 def _status_text(word: str, message: str) -> str:
@@ -68,23 +56,14 @@ def _status_text(word: str, message: str) -> str:
     return message if message.startswith(what) else f"{what}: {message}"
 
 
-def point_text(values: Mapping[str, Any], units: Mapping[str, str]) -> str:
-    """The values of a point, by their names, in a line: numbers in units by parameter, and in those of
-    SI without one."""
-    parts = [f"{name} = {_value_text(name, value, units)}" for name, value in values.items()]
-    return ", ".join(parts)
+def point_text(values: Mapping[str, Any]) -> str:
+    """The values of a point, by their names, in a line."""
+    return ", ".join(f"{name} = {_value_text(name, value)}" for name, value in values.items())
 
 
-def _value_text(name: str, value: Any, units: Mapping[str, str]) -> str:
+def _value_text(name: str, value: Any) -> str:
     """A value of a point with its unit; a word as it is."""
-    if not is_number(value):
-        return str(value)
-    unit = _si_unit(name)
-    number = value
-    if name in units:
-        number = value / size_of_unit(units[name], unit)
-        unit = units[name]
-    return f"{number:.9g} {unit}".strip()
+    return f"{value:.9g} {_si_unit(name)}".strip() if is_number(value) else str(value)
 
 
 def _si_unit(name: str) -> str:

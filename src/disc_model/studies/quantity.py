@@ -33,7 +33,6 @@ from disc_model.data.variables import (
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
-from disc_model.studies.costs import UnitCosts
 from disc_model.units import Count, Finite, Positive, Strict, converted, must, number
 
 if TYPE_CHECKING:
@@ -274,7 +273,6 @@ def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
     return columns
 
 
-WORK = 20.0  # processor time of a batch, s: its job costs about 1 s in itself. Three times as much does no harm.
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
@@ -325,6 +323,8 @@ class Quantity(Ruled):
 
     model_config = ConfigDict(use_attribute_docstrings=True)
 
+    points_per_job: ClassVar[int] = 1
+    """Most points of a batch, of some 20 s of work with nine modes, where the file does not say it."""
     COLUMNS: ClassVar[Mapping[str, Variable]] = {}
     COORDINATES: ClassVar[
         Mapping[str, Coordinate]
@@ -377,11 +377,6 @@ class Quantity(Ruled):
     def faults(self, grid: Any) -> Iterable[Fault]:
         """Faults of the options in a grid, a `disc_model.studies.grid.GridStudy`."""
         return ()
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Estimated processor time of a point, s. Another estimate changes the batches of all
-        studies of the quantity without `batch.size`."""
-        raise NotImplementedError
 
     def compute_point(self, point: Point) -> tuple[Row, str]:
         """Values at one point by column, flags as words, and a message. Too short lists are padded,

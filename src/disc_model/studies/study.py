@@ -39,7 +39,6 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.given_units import given_units, stated_units
 from disc_model.studies.grid import (
     GRID_KEYS,
     STATIC,
@@ -49,7 +48,6 @@ from disc_model.studies.grid import (
     GridStudy,
     described,
 )
-from disc_model.studies.mending import all_faults
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
@@ -355,8 +353,6 @@ class Study(Strict):
         {}
     )  # of values in these files, by the name of the study
     _tables: dict[str, str] = PrivateAttr(default_factory=dict)
-    _axis_units: dict[str, str] = PrivateAttr(default_factory=dict)
-    _stated_units: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -386,16 +382,6 @@ class Study(Strict):
     def tables(self) -> Mapping[str, str]:
         """The files of the grid's discs, by their names along an axis; that of `base` is ""."""
         return self._tables
-
-    @property
-    def axis_units(self) -> Mapping[str, str]:
-        """The units in which the file gives its base and what varies, by parameter."""
-        return self._axis_units
-
-    @property
-    def stated_units(self) -> Mapping[str, str]:
-        """The units that the file states for its base and what varies, by parameter."""
-        return self._stated_units
 
     @property
     def specs(self) -> dict[str, CaseSpec]:
@@ -545,16 +531,9 @@ def parse_study(raw: Any, folder: Path | None = None, source: str = "study") -> 
     """The study of the mapping that a file holds, with tables of discs from a folder, if it may
     name any."""
     try:
-        content = raw if folder is None else _with_discs(raw, folder)
+        study = _validated(raw if folder is None else _with_discs(raw, folder))
     except ParameterError as error:
         raise StudyError(*error.faults, source=source) from None
-    try:
-        study = _validated(content)
-    except ParameterError as error:
-        faults = all_faults(content, error.faults, _validated)
-        raise StudyError(*faults, source=source) from None
-    study._axis_units = given_units(mapping(raw))
-    study._stated_units = stated_units(mapping(raw))
     if folder is not None:
         study._tables = _tables_of(raw, folder)
     return study

@@ -52,18 +52,6 @@ def test_a_branch_states_how_far_it_reaches_with_its_special_points() -> None:
     assert text == "Branch(3 cycles, Omega from 3 to 5.2 rad/s, 1 fold; ended: made up)"
 
 
-@pytest.mark.parametrize(("name", "head"), [("Omega", "Omega (rad/s)"), ("mu_s", "mu_s")])
-def test_a_branch_in_a_notebook_has_units_and_rates_before_periods(name: str, head: str) -> None:
-    table = branch(name)._repr_html_()
-    assert f">{head}<" in table
-    heads = table.index("growth rate (1/s)")
-    assert heads < table.index("period (s)")
-    rate = table.index(">0.25<")
-    assert rate < table.index(">0.015<")
-    assert ">3 cycles<" in table
-    assert ">ended: made up<" in table
-
-
 def test_cycles_are_numbered_from_either_end() -> None:
     found = branch("Omega")
     last = found.case_at(2)
@@ -97,9 +85,3 @@ def test_special_points_have_the_labels_of_auto(kind: str, label: str) -> None:
 def test_a_special_point_states_its_place_and_its_period() -> None:
     text = repr(special("fold", 5.2))
     assert text == "SpecialPoint(fold at 5.2, period 0.015 s)"
-
-
-def test_a_special_point_is_a_table_in_a_notebook() -> None:
-    shown = special("fold", 5.2)._repr_html_()
-    for words in ("fold (LP)", "5.2", "0.015 s", "0.25 1/s", "1+0j, modulus 1"):
-        assert f"<td>{words}</td>" in shown

@@ -90,11 +90,8 @@ def test_every_number_has_a_unit_and_everything_a_name(data: xr.Dataset) -> None
         assert attrs["units"] == "rad s-1"
 
 
-@pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])
-def test_a_dataset_of_a_branch_comes_back_from_a_file(
-    file: str, data: xr.Dataset, tmp_path: Path
-) -> None:
-    path = tmp_path / file
+def test_a_dataset_of_a_branch_comes_back_from_a_file(data: xr.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / "branch.nc"
     dm.save(data, path)
     stored = dm.load(path)
     assert stored.identical(data)
@@ -172,16 +169,13 @@ def slipping_branch() -> Branch:
     return dm.continue_cycle(RIG, "Omega", (1.8, 2.2), kind="slipping")
 
 
-@pytest.mark.parametrize("file", ["branch.nc", "branch.mat"])
 @pytest.mark.parametrize("kind", ["stick_slip", "slipping"])
-def test_a_stored_branch_is_a_branch_again(
-    file: str, kind: str, branch: Branch, tmp_path: Path
-) -> None:
+def test_a_stored_branch_is_a_branch_again(kind: str, branch: Branch, tmp_path: Path) -> None:
     """It could only be drawn point by point, and started again from a state put together by hand."""
     if kind == "slipping":
         branch = slipping_branch()
-    dm.save(branch.to_dataset(), tmp_path / file)
-    again = dm.Branch.from_dataset(dm.load(tmp_path / file))
+    dm.save(branch.to_dataset(), tmp_path / "branch.nc")
+    again = dm.Branch.from_dataset(dm.load(tmp_path / "branch.nc"))
     assert repr(again) == repr(branch)
     assert_array_equal(again.folds, branch.folds)
     assert_array_equal(again.refined_growth_rate(), branch.refined_growth_rate())
@@ -217,68 +211,10 @@ def test_a_stored_branch_is_drawn_over_its_parameter_without_lines(data: xr.Data
     assert points.get_linestyle() == "None"
 
 
-# ---- Tables
-
-
-def table_in(folder: Path, data: Branch | xr.Dataset) -> pd.DataFrame:
-    """The table that other programs find in a file of branches."""
-    path = folder / "branch.csv"
-    dm.save(data, path)
-    return pd.read_csv(path, keep_default_na=False)
-
-
-def test_a_table_has_a_row_for_each_point(branch: Branch, tmp_path: Path) -> None:
-    """Branches were refused as tables."""
-    table = table_in(tmp_path, branch)
-    assert len(table) == len(branch) + 1  # the fold lies between two points
-    points = table[table["point"] != ""]
-    assert_array_equal(points["point"].astype(int), range(len(branch)))
-    assert_array_equal(points["Omega (rad s-1)"], branch.values[:, 0])
-    assert_array_equal(points["range (m)"], branch.range)
-    assert_array_equal(points["stable"] == "True", branch.stable)
-
-
-def test_special_points_stand_in_their_places(branch: Branch, tmp_path: Path) -> None:
-    table = table_in(tmp_path, branch)
-    [_, fold, _] = branch.special
-    special = table[table["special_kind"] != ""]
-    assert special["special_label"].tolist() == ["EP", "LP", "EP"]
-    assert special.index.tolist() == [0, fold.after + 1, len(table) - 1]
-    row = table.loc[fold.after + 1]
-    assert row["Omega (rad s-1)"] == fold.values[0]
-    assert row["period (s)"] == fold.period
-    assert row["releases"] == 1
-    assert not row["point"]
-    assert not row["stable"]
-
-
-def test_a_table_of_a_dataset_is_that_of_its_branch(
-    branch: Branch, data: xr.Dataset, tmp_path: Path
-) -> None:
-    expected = table_in(tmp_path, branch)
-    pd.testing.assert_frame_equal(table_in(tmp_path, data), expected)
-
-
-def test_a_table_of_a_sweep_has_the_rows_of_all_branches(branch: Branch, tmp_path: Path) -> None:
-    """Each row begins with its place along the axes; a point that failed has one row."""
-    options = {"name": "Omega", "bounds": (14.8, 15.2), "values": [15.0, 15.15]}
-    swept = dm.sweep(dm.continue_cycle, branch.case, **options, mu_k=[branch.case.mu_k, 0.5])
-    table = table_in(tmp_path, swept)
-    own = table[table["mu_k"] == branch.case.mu_k]
-    own = own.drop(columns=["mu_k", "status", "message", "ended", "not_reached"])
-    expected = table_in(tmp_path, branch)
-    assert own.columns.tolist() == expected.columns.tolist()
-    assert own["special_kind"].tolist() == expected["special_kind"].tolist()
-    assert_array_equal(own["period (s)"].astype(float), expected["period (s)"])
-    [failed] = table[table["mu_k"] == 0.5].to_dict("records")
-    assert failed["status"] == "failed"
-    assert "mu_k" in failed["message"]
-
-
-def test_a_table_names_what_is_swept_and_found_under_one_name(tmp_path: Path) -> None:
-    case = dm.Parameters(N=385, Omega=14.9)
-    options = {"name": "Omega", "bounds": (14.8, 15.2)}
-    swept = dm.sweep(dm.continue_cycle, case, **options, over={"direction": [-1, 1]})
-    table = table_in(tmp_path, swept)
-    assert set(table["direction"]) == {-1, 1}
-    assert set(table["branch_direction"]) == {0}
+def test_the_points_of_a_branch_are_a_table(data: xr.Dataset, tmp_path: Path) -> None:
+    path = tmp_path / "branch.csv"
+    dm.save(data.drop_dims(["special", "mode", "multiplier"]), path)
+    table = pd.read_csv(path)
+    assert_array_equal(table["point"], data["point"])
+    assert_array_equal(table["range (m)"], data["range"])
+    assert_array_equal(table["stable"], data["stable"])

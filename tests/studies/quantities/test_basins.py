@@ -11,7 +11,6 @@ from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.outcome import Attractor, OutcomeResult
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
 from disc_model.studies.quantity import STATUSES, Point
@@ -281,14 +280,6 @@ def test_a_bisection_from_a_small_energy_gives_up_as_many_halvings_below_it(
     first = 2.0**-10
     table = found(energies=[first], n_starts=1).arrays
     assert 0 < table["critical_energy"][0] < first * 2.0**-37
-
-
-def test_starts_of_all_energies_cost_alike() -> None:
-    unit = UnitCosts(1e-3, 1e-2)
-    two = AttractorBasins(energies=[0.1, 0.2], n_starts=10)
-    one = AttractorBasins(energies=[0.1], n_starts=20)
-    assert two.starts == one.starts == 20
-    assert two.cost(unit) == one.cost(unit)
 
 
 def test_a_study_says_how_many_starts_are_undecided(

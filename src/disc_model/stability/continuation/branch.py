@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
 from disc_model.data.variables import attributes_of_number, unit_of_parameter
-from disc_model.display import counted, draw, html_table, number_text
+from disc_model.display import counted, draw
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
@@ -107,20 +107,6 @@ class Branch:
         missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
         unit = unit_of_parameter(self.parameters[0])
         return f"{text}; not reached: {self.parameters[0]} = {missed} {unit}".rstrip()
-
-    def _repr_html_(self) -> str:
-        """The special points in a notebook, and why the branch ends."""
-        units = [unit_of_parameter(name) for name in self.parameters]
-        named = zip(self.parameters, units, strict=True)
-        head = [f"{name} ({unit})" if unit else name for name, unit in named]
-        rows: list[tuple[object, ...]] = []
-        for special in self.special:
-            values = [f"{value:.9g}" for value in special.values]
-            numbers = (special.growth_rate, special.period, special.range)
-            rows.append((special.kind, special.label, *values, *map(number_text, numbers)))
-        rows.append((f"{len(self)} cycles", "", self._end_text()))
-        heads = ("growth rate (1/s)", "period (s)", "range of the height (m)")
-        return html_table(("kind", "label", *head, *heads), rows)
 
     @property
     def special_points(self) -> pd.DataFrame:

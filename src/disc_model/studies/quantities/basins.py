@@ -23,7 +23,6 @@ from disc_model.studies.quantity import (
     OutcomeResult,
     Point,
     Quantity,
-    UnitCosts,
     listed,
     with_ends,
 )
@@ -93,6 +92,7 @@ class AttractorBasins(Start, Quantity):
         (lambda o: [*o.energies] == sorted({*o.energies}), "energies={0.energies} must ascend"),
         (lambda o: o.n_starts == 1 or 0.0 not in o.energies, _ONE_START),
     )
+    points_per_job: ClassVar = 5
     COLUMNS: ClassVar = {
         "status": STATUS,
         "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
@@ -175,12 +175,6 @@ class AttractorBasins(Start, Quantity):
     @property
     def starts(self) -> int:
         return len(self.energies) * self.n_starts
-
-    def cost(self, unit: UnitCosts) -> float:
-        """The first starts find the attractors, in motions that may keep losing contact and go to
-        the horizon; most others come to a known one soon."""
-        starts = len(self.energies) * self.n_starts
-        return 2.0 * unit.second * self.horizon * (0.9 + 0.1 * starts)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         """Failed starts have a fraction of their own, and the point fails if all starts do."""

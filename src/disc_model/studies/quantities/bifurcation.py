@@ -21,7 +21,6 @@ from disc_model.studies.quantity import (
     Quantity,
     Result,
     State,
-    UnitCosts,
 )
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
@@ -57,6 +56,7 @@ class Bifurcation(Start, Quantity):
             "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
         ),
     )
+    points_per_job: ClassVar = 110
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     motion_by: ClassVar = SETTLED_TO_BY
@@ -103,10 +103,6 @@ class Bifurcation(Start, Quantity):
     def counted(self) -> str:
         """What samples are numbered by."""
         return "turn" if self.section == "stroboscopic" else "event"
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Some transients are doubled to the longest, most are not."""
-        return 0.6 * unit.second * (self.transient + self.max_transient / 2)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         return (

@@ -21,7 +21,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    UnitCosts,
     along,
     listed,
 )
@@ -74,6 +73,7 @@ class Branches(Quantity):
             "sweep_from={0.sweep_from:g} must be <= the scan's last value, {0.scan.stop:g}",
         ),
     )
+    points_per_job: ClassVar = 2
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -112,12 +112,6 @@ class Branches(Quantity):
             "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
         ),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """The sweep up and down, whose stays last ten times as long as the shortest on average, and
-        three branches of the greatest length."""
-        sweep = 20 * unit.second * (self.scan.intervals + 1) * self.dwell
-        return sweep + 3 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep

@@ -25,7 +25,6 @@ from disc_model.studies.quantity import (
     Dataset,
     Point,
     Quantity,
-    UnitCosts,
     along,
     listed,
 )
@@ -69,6 +68,7 @@ class Campbell(Quantity):
     """room for that many crossings, and for more where more are found"""
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
+    points_per_job: ClassVar = 2000
     over: ClassVar = "Omega"
     COLUMNS: ClassVar = {
         "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
@@ -142,10 +142,6 @@ class Campbell(Quantity):
             "1", "number of the crossing", lambda o: range(1, o.max_crossings + 1)
         )
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Multipliers are assigned to modes besides."""
-        return 2 * unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.frequencies import frequencies, may_be_near

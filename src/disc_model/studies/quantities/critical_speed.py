@@ -21,7 +21,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    UnitCosts,
     along,
     listed,
 )
@@ -74,6 +73,7 @@ class CriticalSpeed(Quantity):
     def starts(self) -> int:
         return self.scan.intervals + 1
 
+    points_per_job: ClassVar = 5
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -110,10 +110,6 @@ class CriticalSpeed(Quantity):
             "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values
         ),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Half of the speeds are followed to the longest horizon, with some ten by bisection."""
-        return 0.5 * unit.second * (self.scan.intervals + 1) * self.horizons[-1]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         scanned = [i * round(self.ratio) for i in range(self.scan.intervals + 1)]

@@ -5,7 +5,7 @@ import math
 from typing import Any, ClassVar
 
 from disc_model.data.variables import CycleStatus, Variable, message_of
-from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State, UnitCosts
+from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State
 from disc_model.units import CycleTolerance
 
 FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
@@ -21,6 +21,7 @@ class Floquet(Quantity):
 
     tol: CycleTolerance = 1e-12
     """tolerance of cycles: relative residual of the return map"""
+    points_per_job: ClassVar = 1000
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     motion_by: ClassVar = {
@@ -38,10 +39,6 @@ class Floquet(Quantity):
         "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
         "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """One cycle."""
-        return unit.cycle
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import find_cycle

@@ -1,7 +1,6 @@
 """Hysteresis: a slow sweep of the speed up and down, which continues the motion from speed to
 speed."""
 
-import math
 from dataclasses import asdict
 from typing import Annotated, Any, ClassVar
 
@@ -18,7 +17,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    UnitCosts,
 )
 from disc_model.units import Seconds, Tolerance, Unit
 
@@ -52,6 +50,7 @@ class Hysteresis(Quantity):
             "max_dwell={0.max_dwell:g} must be >= dwell={0.dwell:g}",
         ),
     )
+    points_per_job: ClassVar = 3
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -102,11 +101,6 @@ class Hysteresis(Quantity):
     def go_along(self, parameter: str) -> None:
         """Sweep another number of the case than the speed, whose values `scan` then has."""
         self._parameter = parameter
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Stays are doubled about half as often as they may be."""
-        stay = math.sqrt(self.dwell * self.max_dwell)
-        return 2 * unit.second * (self.scan.intervals + 1) * stay
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.attractors import sweep

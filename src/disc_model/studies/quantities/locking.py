@@ -9,7 +9,6 @@ from pydantic import Field
 
 from disc_model.data.variables import Variable
 from disc_model.simulation.case import Start, Window
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
 from disc_model.units import Count, Seconds, Tolerance
 
@@ -48,6 +47,7 @@ class Locking(Start, Quantity):
             "record={0.record:g} must be <= max_record={0.max_record:g}",
         ),
     )
+    points_per_job: ClassVar = 90
     COLUMNS: ClassVar = {
         "status": STATUS,
         "motion": Variable("1", "what the record shows", MOTIONS),
@@ -83,12 +83,6 @@ class Locking(Start, Quantity):
         "release": Coordinate("1", "number of the release", lambda o: range(o.releases)),
         "probe": Coordinate("1", "number of the place", lambda o: range(o.probes)),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """The motion, whose record is doubled once on average, and the search for a cycle."""
-        cycles = 200 * unit.cycle if self.multipliers else 0.0
-        held = 2 * self.probes * unit.second
-        return unit.second * (self.transient + 3 * self.record) + cycles + held
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.simulation.api import simulate

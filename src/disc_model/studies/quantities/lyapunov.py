@@ -8,7 +8,7 @@ from pydantic import Field
 from disc_model.data.variables import Variable
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, UnitCosts, along
+from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, along
 from disc_model.units import Count, Seconds, Tolerance
 
 CONVERGED = ("unknown", "no", "yes")
@@ -28,6 +28,7 @@ class Lyapunov(Start, Quantity):
     """number of exponents, the largest ones"""
     interval: Seconds = 0.05
     """time between orthonormalisations; exponents below -400/s need a shorter one"""
+    points_per_job: ClassVar = 60
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     COLUMNS: ClassVar = {
@@ -52,10 +53,6 @@ class Lyapunov(Start, Quantity):
             "1", "number of the exponent, largest first", lambda o: range(o.exponents)
         )
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Each exponent needs a change of its own, which costs more than the motion."""
-        return unit.second * (self.transient + 12 * self.exponents * self.duration)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.simulation.result import STATUS_OF

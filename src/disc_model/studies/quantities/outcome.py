@@ -18,7 +18,6 @@ from disc_model.studies.quantity import (
     Result,
     Segment,
     State,
-    UnitCosts,
 )
 from disc_model.units import Seconds, Tolerance
 
@@ -46,6 +45,7 @@ class HorizonOutcome(Start, Quantity):
     """time from the first separation to the end of the late stretch"""
 
     _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
+    points_per_job: ClassVar = 80
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     motion_by: ClassVar = COME_TO_BY
@@ -86,10 +86,6 @@ class HorizonOutcome(Start, Quantity):
             " stretch",
         ),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Motions end on average at a third of the horizon, and cost more once contact is lost."""
-        return 0.6 * unit.second * self.horizon
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         reached, result, late = _late(point, self)

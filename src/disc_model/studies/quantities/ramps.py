@@ -14,7 +14,6 @@ from disc_model.studies.quantity import (
     Range,
     Result,
     State,
-    UnitCosts,
     along,
     listed,
 )
@@ -41,6 +40,7 @@ class Ramps(Quantity):
         (lambda o: o.low < o.high, "low={0.low:g} must be < high={0.high:g}"),
         (lambda o: o.rates.start > 0, "rates must be > 0, but begin with {0.rates.start:g}"),
     )
+    points_per_job: ClassVar = 3
     scans: ClassVar = ("Omega",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -59,12 +59,6 @@ class Ramps(Quantity):
     COORDINATES: ClassVar = {
         "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Both ramps and both stays, for each rate."""
-        rates = self.rates.values
-        stays = 2 * self.dwell * len(rates)
-        return unit.second * (stays + sum(2 * (self.high - self.low) / rate for rate in rates))
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []

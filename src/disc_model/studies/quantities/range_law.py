@@ -7,7 +7,6 @@ import numpy as np
 
 from disc_model.data.variables import PHASES
 from disc_model.simulation.case import Window
-from disc_model.studies.costs import UnitCosts
 from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
 from disc_model.units import Positive, Seconds, Tolerance
 
@@ -43,6 +42,7 @@ class RangeLaw(Quantity):
             "displaced_horizon={0.displaced_horizon:g}",
         ),
     )
+    points_per_job: ClassVar = 350
     COLUMNS: ClassVar = {
         "status": STATUS,
         "range": _each("m", "range of the slider's height, nan if contact is not lost"),
@@ -60,10 +60,6 @@ class RangeLaw(Quantity):
         ),
     }
     COORDINATES: ClassVar = {"begin": Coordinate("", "start of the motion", lambda options: BEGINS)}
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Both motions; most of them are apart all along."""
-        return 1.2 * unit.second * (self.horizon + self.displaced_horizon)
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         columns: dict[str, list[float]] = {name: [] for name in self.COLUMNS if name != "status"}

@@ -17,7 +17,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     State,
-    UnitCosts,
 )
 from disc_model.units import Count, Seconds, Tolerance
 
@@ -40,6 +39,7 @@ class Regions(Quantity):
     """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
     initial_cell_size: Annotated[Count, Field(ge=1, le=1000)] = 8
     """side of the first cells, in intervals of the grid"""
+    points_per_job: ClassVar = 800
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     motion_by: ClassVar = COME_TO_BY
@@ -74,10 +74,6 @@ class Regions(Quantity):
             "1", "number of other cycles known, followed from neighbours", whole=True
         ),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """A cycle or two at each point, and a motion at one of ten, some way to the horizon."""
-        return 2 * unit.cycle + 0.06 * unit.second * self.horizon
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate

@@ -36,7 +36,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Row,
-    UnitCosts,
     tried,
     with_ends,
 )
@@ -92,6 +91,7 @@ class Sensitivity(Quantity):
     _rules = (
         (lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),
     )
+    points_per_job: ClassVar = 400
     over: ClassVar = SAMPLE
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -124,11 +124,6 @@ class Sensitivity(Quantity):
         ),
         **_with_interval("probability_separation", "probability of separation within the horizon"),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """A cycle, and a motion if any sample has one: samples that are added keep their batches."""
-        simulated = self.simulated_samples > 0
-        return unit.cycle + 0.1 * unit.second * self.horizon * simulated
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:

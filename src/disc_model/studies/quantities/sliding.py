@@ -14,7 +14,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    UnitCosts,
     listed,
     units_of,
 )
@@ -33,6 +32,7 @@ class Sliding(Quantity):
     """values of the parameter"""
     modes: Annotated[Count, Field(ge=1, le=2000)] = 24
     """room for that many modes, numbered by frequency at the first value"""
+    points_per_job: ClassVar = 60
     scans: ClassVar = ("parameter",)
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -69,10 +69,6 @@ class Sliding(Quantity):
     def units(self) -> str:
         """The unit of the parameter."""
         return units_of(self.parameter)
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Eigenvalues at each value."""
-        return 0.6 * unit.cycle * (self.scan.intervals + 1)
 
     def _case_at(self, p: Parameters, value: float) -> Parameters:
         """The case of a point at a value of the parameter."""

@@ -15,7 +15,6 @@ from disc_model.studies.quantity import (
     Point,
     Quantity,
     Range,
-    UnitCosts,
     along,
     listed,
 )
@@ -58,6 +57,7 @@ class StabilityCurves(Quantity):
         (lambda o: o.x != o.y, "x and y must differ"),
         (lambda o: o.x_range[0] < o.x_range[1], "x_range must ascend"),
     )
+    points_per_job: ClassVar = 1
     scans: ClassVar = ("x", "y")
     COLUMNS: ClassVar = {
         "status": STATUS,
@@ -90,10 +90,6 @@ class StabilityCurves(Quantity):
             "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
         ),
     }
-
-    def cost(self, unit: UnitCosts) -> float:
-        """Some ten curves."""
-        return 40 * unit.cycle * self.max_points
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.curves import neutral_curves
