@@ -17,7 +17,7 @@ from tests.processes import python
     ],
 )
 def test_methods_are_there_whichever_module_is_imported(use: str) -> None:
-    heavy = "{'matplotlib', 'disc_model.figures', 'disc_model.disc.files'}"
+    heavy = "{'matplotlib', 'disc_model.figures', 'disc_model.disc.table'}"
     shown = python(f"{use}; import sys; print({heavy} & set(sys.modules))").stdout
     assert shown.strip() == "set()"
 

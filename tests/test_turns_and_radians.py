@@ -9,7 +9,6 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.disc.files.heads import read_head
 from disc_model.units import in_si, si_unit_of
 from tests.refusals import refusal
 
@@ -39,14 +38,6 @@ def test_a_frequency_in_angles_is_one_in_turns(quantity: str, text: str, hertz: 
 def test_a_growth_rate_in_turns_is_refused(quantity: str, text: str) -> None:
     with refusal(re.escape(f"value='{text}': {OTHER} 1/s")):
         dm.Measurement(quantity, text, 1.0)
-
-
-def test_a_decay_rate_in_turns_is_refused() -> None:
-    """It was multiplied by 2 pi."""
-    with refusal("the unit of decay_rate must be 1/s or rad/s, not Hz"):
-        read_head("decay rate (Hz)")
-    assert read_head("decay rate (1/ms)").factor == 1000.0
-    assert read_head("decay rate (rad/s)").factor == 1.0
 
 
 def test_a_growth_rate_per_minute_has_one_meaning() -> None:

@@ -1,6 +1,6 @@
 """Bases of classes that have methods from higher rooms.
 
-A disc is read by `disc_model.disc.files`, and a result is drawn by `disc_model.figures`, but both
+A disc is read by `disc_model.disc`, and a result is drawn by `disc_model.figures`, but both
 rooms need these classes themselves. `disc_model.attached` therefore attaches such methods to the
 bases here, when `disc_model` is imported; type checkers find them by the assignments below.
 """

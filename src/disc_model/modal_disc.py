@@ -33,9 +33,6 @@ from disc_model.units import (
     within,
 )
 
-if TYPE_CHECKING:
-    from disc_model.disc.given import DiscReport
-
 MOST_MODES = 1000  # largest number of modes in the table of a disc
 # of natural frequencies, rad/s; above them a cycle would take minutes to compute
 FREQUENCIES = (1e-3, 1e7)
@@ -43,8 +40,7 @@ FREQUENCIES = (1e-3, 1e7)
 AMPLITUDES = (1e-6, 1e6)
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
-    "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
-    "(Disc.from_csv joins halves with pairs='mean' or 'test', disc-model modes with --pairs)"
+    "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency"
 )
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
@@ -73,8 +69,8 @@ class Disc(DiscFiles, Strict):
     damping_ratio : of each mode (0 to 1; 0 if left out)
     circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
     tangential : displacement of the friction surface along the slider's path, under the slider, of the half of each
-        pair that has its node there (kg^-1/2); in a plate, at the height z, -(z/r_0) diameters amplitude. Needed for
-        ``friction_offset="surface"`` alone
+        pair that has its node there (kg^-1/2), 0 without nodal diameters; in a plate, at the height z, -(z/r_0)
+        diameters amplitude. Needed for ``friction_offset="surface"`` alone
     static_compliance : of the whole disc under a point load at the slider (m/N, > 0), from which the compliance of
         the modes that are left out follows; None if it is not known
     radii : where shapes are known (m, ascending, two or more); none if they are not
@@ -105,7 +101,7 @@ class Disc(DiscFiles, Strict):
     radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
-    _report: DiscReport | None = pydantic.PrivateAttr(None)
+    report: ClassVar[Any] = None  # for `warn_of_disc` and `split_growth`, which ask for one
     _varied_from: Disc | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
@@ -139,7 +135,7 @@ class Disc(DiscFiles, Strict):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between columns, and refuse modes that are given twice."""
-        raise_faults([*self._column_faults(), *self._radii_faults()])
+        raise_faults([*self._column_faults(), *self._radii_faults(), *self._tangential_faults()])
         largest = max(map(abs, self.amplitude))
         raise_faults(limits_faults("largest amplitude", largest, AMPLITUDES))
         self._refuse_repeated_modes()
@@ -171,6 +167,14 @@ class Disc(DiscFiles, Strict):
         elif any(inner >= outer for inner, outer in pairwise(self.radii)):
             yield Fault.of(("radii",), [*self.radii], "must ascend")
 
+    def _tangential_faults(self) -> Iterator[Fault]:
+        """Yield the faults of tangential motion without nodal diameters, where no half of a pair has
+        its node under the slider."""
+        rule = "must be 0 for a mode without nodal diameters"
+        for i, (diameters, value) in enumerate(zip(self.diameters, self.tangential, strict=False)):
+            if diameters == 0 and value != 0:
+                yield Fault.of(("tangential", str(i)), value, rule)
+
     def _refuse_repeated_modes(self) -> None:
         """Raise `ParameterError` if a mode is given twice, or as the two halves of a pair."""
         counted = "circles" not in self.model_fields_set  # by frequency: no two are alike
@@ -200,20 +204,8 @@ class Disc(DiscFiles, Strict):
         return _circles_by_frequency(diameters, omega)
 
     def __eq__(self, other: object) -> bool:
-        """Whether all numbers are equal; reports do not count."""
+        """Whether all numbers are equal."""
         return isinstance(other, Disc) and dict(self) == dict(other)
-
-    @property
-    def report(self) -> DiscReport | None:
-        """What was used of the file from which the disc was read, and what was left out: a
-        `disc_model.disc.given.DiscReport`; None of a disc that was made of numbers."""
-        return self._report
-
-    def with_report(self, report: DiscReport) -> Disc:
-        """The same disc with a report on its file."""
-        disc = self.model_copy()
-        disc._report = report
-        return disc
 
     def __repr__(self) -> str:
         low = f"{min(self.omega) / math.tau:.5g}"

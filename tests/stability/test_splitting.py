@@ -119,23 +119,6 @@ def test_both_limits_are_no_bounds() -> None:
     assert "they are no bounds" in " ".join(page.split())
 
 
-def test_splits_are_those_of_the_file(tmp_path: Any) -> None:
-    """Of a table with both halves; one number counts for all pairs."""
-    text = "diameters,frequency_Hz,amplitude_per_sqrt_kg,damping_ratio,tangential_per_sqrt_kg\n"
-    rows = "2,1200,0.54,0.001,-0.13\n0,929,0.43,0.001,0\n2,1206,0.54,0.001,-0.13\n"
-    path = tmp_path / "disc.csv"
-    path.write_text(text + rows)
-    p = case(PAD, disc=dm.Disc.from_csv(path, pairs="mean"))
-    found = dm.split_growth(p)
-    assert found.pairs["split"].tolist() == pytest.approx([6 / 1203])
-    assert found.growth_rate == pytest.approx(dm.split_growth(p, 6 / 1203).growth_rate)
-    assert found.pairs["diameters"].tolist() == [2]
-    answer = "no"
-    if found.matters:
-        answer = "yes"
-    assert ("the split matters", answer) in found.summary()
-
-
 @pytest.mark.parametrize(
     ("changes", "split", "phrase"),
     [

@@ -1,2 +1,0 @@
-"""Discs from files: tables, universal files of modal tests and finite elements, and the section of
-a drawing."""
