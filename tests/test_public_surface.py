@@ -130,9 +130,14 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),
     (
         dm.Disc.from_uff,
-        {"path": "none.uff", "r_0": 0.1},
-        {"path": "text", "axis": "text None"}
-        | dict.fromkeys(("centre", "units", "modal_mass"), "None"),
+        {
+            "path": "none.uff",
+            "r_0": 0.1,
+            "axis": (0, 0, 1),
+            "centre": (0, 0, 0),
+            "units": ("m", "N"),
+        },
+        {"path": "text"},
     ),
     (
         RUN.animate,

@@ -2,7 +2,6 @@
 
 import math
 import re
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -65,15 +64,6 @@ def test_texts_of_other_kinds_are_refused(changes: dict[str, str], message: str)
 def test_a_disc_names_the_row_of_another_kind() -> None:
     with refusal(re.escape("omega.1='5 kg': the unit of omega must be Hz")):
         dm.Disc(diameters=[0, 2], omega=[5837, "5 kg"], amplitude=[0.4, 0.5])
-
-
-def test_a_single_cell_of_a_loss_factor_is_not_read_as_a_damping_ratio(tmp_path: Path) -> None:
-    """A loss factor is twice as large."""
-    file = tmp_path / "modes.csv"
-    file.write_text(
-        "diameters,frequency_Hz,amplitude_per_sqrt_kg,loss_factor\n0,929,0.4,0.1 %\n2,1212,0.5,0.001\n"
-    )
-    assert dm.Disc.from_csv(file).damping_ratio == (0.0005, 0.0005)
 
 
 def test_bounds_of_a_ratio_may_be_in_percent() -> None:

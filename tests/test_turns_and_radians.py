@@ -7,19 +7,9 @@ import pint
 import pytest
 import xarray as xr
 
-from disc_model.disc.files.heads import read_head
 from disc_model.units import in_si
-from tests.refusals import refusal
 
 OTHER = "must be a number in"
-
-
-def test_a_decay_rate_in_turns_is_refused() -> None:
-    """It was multiplied by 2 pi."""
-    with refusal("the unit of decay_rate must be 1/s or rad/s, not Hz"):
-        read_head("decay rate (Hz)")
-    assert read_head("decay rate (1/ms)").factor == 1000.0
-    assert read_head("decay rate (rad/s)").factor == 1.0
 
 
 @pytest.mark.parametrize(("text", "unit"), [("3 deg", "1"), ("15 ms/turn", "s"), ("1 rad", "1")])

@@ -22,11 +22,9 @@ from rich.table import Column, Table
 
 from disc_model import __version__
 from disc_model.data.files import regular_file
-from disc_model.disc.files.table import read_disc
-from disc_model.disc.files.universal_sets import is_universal_file
-from disc_model.disc.given import DiscReport
 from disc_model.disc.modes import coupled_natural_frequencies
 from disc_model.disc.plate import damping_ratios, mode_arrays
+from disc_model.disc.table import disc_of_table
 from disc_model.display import counted, number_text
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Disc, Parameters
@@ -87,7 +85,7 @@ def command(
                 **{name: texts.pop(name) for name in options.model_fields if name in texts}
             )
             if "disc" in texts:
-                texts["disc"] = read_disc(texts["disc"])
+                texts["disc"] = disc_of_table(texts["disc"])
             if isinstance(model, ModesOptions) and model.from_ is not None:
                 texts["disc"] = model.read(texts)
             p = Parameters.model_validate(texts)
@@ -139,25 +137,16 @@ class ModesOptions(Strict):
     """Options of the command `modes` by which it reads a disc from a file."""
 
     from_: str | None = Field(
-        None, description="universal file or table of a modal test or of finite elements"
+        None, description="table, or universal file of a modal test or of finite elements"
     )
     axis: str | None = Field(
-        None,
-        description="direction from the disc to the slider in a universal file, such as -z; found if left out",
+        None, description="of a universal file: from the disc to the slider, such as 0,0,1"
     )
     centre: str | None = Field(
-        None, description="point on the axis, such as 0,0,0 (m); found if left out"
+        None, description="of a universal file: a point on the axis, such as 0,0,0 (m)"
     )
     units: str | None = Field(
-        None, description="of length and force in a universal file that states none, such as mm,N"
-    )
-    modal_mass: str | None = Field(
-        None, description="of shapes whose modal mass is 0 in the file: 1 if they are normalised"
-    )
-    pairs: Literal["given", "mean", "test"] = Field(
-        "given",
-        description="mean: a table may have both halves of each pair; test: with amplitudes at one point, which are "
-        "joined by the root of the sum of squares",
+        None, description="of length and force in a universal file, such as mm,N"
     )
     save: Annotated[Path, AfterValidator(_writable)] | None = Field(
         None, description="write the modes as a table, for --disc and for studies"
@@ -170,27 +159,17 @@ class ModesOptions(Strict):
         return self._disc(case)
 
     def _disc(self, case: Mapping[str, Any]) -> Disc:
-        """The disc of a universal file or of a table."""
+        """The disc of a table, or, if its place is given, of a universal file."""
         file = self.from_ or ""
-        if not is_universal_file(file):
-            return Disc.from_csv(file, pairs=self.pairs)
-        if "r_0" not in case:
-            rule = "is required: the radius of the circle of nodes under the slider"
-            raise ParameterError(Fault(("r_0",), "", rule))
-        return Disc.from_uff(
-            file,
-            case["r_0"],
-            axis=self.axis,
-            centre=self.centre,
-            units=self.units,
-            modal_mass=self.modal_mass,
-        )
+        if self.axis is None and self.centre is None and self.units is None:
+            return Disc.from_csv(file)
+        axis, centre, units = ((x or "").split(",") for x in (self.axis, self.centre, self.units))
+        return Disc.from_uff(file, case.get("r_0", ""), axis=axis, centre=centre, units=units)
 
 
 @command(ModesOptions, N="0", Omega="0")
 def modes(p: Parameters, options: ModesOptions) -> None:
-    """Print the modes of the disc, and its frequencies with the slider at rest; with --from, what
-    was used of a file and what was left out."""
+    """Print the modes of the disc, and its frequencies with the slider at rest."""
     print_rows([model_line(p)])
     arrays = mode_arrays(p)
     columns: dict[str, Iterable[str]] = {
@@ -206,8 +185,6 @@ def modes(p: Parameters, options: ModesOptions) -> None:
     else:
         columns["tangent.\n(kg^-1/2)"] = map("{:.5g}".format, p.disc.tangential)
     table("Modes of the disc", columns, justify="right", overflow="fold")
-    if p.disc is not None and p.disc.report is not None:
-        print_report(p.disc.report)
     if options.save is not None:
         save_table(p, options.save)
     at_rest = coupled_natural_frequencies(p)
@@ -225,20 +202,6 @@ def shown_value(p: Parameters, name: str) -> str:
 
     shown = SHOWN[name]
     return number_text(getattr(p, name) * shown.factor, shown.unit)
-
-
-def print_report(report: DiscReport) -> None:
-    """Print what was used of a file and what was left out."""
-    if report.has_shapes:
-        rows = report.table
-        columns = {str(head): map(_cell, rows[head]) for head in rows}
-        table("Shapes of the file", columns, justify="right", overflow="fold")
-    print_rows(report.summary())
-
-
-def _cell(number: float) -> str:
-    """A number of a table; "-" for none."""
-    return "-" if math.isnan(number) else f"{number:.5g}"
 
 
 def save_table(p: Parameters, path: Path) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from functools import partial
 from itertools import combinations, pairwise
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
-import pydantic
 from pydantic import (
     BeforeValidator,
     Field,
@@ -34,8 +34,6 @@ from disc_model.units import (
 if TYPE_CHECKING:
     import os
 
-    from disc_model.disc.given import DiscReport
-
 MOST_MODES = 1000  # largest number of modes in the table of a disc
 # of natural frequencies, rad/s; above them a cycle would take minutes to compute
 FREQUENCIES = (1e-3, 1e7)
@@ -43,8 +41,7 @@ FREQUENCIES = (1e-3, 1e7)
 AMPLITUDES = (1e-6, 1e6)
 SAME_FREQUENCY = 0.05  # relative distance below which modes of as many diameters are one pair
 GIVEN_ONCE = (
-    "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency "
-    "(Disc.from_csv joins halves with pairs='mean' or 'test', disc-model modes with --pairs)"
+    "the disc must be axisymmetric, with each pair of modes given once, by its mean frequency"
 )
 NO_PAIR = "a mode without nodal diameters is no half of a pair, and must be given once"
 
@@ -73,8 +70,8 @@ class Disc(Strict):
     damping_ratio : of each mode (0 to 1; 0 if left out)
     circles : number of nodal circles of each mode; if left out, modes of as many diameters are counted by frequency
     tangential : displacement of the friction surface along the slider's path, under the slider, of the half of each
-        pair that has its node there (kg^-1/2); in a plate, at the height z, -(z/r_0) diameters amplitude. Needed for
-        ``friction_offset="surface"`` alone
+        pair that has its node there (kg^-1/2), 0 without nodal diameters; in a plate, at the height z, -(z/r_0)
+        diameters amplitude. Needed for ``friction_offset="surface"`` alone
     static_compliance : of the whole disc under a point load at the slider (m/N, > 0), from which the compliance of
         the modes that are left out follows; None if it is not known
     radii : where shapes are known (m, ascending, two or more); none if they are not
@@ -105,7 +102,6 @@ class Disc(Strict):
     radii: tuple[Annotated[Positive, Unit("m")], ...] = ()
     shapes: tuple[tuple[Finite, ...], ...] = ()
 
-    _report: DiscReport | None = pydantic.PrivateAttr(None)
     _columns: ClassVar = (
         "diameters",
         "omega",
@@ -138,7 +134,7 @@ class Disc(Strict):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between columns, and refuse modes that are given twice."""
-        raise_faults([*self._column_faults(), *self._radii_faults()])
+        raise_faults([*self._column_faults(), *self._radii_faults(), *self._tangential_faults()])
         largest = max(map(abs, self.amplitude))
         raise_faults(limits_faults("largest amplitude", largest, AMPLITUDES))
         self._refuse_repeated_modes()
@@ -170,6 +166,14 @@ class Disc(Strict):
         elif any(inner >= outer for inner, outer in pairwise(self.radii)):
             yield Fault.of(("radii",), [*self.radii], "must ascend")
 
+    def _tangential_faults(self) -> Iterator[Fault]:
+        """Yield the faults of tangential motion without nodal diameters, where no half of a pair has
+        its node under the slider."""
+        rule = "must be 0 for a mode without nodal diameters"
+        for i, (diameters, value) in enumerate(zip(self.diameters, self.tangential, strict=False)):
+            if diameters == 0 and value != 0:
+                yield Fault.of(("tangential", str(i)), value, rule)
+
     def _refuse_repeated_modes(self) -> None:
         """Raise `ParameterError` if a mode is given twice, or as the two halves of a pair."""
         counted = "circles" not in self.model_fields_set  # by frequency: no two are alike
@@ -199,20 +203,8 @@ class Disc(Strict):
         return _circles_by_frequency(diameters, omega)
 
     def __eq__(self, other: object) -> bool:
-        """Whether all numbers are equal; reports do not count."""
+        """Whether all numbers are equal."""
         return isinstance(other, Disc) and dict(self) == dict(other)
-
-    @property
-    def report(self) -> DiscReport | None:
-        """What was used of the file from which the disc was read, and what was left out: a
-        `disc_model.disc.given.DiscReport`; None of a disc that was made of numbers."""
-        return self._report
-
-    def with_report(self, report: DiscReport) -> Disc:
-        """The same disc with a report on its file."""
-        disc = self.model_copy()
-        disc._report = report
-        return disc
 
     def __repr__(self) -> str:
         low = f"{min(self.omega) / math.tau:.5g}"
@@ -250,41 +242,23 @@ class Disc(Strict):
         """The disc with only the first `count` modes of its table."""
         return self.replace(**{name: getattr(self, name)[:count] for name in self._columns})
 
-    # ---- Files, which are read in `disc_model.disc.files`
+    # ---- Files
 
     @classmethod
-    def from_csv(
-        cls, path: str | os.PathLike[str], pairs: Literal["given", "mean", "test"] = "given"
-    ) -> Disc:
+    def from_csv(cls, path: str | os.PathLike[str]) -> Disc:
         """Read a table of modes.
 
         Parameters
         ----------
-        path : CSV file, with commas, semicolons or tabs. Its columns, in any order, are ``diameters``,
-            ``frequency_Hz`` or ``omega_rad_per_s``, and ``amplitude_per_sqrt_kg``; optional are ``damping_ratio``,
-            ``circles``, ``tangential_per_sqrt_kg``, and shapes at radii, such as ``shape_at_0.08_m``. Heads may also
-            give a name and its unit, such as "frequency (kHz)", "damping [%]" or "pole (rad/s)". Lines that begin
-            with # are comments; one may give ``static_compliance_m_per_N: ...``
-        pairs : "given" if each pair of modes is given once; "mean" if both halves of a pair may be given: two modes of
-            equal diameters within 5 % in frequency become their mean, and `report` has the splits; "test" if both
-            halves were measured at one point, as in a driving-point test: the amplitude is then the root of the sum of
-            squares
+        path : CSV file with a row for each mode, and for each pair of modes. Its columns, in any order, are
+            ``diameters``, ``omega_rad_per_s`` or ``frequency_Hz``, and ``amplitude_per_sqrt_kg``; optional are
+            ``circles``, ``tangential_per_sqrt_kg`` and ``damping_ratio``. Lines that begin with # are comments
 
         Raises
         ------
         ParameterError
-            If the file cannot be read or breaks a rule; the message names the column or mode, its value and the rule.
-
-        Warns
-        -----
-        ImplausibleValue
-            If frequencies, amplitudes or damping are implausible, such as one frequency in kHz among others in Hz, or
-            if halves of a pair differ by more than a test errs.
-
-        Returns
-        -------
-        Disc
-            `report` says how each column was understood, and within which values it lies.
+            If the file cannot be read, has another column or a cell that is no number, or breaks a rule of
+            `disc_model.Disc`.
 
         Examples
         --------
@@ -295,20 +269,21 @@ class Disc(Strict):
         True
         """
         from disc_model.data.files import regular_file
-        from disc_model.disc.files import disc_of_table
+        from disc_model.disc.table import disc_of_table
 
-        return disc_of_table(regular_file(path), pairs)
+        return disc_of_table(regular_file(path))
 
     def to_csv(self, path: str | os.PathLike[str]) -> None:
-        """Write the table that `from_csv` reads, with enough digits to restore each number exactly.
+        """Write the table that `from_csv` reads, with enough digits to restore each number exactly. Shapes and
+        the static compliance, for which it has no columns, are left out.
 
         Raises `ParameterError` if the path is not that of a file,
         `disc_model.data.dataset.WriteError` if it cannot be written. `from_csv` has an example.
         """
         from disc_model.data.files import regular_file, write_atomically
-        from disc_model.disc.files import write_table
+        from disc_model.disc.table import table_of_disc
 
-        write_atomically(regular_file(path), lambda name: write_table(self, name))
+        write_atomically(regular_file(path), partial(table_of_disc(self).to_csv, index=False))
 
     @classmethod
     def from_uff(
@@ -316,63 +291,53 @@ class Disc(Strict):
         path: str | os.PathLike[str],
         r_0: Quantity,
         *,
-        axis: str | Iterable[float] | None = None,
-        centre: Iterable[Quantity] | None = None,
-        units: Iterable[str] | None = None,
-        modal_mass: Quantity | None = None,
+        axis: Iterable[Quantity],
+        centre: Iterable[Quantity],
+        units: Iterable[str],
     ) -> Disc:
-        """Read mode shapes from a universal file of modal tests or finite elements.
+        """Read normal modes at nodes from a universal file of a modal test or of finite elements (pyuff,
+        extra ``uff``).
 
         Parameters
         ----------
-        path : file with normal or complex modes at nodes as datasets 55 or 2414, scaled by modal masses or modal A,
-            and the nodes' coordinates, datasets 15 or 2411 (coordinate systems: 18 or 2420, units: 164). Motion may
-            be displacement, velocity or acceleration
-        r_0 : radius of the circle of nodes under the slider, in m or with its unit: 0.1, "100 mm". Other circles at
-            the same height give the shapes
-        axis : direction of the disc's axis, from the disc to the slider: "x", "-z" or three numbers; if left out, it is
-            found. Its sense is then that in which the nodes move as on the face under the slider; without motion in
-            the plane its largest part is positive
-        centre : a point on the axis (m); if left out, it is found
-        units : of length and force in a file without dataset 164, such as ("mm", "N"); ("m", "N") if left out
-        modal_mass : of modes whose modal mass or modal A is 0 in the file, in its unit of mass: 1 for shapes that
-            finite elements have mass-normalised
+        path : file with normal modes as datasets 55 or 2414, displacements in the global Cartesian system with
+            modal masses, and with nodes, datasets 15 or 2411
+        r_0 : radius of the slider's circle, in m or with its unit, "100 mm". Nodes must lie all around it; of
+            several faces that towards the slider counts
+        axis : three numbers, the direction from the disc to the slider
+        centre : a point on the axis, m
+        units : of length and force in the file, such as ("mm", "N")
 
         Returns
         -------
         Disc
-            The number of nodal diameters of a mode is that of the harmonic with most of its motion along the circle.
-            Two modes of equal diameters within 5 % in frequency are the halves of a pair, which is their mean; a mode
-            that the file has several times is one. Tangential amplitudes are those of the nodes on the circle, None
-            if the file has motion along the axis alone. Modes in the plane of the disc, and with less than half of
-            their motion in one harmonic, are left out. `report` says what was used and left out.
+            The number of nodal diameters of a mode is that of the harmonic with most of its normal motion along
+            the circle, by least squares. Two modes of equal diameters within 5 % in frequency are the halves of a
+            pair, which is their mean. Tangential amplitudes are those of the nodes on the circle, none if the file
+            has motion along the axis alone. Modes that do not move the circle along the axis are left out.
 
         Raises
         ------
         ParameterError
-            If the file cannot be read, is cut off, or lacks scaled modes, or nodes around the circle; the message
-            names the axis, the radii of the nodes and the datasets of the file.
+            If an argument breaks its rule, or the file cannot be read or lacks scaled modes or nodes all around
+            the circle; the message says what the file has.
 
-        Warns
+        Notes
         -----
-        ImplausibleValue
-            If the nodes are too few for the modes, antinodes of the halves of a pair do not lie between each other,
-            more than two shapes of equal diameters are within 5 %, poles seem to be in Hz, or frequencies or amplitudes
-            are implausible.
+        A normal mode with the shape psi and the modal mass m has the amplitude psi/sqrt(m).
         """
         from disc_model.data.files import regular_file
-        from disc_model.disc.files import disc_of_universal_file
+        from disc_model.disc.universal import Place, disc_of_universal_file
 
-        file = regular_file(path)
-        return disc_of_universal_file(
-            file, r_0=r_0, axis=axis, centre=centre, units=units, modal_mass=modal_mass
-        )
+        place = Place(r_0=r_0, axis=axis, centre=centre, units=units)
+        return disc_of_universal_file(regular_file(path), place)
 
     @classmethod
     def from_section(  # noqa: PLR0913
         cls,
-        section: Any,
+        section: Iterable[tuple[float, float, float, float]],
         *,
+        size: float,
         E: float,
         nu: float,
         rho: float,
@@ -380,20 +345,18 @@ class Disc(Strict):
         slider: tuple[float, float],
         highest_Hz: float,
         damping_ratio: float = 0.0,
-        size: float | None = None,
     ) -> Disc:
         """Find the modes of a solid of revolution by finite elements (scikit-fem, extra ``fe``).
 
         Parameters
         ----------
-        section : rectangles (r from, r to, z from, z to) in m, whose union is the section; or a mesh of quadrilaterals
-            of scikit-fem with coordinates (r, z)
-        size : m, largest edge of an element; not for a mesh
+        section : rectangles (r from, r to, z from, z to) in m, whose union is the section
+        size : m, largest edge of an element
         E, nu, rho : Pa, 1 and kg/m^3
         clamped : function that says which edges around the section are held, from the coordinates (r, z) of their
             middles, shape (2, k)
-        slider : (r, z) of the point under the slider, m; a corner of a rectangle, or a node of the mesh; on the upper
-            or the lower face of the disc
+        slider : (r, z) of the point under the slider, m; a corner of a rectangle, on the upper or the lower face of
+            the disc
         highest_Hz : modes up to this frequency are found
         damping_ratio : damping ratio of every mode
 
@@ -408,16 +371,11 @@ class Disc(Strict):
         ParameterError
             If a number breaks its rule, the section is in pieces or not held, the slider is not at a node, or no mode
             moves under it.
-
-        Warns
-        -----
-        ImplausibleValue
-            If E or rho is not within a hundredth and a hundred times that of Table 1.
         """
-        from disc_model.disc.files import disc_of_drawing
+        from disc_model.disc.section import disc_of_section
 
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
-        return disc_of_drawing(section, size, material, clamped, slider, highest_Hz)
+        return disc_of_section(section, size, material, clamped, slider, highest_Hz)
 
 
 def _circles_by_frequency(diameters: tuple[int, ...], omega: tuple[float, ...]) -> tuple[int, ...]:

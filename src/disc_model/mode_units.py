@@ -10,19 +10,9 @@ from disc_model.errors import Fault, raise_faults
 from disc_model.units import NUMBER, number, size_of_unit
 
 UNCERTAIN = ("omega", "amplitude", "damping_ratio", "tangential")  # columns of numbers of modes
-POLES = ("pole", "pole_real", "pole_imag")  # quantities that stand for frequency and damping
 
-UNIT_NEEDED = {
-    "omega": ("Hz, kHz or rad/s", "frequency_Hz or frequency (Hz)"),
-    "pole": ("rad/s or Hz", "pole (rad/s)"),
-    "pole_real": ("1/s, rad/s or Hz", "pole real (1/s)"),
-    "pole_imag": ("rad/s or Hz", "pole imag (rad/s)"),
-    "decay_rate": ("1/s or rad/s", "decay_rate (1/s)"),
-    "modal_mass": ("kg", "modal_mass (kg)"),
-    "amplitude": ("kg^-1/2", "amplitude_per_sqrt_kg or amplitude (kg^-1/2)"),
-    "tangential": ("kg^-1/2", "tangential_per_sqrt_kg or tangential (kg^-1/2)"),
-}
-"""Quantities whose heads must state a unit: which, and examples."""
+UNITS = {"omega": "Hz, kHz or rad/s", "amplitude": "kg^-1/2", "tangential": "kg^-1/2"}
+"""Units of numbers of modes, for messages."""
 OF_COLUMNS = {"omega": "rad/s", "amplitude": "kg^-1/2", "tangential": "kg^-1/2"}
 """SI units of the numbers of modes."""
 
@@ -34,34 +24,17 @@ _ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?
 # ---- Factors of units
 
 
-def factor_to_si(quantity: str, unit: str) -> float:
+def _factor_to_si(quantity: str, unit: str) -> float:
     """Factor from a unit to the SI unit of a quantity of modes; nan for a unit of another kind."""
-    plain = unit.replace("_per_", "/").replace("per_", "1/").replace("sqrt_", "sqrt ")
-    if quantity in ("omega", "decay_rate", *POLES):
-        return _rate(plain, quantity)
-    if quantity == "modal_mass":
-        return _converted(plain, "kg")
+    if quantity == "omega":
+        return _rate(unit)
     if quantity in ("amplitude", "tangential"):
-        return _per_root_mass(plain)
-    return _share(plain, quantity)
+        return _per_root_mass(unit)
+    return _share(unit)
 
 
-def unit_rule(quantity: str, unit: str) -> str:
-    """The rule that a unit of another kind breaks."""
-    units, _ = UNIT_NEEDED.get(quantity, ("none or %", ""))
-    return f"the unit of {quantity} must be {units}, not {unit}"
-
-
-def _rate(unit: str, quantity: str) -> float:
-    """Factor to rad/s; nan for other units. The real part of a pole in 1/s is in rad/s, and a decay
-    rate in Hz may mean turns."""
-    if quantity == "decay_rate":
-        return 1.0 if unit.lower() == "rad/s" else _converted(unit, "1/s")
-    known = {"hz": math.tau, "khz": 1e3 * math.tau, "rad/s": 1.0}
-    if quantity == "pole_real":
-        known["1/s"] = 1.0
-    if unit.lower() in known:
-        return known[unit.lower()]
+def _rate(unit: str) -> float:
+    """Factor to rad/s; nan for other units."""
     if "hz" in unit.lower():
         return _converted(unit, "Hz") * math.tau
     return _converted(unit, "rad/s")
@@ -79,15 +52,9 @@ def _per_root_mass(unit: str) -> float:
     return _converted(mass, "kg") ** -0.5
 
 
-def _share(unit: str, quantity: str) -> float:
-    """Factor to a ratio or a count without unit; nan for other units."""
-    if unit in ("", "-", "1"):
-        share = 1.0
-    elif unit in ("%", "percent", "per cent") and quantity in ("damping_ratio", "split"):
-        share = 0.01
-    else:
-        share = math.nan
-    return share
+def _share(unit: str) -> float:
+    """Factor to a ratio; nan for other units."""
+    return {"1": 1.0, "%": 0.01}.get(unit, math.nan)
 
 
 def _converted(unit: str, target: str) -> float:
@@ -118,9 +85,10 @@ def mode_number(quantity: str, value: Any) -> Any:
     if not match[2]:
         return float(match[1])
     unit = match[2].strip()
-    factor = factor_to_si(quantity, unit)
+    factor = _factor_to_si(quantity, unit)
     if math.isnan(factor):
-        raise ValueError(unit_rule(quantity, unit))
+        units = UNITS.get(quantity, "none or %")
+        raise ValueError(f"the unit of {quantity} must be {units}, not {unit}")
     return float(f"{float(match[1]) * factor:.15g}")
 
 

@@ -129,7 +129,7 @@ def test_the_page_does_what_it_says(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     exec(first + drawing, phrase)
     disc = phrase["disc"]
     assert isinstance(disc, dm.Disc)
-    assert dm.Disc.from_csv("disc.csv") == disc
+    assert dm.Disc.from_csv("disc.csv") == disc.replace(radii=(), shapes=())
     count = len(of_table.omega)
     np.testing.assert_allclose(disc.omega[:count], of_table.omega, rtol=0.01)
     np.testing.assert_allclose(disc.amplitude[:count], of_table.amplitude, rtol=0.01)

@@ -14,8 +14,8 @@ from matplotlib import pyplot
 import disc_model
 from disc_model import Parameters
 from disc_model.studies.study import load_study
-from tests.disc.table import disc_table
-from tests.disc.universal import MODES, Dialect, halves
+from tests.disc.table import disc_of
+from tests.disc.universal import write_modes
 from tests.processes import python
 
 ROOT = Path(__file__).parents[2]
@@ -67,11 +67,8 @@ def test_the_script_from_a_universal_file_to_a_file_runs(tmp_path: Path) -> None
     page = DOCS / "howto" / "sweep.md"
     (script,) = [block for block in blocks(page) if "from_uff" in block]
     assert len(script.splitlines()) <= 25
-    dialect = Dialect(results=2414, nodes=2411, units=True, length=1e3, axis=(1, 0, 0))
-    disc_path = tmp_path / "disc.unv"
-    dialect.write(disc_path, halves(MODES))
+    write_modes(tmp_path / "disc.unv", sets=(2411, 2414), size=1e3)
     done = python(script, cwd=tmp_path)
-    assert "24 nodes on the slider's circle" in done.stdout
     assert re.search(r"grow in \d+% of 1000 samples", done.stdout)
     assert "1000/1000" in done.stderr
     map_path = tmp_path / "map.png"
@@ -96,7 +93,7 @@ for _page in PAGES:
 def test_study_files_on_pages_are_right(text: str, tmp_path: Path) -> None:
     p = Parameters(N=0, Omega=0, friction_offset="surface")
     file = tmp_path / "disc.csv"
-    file.write_text(disc_table(p))  # some of them name one
+    disc_of(p).to_csv(file)  # some of them name one
     path = tmp_path / "study.yaml"
     path.write_text(text, encoding="utf-8")
     assert load_study(path).name in text
@@ -246,10 +243,9 @@ def test_the_universal_file_of_the_page_can_be_read(tmp_path: Path) -> None:
     [text] = re.findall(r"```text\n(    -1\n.*?)```", page, re.S)
     path = tmp_path / "modes.unv"
     path.write_text(text, encoding="utf-8")
-    disc = disc_model.Disc.from_uff(path, r_0="100 mm")
-    assert disc.report is not None
-    [mode] = disc.report.modes
-    assert mode.diameters == 2
+    place = {"axis": (0, 0, 1), "centre": (0, 0, 0), "units": ("m", "N")}
+    disc = disc_model.Disc.from_uff(path, "100 mm", **place)
+    assert disc.diameters == (2,)
     assert math.tau * 1212 == pytest.approx(disc.omega[0], rel=1e-5)
     assert disc.damping_ratio[0] == pytest.approx(0.002)
 

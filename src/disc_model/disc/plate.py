@@ -115,7 +115,7 @@ def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
     """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them
     replace them."""
     if not disc.radii:
-        rule = "must have shapes, in columns such as shape_at_0.08_m: only amplitudes under the slider are known"
+        rule = "must have shapes at radii: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
     radii = np.array([r_0, *disc.radii])
     at_slider = np.array(disc.amplitude)

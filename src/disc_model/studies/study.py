@@ -24,7 +24,7 @@ from pydantic import (
 )
 
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
-from disc_model.disc.files.table import read_disc
+from disc_model.disc.table import disc_of_table
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
 from disc_model.mode_request import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
@@ -582,7 +582,7 @@ def _with_discs(raw: Any, folder: Path) -> Any:
         if not (named and isinstance(value, str)):
             return value
         try:
-            return read_disc(folder / value).model_dump(mode="json", exclude_none=True)
+            return disc_of_table(folder / value).model_dump(mode="json", exclude_none=True)
         except ParameterError as error:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 

@@ -9,22 +9,21 @@ are mass-normalised over the whole solid.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterable, Mapping
+from itertools import pairwise
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+import pandas as pd
+from scipy.sparse import coo_matrix, csgraph, linalg
 
-from disc_model.arrays import Array
-from disc_model.disc.files.mesh import pieces_of
+from disc_model.arrays import Array, Indices
 from disc_model.display import brought
 from disc_model.errors import Fault, ParameterError, require
 from disc_model.parameters import Disc, Parameters
 from disc_model.units import is_number
 
-if TYPE_CHECKING:
-    from skfem import MeshQuad
-
+MOST_ELEMENTS = 100_000  # in the rectangle around a section; more indicate a mistake in units
 SAME_PLACE = 1e-9  # m; the slider must run through a node of the mesh
 MOST_EQUAL = 64  # modes of equal nodal diameters; more indicate a mistake in units
 MOST_DIAMETERS = 60  # of the modes of a `Disc`
@@ -39,40 +38,34 @@ class Material(NamedTuple):
     rho: float
 
 
-class Points(NamedTuple):
-    """What is read from the shapes of the section: numbers of unknowns of the finite elements.
-
-    vertical, circular : displacements of the slider's node, normal to the disc and along its path
-    level : vertical displacements of the nodes at the slider's height
-    radii : m, where these nodes are
-    below : whether the slider is on the lower face of the disc
-    """
-
-    vertical: int
-    circular: int
-    level: NDArray[np.intp]
-    radii: Array
-    below: bool
-
-    @property
-    def unknowns(self) -> NDArray[np.intp]:
-        """All of them, in the order of the fields."""
-        return np.concatenate([[self.vertical, self.circular], self.level])
-
-
 class SectionMode(NamedTuple):
-    """A mode of the solid: rad/s, its numbers of diameters and circles, and kg^-1/2."""
+    """A mode of the solid by fields of a `Disc`: rad/s, numbers of diameters and circles, kg^-1/2."""
 
     omega: float
     diameters: int
     circles: int
     amplitude: float
     tangential: float
-    shape: list[float]
+    shapes: list[float]
+
+
+class Points(NamedTuple):
+    """What is read from the shapes of the section.
+
+    unknowns : numbers of unknowns of the finite elements: displacement of the slider's node normal to the disc
+        and along its path, then vertical displacements of the nodes at its height
+    radii : m, where these nodes are
+    side : 1 if the slider is on the lower face of the disc, -1 on the upper one
+    """
+
+    unknowns: Indices
+    radii: Array
+    side: int
 
 
 def disc_of_section(
-    mesh: MeshQuad,
+    rectangles: Iterable[Iterable[float]],
+    size: float,
     material: Mapping[str, Any],
     clamped: Callable[[Array], Any],
     slider: Any,
@@ -81,7 +74,9 @@ def disc_of_section(
     """Find the modes of a solid of revolution that move under the slider, see
     `disc_model.Disc.from_section`."""
     checked = Parameters(N=0, Omega=0, normalization="orthonormal", **material)
-    _check_section(mesh, slider, highest_Hz)
+    is_frequency = is_number(highest_Hz) and 0 < highest_Hz < math.inf
+    require((is_frequency, "highest_Hz", highest_Hz, "must be finite and > 0"))
+    mesh = mesh_of(rectangles, size)
 
     skfem = brought("skfem", "fe")
     element = skfem.ElementComposite(*[skfem.ElementQuad2()] * 3)
@@ -89,84 +84,87 @@ def disc_of_section(
     points = _points(basis, slider)
     held = basis.get_dofs(lambda x: np.broadcast_to(clamped(x), x.shape[1:])).all()
     rule = "must hold nodes of the section: coordinates are in m"
-    pieces = pieces_of(mesh)
-    require(
-        (len(held) > 0, "clamped", len(held), rule),
-        (pieces == 1, "mesh", pieces, "must be one piece: the rectangles must share edges"),
-    )
+    require((len(held) > 0, "clamped", len(held), rule))
 
     iron = Material(checked.E, checked.nu, checked.rho)
     modes = _modes(basis, iron, held, points, math.tau * highest_Hz)
-    largest = max((mode.amplitude for mode in modes), default=0.0)
-    moving = sorted(mode for mode in modes if mode.amplitude > UNMOVED * largest)
+    least = UNMOVED * max((mode.amplitude for mode in modes), default=0.0)
+    moving = sorted(mode for mode in modes if mode.amplitude > least)
     rule = "must be above a mode that moves under the slider"
     require((moving, "highest_Hz", highest_Hz, rule))
-    return Disc(
-        omega=[mode.omega for mode in moving],
-        diameters=[mode.diameters for mode in moving],
-        circles=[mode.circles for mode in moving],
-        amplitude=[mode.amplitude for mode in moving],
-        tangential=[mode.tangential for mode in moving],
-        damping_ratio=[float(material["damping_ratio"])] * len(moving),
-        radii=points.radii.tolist(),
-        shapes=[mode.shape for mode in moving],
+    damping_ratios = [float(material["damping_ratio"])] * len(moving)
+    columns: dict[str, Any] = {
+        str(name): values.tolist() for name, values in pd.DataFrame(moving).items()
+    }
+    return Disc(**columns, damping_ratio=damping_ratios, radii=points.radii.tolist())
+
+
+def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
+    """Mesh a union of rectangles (r from, r to, z from, z to), m, with a line of nodes along every
+    edge of each; `size`: m, largest edge of an element."""
+    boxes = np.array([*rectangles], float).reshape(-1, 2, 2)  # (rectangle, r and z, from and to)
+    low, high = np.moveaxis(boxes, 2, 0)
+    is_section = len(boxes) > 0 and (low < high).all() and (low[:, 0] > 0).all()
+    rule = (
+        "must be rectangles (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
     )
-
-
-def _check_section(mesh: Any, slider: Any, highest_Hz: Any) -> None:
-    """Refuse what is no mesh, no point or no frequency."""
-    is_mesh = isinstance(mesh, brought("skfem", "fe").MeshQuad)
-    is_point = isinstance(slider, tuple | list) and len(slider) == 2 and all(map(is_number, slider))
-    is_frequency = is_number(highest_Hz) and 0 < highest_Hz < math.inf
-    rule = "must be rectangles, with their size of an element, or a mesh of quadrilaterals"
     require(
-        (is_mesh, "section", mesh, rule),
-        (is_point, "slider", slider, "must be two numbers, r and z"),
-        (is_frequency, "highest_Hz", highest_Hz, "must be finite and > 0"),
+        (is_section, "section", rectangles, rule),
+        (is_number(size) and size > 0, "size", size, "must be > 0"),
     )
+    elements = np.prod(np.ptp(boxes, axis=(0, 2)) / size)
+    rule = f"must give at most {MOST_ELEMENTS:,} elements: size and rectangles are in m"
+    require((elements <= MOST_ELEMENTS, "size", size, rule))
+
+    lines = [_divided(np.unique(boxes[:, axis]), size) for axis in (0, 1)]
+    mesh = brought("skfem", "fe").MeshQuad.init_tensor(*lines)
+    middle = mesh.p[:, mesh.t].mean(axis=1).T[:, None]
+    is_inside = np.all((low < middle) & (middle < high), axis=2).any(axis=1)
+    mesh = mesh.remove_elements(np.flatnonzero(~is_inside))
+    rule = "must be one piece: the rectangles must share edges"
+    require((_is_one_piece(mesh), "section", rectangles, rule))
+    return mesh
 
 
-def _points(basis: Any, slider: tuple[float, float]) -> Points:
-    """The unknowns of the slider's node, and those at its height."""
-    _, vertical, circular = basis.split_indices()
-    places = basis.doflocs[:, vertical]
-    apart = np.hypot(places[0] - slider[0], places[1] - slider[1])
-    require((apart.min() < SAME_PLACE, "slider", slider, "must be a node of the mesh"))
-
-    nearest = int(np.argmin(apart))  # unknowns of each displacement are in the same order
-    level = np.flatnonzero(np.abs(places[1] - slider[1]) < SAME_PLACE)
-    radii, first = np.unique(places[0, level], return_index=True)
-    return Points(
-        vertical=int(vertical[nearest]),
-        circular=int(circular[nearest]),
-        level=vertical[level[first]],
-        radii=radii,
-        below=_is_below(basis.mesh, slider),
-    )
+def _divided(ends: Array, size: float) -> Array:
+    """Coordinates with all ends among them, and no gap larger than `size`."""
+    parts = []
+    for a, b in pairwise(ends):
+        count = math.ceil((b - a) / size)
+        parts.append(np.linspace(a, b, count + 1)[:-1])
+    return np.concatenate([*parts, ends[-1:]])
 
 
-def _is_below(mesh: Any, slider: tuple[float, float]) -> bool:
-    """Whether all elements at the slider are above it, so that it runs on the lower face."""
-    corners = mesh.p[:, mesh.t]  # (r and z, corner, element)
-    low = corners.min(axis=1)
-    high = corners.max(axis=1)
-    touching = np.all(
-        (low <= np.reshape(slider, (2, 1)) + SAME_PLACE)
-        & (high >= np.reshape(slider, (2, 1)) - SAME_PLACE),
-        axis=0,
-    )
-    return bool(np.all(low[1, touching] >= slider[1] - SAME_PLACE))
+def _is_one_piece(mesh: Any) -> bool:
+    """Whether all elements of a mesh are connected by nodes."""
+    count = mesh.p.shape[1]
+    weights = np.ones(mesh.facets.shape[1])
+    links = coo_matrix((weights, mesh.facets), shape=(count, count))
+    return csgraph.connected_components(links, directed=False)[0] == 1
+
+
+def _points(basis: Any, slider: Any) -> Points:
+    """What is read at the slider's node, and at its height."""
+    mesh = basis.mesh
+    require((np.shape(slider) == (2,), "slider", slider, "must be two numbers, r and z"))
+    apart = np.hypot(*(mesh.p.T - slider).T)
+    node = apart.argmin()
+    require((apart[node] < SAME_PLACE, "slider", slider, "must be a node of the mesh"))
+
+    touching = mesh.t[:, np.any(mesh.t == node, axis=0)]
+    side = 2 * int(mesh.p[1, touching].mean() > slider[1]) - 1
+    vertical = basis.split_indices()[1]
+    r, z = basis.doflocs[:, vertical]
+    level = np.abs(z - slider[1]) < SAME_PLACE
+    radii, first = np.unique(r[level], return_index=True)
+    at_slider = basis.nodal_dofs[1:, node]
+    return Points(np.concatenate([at_slider, vertical[level][first]]), radii, side)
 
 
 def _modes(
     basis: Any, material: Material, held: Any, points: Points, highest: float
 ) -> list[SectionMode]:
     """All modes up to the highest frequency (rad/s), by nodal diameters."""
-    # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from below,
-    # displacement towards the slider and the sense of rotation are reversed
-    side = -1.0
-    if points.below:
-        side = 1.0
     modes = []
     for l in range(MOST_DIAMETERS + 1):
         omega, moves = _harmonic(basis, l, material, held, points.unknowns, highest)
@@ -174,18 +172,18 @@ def _modes(
             break
         for circles, (frequency, values) in enumerate(zip(omega, moves, strict=True)):
             amplitude, circular, *shape = values.tolist()
-            tangential = 0.0 + side * circular  # adding zero turns -0.0 into 0.0
+            # the half of a pair that moves as sin(l theta) has u_theta = -v cos(l theta); seen from
+            # below, displacement towards the slider and the sense of rotation are reversed
+            tangential = 0.0 + points.side * circular  # adding zero turns -0.0 into 0.0
             modes.append(SectionMode(frequency, l, circles, amplitude, tangential, shape))
     return modes
 
 
 def _harmonic(
-    basis: Any, l: int, material: Material, held: Any, measured: NDArray[np.intp], highest: float
+    basis: Any, l: int, material: Material, held: Any, measured: Indices, highest: float
 ) -> tuple[list[float], Array]:
     """Find the modes with l nodal diameters up to the highest frequency (rad/s): their frequencies,
     and values of the measured unknowns (modes, unknowns), of which the first is not negative."""
-    from scipy.sparse.linalg import eigsh
-
     stiffness, mass = _matrices(basis, l, material)
     if l == 0:  # rotation about the axis is uncoupled from the other displacements
         held = np.union1d(held, basis.split_indices()[2])
@@ -198,7 +196,7 @@ def _harmonic(
     while True:
         sought = min(count, len(free) - 1)
         start = np.ones(len(free))
-        squares, shapes = eigsh(K, sought, M, sigma=0.0, v0=start)
+        squares, shapes = linalg.eigsh(K, sought, M, sigma=0.0, v0=start)
         if squares.max() > highest**2 or count >= len(free) - 1:
             break
         if count >= MOST_EQUAL:
