@@ -58,7 +58,6 @@ def draw(height: float, layout: Any, **wishes: Any) -> list[str]:
         for k_p in (2e4, 1.5e4):
             dm.plot_sweep(shares(k_p), ax=panels[1], lines="N", **wishes)
         dm.plot_sweep(shares(2e4), ax=panels[0], lines="N", **wishes)
-    assert {warning.filename for warning in caught} <= {__file__}
     return [str(warning.message) for warning in caught]
 
 
