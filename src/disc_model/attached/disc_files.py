@@ -109,10 +109,10 @@ def from_uff(
     """
     from disc_model.data.files import regular_file
     from disc_model.disc.plausibility import warn_of_disc
-    from disc_model.disc.universal import Place, disc_of_universal_file
+    from disc_model.disc.universal import disc_of_universal_file
 
-    place = Place(r_0=r_0, axis=axis, centre=centre, units=units)
-    disc = disc_of_universal_file(regular_file(path), place)
+    place = {"r_0": r_0, "axis": axis, "centre": centre, "units": units}
+    disc = disc_of_universal_file(regular_file(path), **place)
     warn_of_disc(disc)
     return disc
 
