@@ -327,10 +327,10 @@ class Disc(Strict):
         A normal mode with the shape psi and the modal mass m has the amplitude psi/sqrt(m).
         """
         from disc_model.data.files import regular_file
-        from disc_model.disc.universal import Place, disc_of_universal_file
+        from disc_model.disc.universal import disc_of_universal_file
 
-        place = Place(r_0=r_0, axis=axis, centre=centre, units=units)
-        return disc_of_universal_file(regular_file(path), place)
+        place = {"r_0": r_0, "axis": axis, "centre": centre, "units": units}
+        return disc_of_universal_file(regular_file(path), **place)
 
     @classmethod
     def from_section(  # noqa: PLR0913

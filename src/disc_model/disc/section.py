@@ -93,9 +93,7 @@ def disc_of_section(
     rule = "must be above a mode that moves under the slider"
     require((moving, "highest_Hz", highest_Hz, rule))
     damping_ratios = [float(material["damping_ratio"])] * len(moving)
-    columns: dict[str, Any] = {
-        str(name): values.tolist() for name, values in pd.DataFrame(moving).items()
-    }
+    columns: Any = pd.DataFrame(moving).to_dict("list")
     return Disc(**columns, damping_ratio=damping_ratios, radii=points.radii.tolist())
 
 

@@ -76,10 +76,11 @@ class Wave(NamedTuple):
     turn: float
 
 
-def disc_of_universal_file(path: str | os.PathLike[str], place: Place) -> Disc:
+def disc_of_universal_file(path: str | os.PathLike[str], **place: Any) -> Disc:
     """Read a disc from a universal file, see `disc_model.Disc.from_uff`."""
+    checked = Place(**place)
     try:
-        return _disc(_sets(path), place)
+        return _disc(_sets(path), checked)
     except ParameterError as error:
         faults = error.faults
     except (LookupError, ValueError) as error:
@@ -133,7 +134,7 @@ def _disc(sets: Sequence[Data], place: Place) -> Disc:
     del table["turn"]
     if table["tangential"].abs().max() < UNMOVED * table["amplitude"].max():
         del table["tangential"]
-    columns: dict[str, Any] = {str(name): values.tolist() for name, values in table.items()}
+    columns: Any = table.to_dict("list")
     return Disc(**columns)
 
 
