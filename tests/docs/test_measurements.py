@@ -489,15 +489,10 @@ def test_damping_that_students_found_does_not_change_the_verdict() -> None:
 
 
 def test_numbers_of_the_page_on_fits_are_said_to_be_computed() -> None:
-    """Rounded in the first example, with errors in the second."""
     text = said_on("howto/fit.md")
     case = dm.Parameters(N=385, Omega=14, mu_s=0.42, k_p=19e3)
-    assert "computed with `mu_s` = 0.42 and `k_p` = 19 kN/m and rounded" in text
+    assert "computed with `mu_s` = 0.42 and `k_p` = 19 kN/m" in text
     exact = {speed: slipping(case.replace(Omega=speed)) for speed in (12, 13, 14, 14.8)}
-    period, slip_time = exact[14]
-    assert f'"period": ("{1e3 * period:.2f} ms", "0.01 ms")' in text
-    assert f'"slip_time": ("{1e3 * slip_time:.2f} ms", "0.01 ms")' in text
-
     errors = []
     for place, name in enumerate(("periods", "slips")):
         shown = re.search(name + r" = \{(.*?)\}", text)
@@ -506,7 +501,7 @@ def test_numbers_of_the_page_on_fits_are_said_to_be_computed() -> None:
             speed, value = pair.split(": ")
             errors.append(abs(float(value) - exact[float(speed)][place]))
     assert len(errors) == 6
-    assert f"with errors of up to {1e3 * max(errors):.3f} ms" in text
+    assert f"have errors of up to {1e3 * max(errors):.3f} ms" in text
 
 
 def slipping(case: dm.Parameters) -> tuple[float, float]:
