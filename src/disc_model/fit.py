@@ -103,12 +103,12 @@ def fit(
     raise_faults(foreign_case(case) or [*_faults(case, request)])
     lmfit = brought("lmfit", "fit")
     raise_faults([*_faults_of_start(case, request.data)])
-    start = [case.numbers[name] for name in request.vary]
-    scales = [abs(value) or 1.0 for value in start]
+    start = {name: case.numbers[name] for name in request.vary}
+    scales = [abs(value) or 1.0 for value in start.values()]
 
     @cache
     def deviations(*values: float) -> Array:
-        changes = dict(zip(request.vary, values, strict=True))
+        changes = dict(zip(start, values, strict=True))
         try:
             return _deviations(case.replace(**changes), request.data)
         except DiscModelError:  # such as mu_k > mu_s
@@ -129,7 +129,7 @@ def fit(
         return np.transpose(columns)
 
     params = lmfit.Parameters()
-    for name, value in zip(request.vary, start, strict=True):
+    for name, value in start.items():
         low, high = request.bounds.get(name, (-math.inf, math.inf))
         params.add(name, value, min=low, max=high)
     # scipy's other tests of convergence depend on the parameters' units
