@@ -60,7 +60,7 @@ class Contact(NamedTuple):
     w_rate: float  # m/s
 
 
-@njit
+@njit(cache=True)
 def motion(case, modes, y, side, rates):
     """Fill the rates of a, b, alpha, beta, psi, f, u, u'; return the `Contact`.
 
@@ -143,7 +143,7 @@ def motion(case, modes, y, side, rates):
     return Contact(R, T, r_0 * g, surface, w, w_rate)
 
 
-@njit
+@njit(cache=True)
 def advance(case, modes, y, side, h):
     """Return the state after h, and what is negative there if the phase has ended before."""
     k1 = np.empty_like(y)
@@ -165,7 +165,7 @@ def advance(case, modes, y, side, h):
     return y, margin if case.bilateral else min(now.R, margin)
 
 
-@njit
+@njit(cache=True)
 def collide(case, modes, y, now):
     """Carry out a plastic impact."""
     n = len(modes.s)
@@ -181,7 +181,7 @@ def collide(case, modes, y, now):
     y[-3] -= p * lean / (case.m * case.r_0)
 
 
-@njit
+@njit(cache=True)
 def change(case, modes, y, side):
     """Return the phase after an event; contact may be lost, slip may end or turn."""
     rates = np.empty_like(y)
@@ -209,7 +209,7 @@ def change(case, modes, y, side):
     return np.sign(now.T)
 
 
-@njit
+@njit(cache=True)
 def follow(case, modes, y, side, t_end, h, stop):
     """Follow the motion from a phase.
 

@@ -116,7 +116,7 @@ def releases(events):
 @pytest.mark.parametrize(
     ("case", "t_end", "period", "length"),
     [
-        ({"N": 300, "Omega": 20}, 480, 45, 10),
+        ({"N": 300, "Omega": 20}, 480, 45, 5),
         pytest.param({"N": 200, "Omega": 20}, 800, 180, 30, marks=pytest.mark.slow),
         pytest.param({"N": 300, "Omega": 50, "k_p": 2e3}, 400, 280, 28, marks=pytest.mark.slow),
     ],
