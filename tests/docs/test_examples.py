@@ -169,7 +169,7 @@ def test_public_functions_have_all_sections(name: str) -> None:
 def drawing_methods() -> list[Any]:
     """Return the methods of what functions return that draw."""
     methods = []
-    for name in RETURNED:
+    for name in (*RETURNED, "Result"):
         for member in vars(resolve_name(f"disc_model.{name}")).values():
             if getattr(member, "__name__", "").startswith(("plot", "animate")):
                 methods.append(member)

@@ -10,6 +10,7 @@ import pytest
 from disc_model import Parameters
 from disc_model.data.texts import fill, write_page
 from tests.paper import evidence
+from workflow.paper import ledger
 from workflow.paper.ledger import COLUMNS, ROWS, summary
 from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Row
 from workflow.paper.paper_tables import LISTED, TABLE_1, UNNAMED, table_1, table_2
@@ -113,7 +114,9 @@ def test_the_summary_takes_the_period_of_its_row(table: pd.DataFrame) -> None:
 
 def test_the_page_links_and_escapes(table: pd.DataFrame, tmp_path: Path) -> None:
     for file in ("x.html", "x.md"):
-        write_page(tmp_path / file, "T", ("", summary(table), table), template="paper/ledger")
+        write_page(
+            tmp_path / file, "T", ("", summary(table), table), template=Path(ledger.__file__)
+        )
     x_path = tmp_path / "x.html"
     html = x_path.read_text()
     assert html.count('class="row"') == len(ROWS)

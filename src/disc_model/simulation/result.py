@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -260,6 +261,8 @@ class Result(Summarised, EqualByValue):
         from disc_model.data.columns import series_dataset
         from disc_model.data.tables import table_of
 
+        is_path = isinstance(path, str | os.PathLike)
+        require((is_path, "path", str(path), "must be the name of a folder"))
         folder = Path(path)
         folder.mkdir(parents=True, exist_ok=True)
         events = series_dataset(self._event_columns, "event")
