@@ -244,6 +244,8 @@ class Result(Summarised, RunPictures, EqualByValue):
 
         Raises
         ------
+        ParameterError
+            If `path` is no path.
         OSError
             If there can be no such folder, or a file cannot be written.
 
@@ -258,6 +260,7 @@ class Result(Summarised, RunPictures, EqualByValue):
         from disc_model.data.columns import series_dataset
         from disc_model.data.tables import table_of
 
+        require((isinstance(path, str | Path), "path", path, "must be the name of a folder"))
         folder = Path(path)
         folder.mkdir(parents=True, exist_ok=True)
         events = series_dataset(self._event_columns, "event")
