@@ -247,6 +247,8 @@ class Result(Summarised, EqualByValue):
 
         Raises
         ------
+        ParameterError
+            If `path` is no path.
         OSError
             If there can be no such folder, or a file cannot be written.
 
