@@ -30,7 +30,6 @@ from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import Disc, Parameters
 from disc_model.sources import PACKAGE
 from disc_model.units import TOLERANCES, Seconds, Strict, Tolerance
-from disc_model.without_reader import end_without_reader, go_on_without_reader
 
 # ---- Options, one for each field of a model
 
@@ -357,7 +356,6 @@ def study(
     from disc_model.studies.study import load_study
 
     load_study(*files)  # says what is wrong in fewer words than Snakemake
-    go_on_without_reader()  # jobs would stay, and the lock of the folder
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
     options += ["--dry-run"] * dry_run + ["--unlock"] * unlock
@@ -396,9 +394,8 @@ def _all(
 
 def main(arguments: list[str] | None = None) -> NoReturn:
     """Run the command line; never shows a traceback for bad input."""
-    if arguments is None:  # in a process of its own
+    if arguments is None:
         arguments = sys.argv[1:]
-        end_without_reader()
     if not arguments:
         arguments = ["--help"]
     # figures are only saved, and the backend of a notebook may not be installed here; Snakemake's

@@ -25,11 +25,7 @@ def test_names_of_attractors_say_what_they_are_of() -> None:
         (
             "speed, nan if friction acts on no surface that moves",
             "friction acts on no surface that moves",
-        ),
-        (
-            "rate, nan if the motion is near the cycle, or no other was found",
-            "stable, near the cycle, or no other found",
-        ),
+        )
     ],
 )
 def test_pictures_say_why_there_is_no_value(long_name: str, text: str) -> None:

@@ -78,12 +78,8 @@ def raw(**changes) -> dict:
 
 
 @pytest.mark.parametrize("tile", [16, 32, 64])
-def test_a_region_is_found_as_by_brute_force_with_fewer_points(
-    made_up, tile: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    for limit in ("SMALLEST_TILE", "LARGEST_TILE"):
-        monkeypatch.setattr(grid, limit, tile)
-    study = computed(**raw()).isel(normalization=0)
+def test_a_region_is_found_as_by_brute_force_with_fewer_points(made_up, tile: int) -> None:
+    study = computed(**raw(batch={"over": PLANE, "size": tile**2})).isel(normalization=0)
     assert not wrong(study).any()
     origin = flag_names(study["method"])
     assert set(np.unique(origin)) == {"simulation", "inferred", "multipliers"}
