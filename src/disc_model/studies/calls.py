@@ -142,6 +142,13 @@ def _is_ours(function: Any) -> bool:
     return str(getattr(function, "__module__", "")).startswith("disc_model.")
 
 
+def _warn_beside(dimensions: Sequence[Dimension]) -> None:
+    """Warn of columns of a table of samples that are no numbers of the case."""
+    if beside := " and ".join(name for each in dimensions for name in each.beside):
+        text = f"{beside}: no number of the case, kept beside the samples"
+        warnings.warn(text, ImplausibleValue, stacklevel=5)
+
+
 def checked_call(
     function: Any,
     case: Any,
@@ -185,12 +192,7 @@ def checked_call(
 
     defaults = _defaults(arguments, named, over, faults)
     raise_faults(faults)
-    for dimension in together:
-        if dimension.beside:
-            text = (
-                f"{' and '.join(dimension.beside)}: no number of the case, kept beside the samples"
-            )
-            warnings.warn(text, ImplausibleValue, stacklevel=4)
+    _warn_beside(together)
     return Call(
         title,
         arguments.ours,
