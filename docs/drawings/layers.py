@@ -22,7 +22,6 @@ WHAT = {
     "fit": "parameters of a case from measurements",
     "mode_choice": "number of modes for a quantity of the motion",
     "mode_measures": "quantities of the motion that tell it",
-    "mode_request": "what a study file asks of the number of modes",
     "figures": "datasets to pictures; never simulates",
     "stability": "cycles, their growth rates, curves, exponents",
     "analysis": "spectra, Poincaré sections, kinds of motion",

@@ -19,16 +19,7 @@ from disc_model.data.variables import PERTURBATIONS, START, attributes, values_t
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
 from disc_model.figures.words import factors_of
-from disc_model.parameters import (
-    AUTO,
-    CHOOSING,
-    NUMBER_OR_WORD,
-    PLATE,
-    RATIOS,
-    RELATED,
-    Parameters,
-    case_of,
-)
+from disc_model.parameters import NUMBER_OR_WORD, PLATE, RATIOS, RELATED, Parameters, case_of
 from disc_model.simulation.case import SomeParameters, Start
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.quantity import Blocks, Quantity, Range, Value, compiled_rule, holds
@@ -240,7 +231,7 @@ class GridStudy:
     def _check(self) -> None:
         """Raise `ParameterError` with the faults between the parts of the file; what the later ones
         need is checked first."""
-        raise_faults([*self._wrong_modes(), *self._wrong_names(), *self._wrong_starts()])
+        raise_faults([*self._wrong_names(), *self._wrong_starts()])
         raise_faults([*self._wrong_extent()])
         self.base  # noqa: B018
         faults = [*self.options.faults(self)]
@@ -447,16 +438,6 @@ class GridStudy:
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
-
-    def _wrong_modes(self) -> Iterator[Fault]:
-        """The points of a grid have the same modes, or a number of them along an axis."""
-        if self.given.get("n_diameters") == AUTO:
-            rule = "chooses the modes of named cases; a grid states their number (choose_modes)"
-            yield Fault.of(("base", "n_diameters"), AUTO, rule)
-        for name in CHOOSING:
-            if name in self.given:
-                rule = f"is used with n_diameters={AUTO!r} only, in named cases"
-                yield Fault.of(("base", name), self.given[name], rule)
 
     def _wrong_names(self) -> Iterator[Fault]:
         """Each parameter must be given once: along an axis, in base, by a ratio, or by the

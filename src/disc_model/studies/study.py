@@ -4,7 +4,6 @@ One `StudyError` lists all faults: those of single values, or those between valu
 right.
 """
 
-import json
 import os
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property, reduce
@@ -27,8 +26,7 @@ from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, va
 from disc_model.disc.table import disc_of_table
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
-from disc_model.mode_request import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
-from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
+from disc_model.parameters import RATIOS, Disc, Parameters
 from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
@@ -52,7 +50,7 @@ from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
+from disc_model.units import Positive, Seconds, Strict, Tolerance, must
 
 MODES = {
     "as_published": "modes scaled as in the published results",
@@ -123,27 +121,8 @@ class RecordSpec(Strict):
 _ratios: dict[str, Any] = {
     name: (Positive | None, Field(None, **described(name))) for name in RATIOS
 }
-_WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
-
-
-class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
-    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left
-    to each case."""
-
-    n_diameters: Annotated[
-        int,
-        *Parameters.model_fields["n_diameters"].metadata,
-        pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
-        WithJsonSchema(
-            {"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}
-        ),
-    ] = Field(None, **described("n_diameters"))
-    truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
-        None, description="quantity by which n_diameters: auto chooses the modes"
-    )
-    truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
-        None, description="relative tolerance of this quantity"
-    )
+GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_ratios)
+"""Parameters, or ratios of them, any of which may be left out."""
 
 
 def _mapping(raw: Any) -> Mapping[str, Any]:
@@ -158,9 +137,10 @@ class NamedCase(Strict):
     title: str = ""
     reference: str = ""
     parameters: Annotated[
-        tuple[Parameters, ModeRequest | None],
+        Parameters,
         PlainValidator(
-            lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters
+            lambda raw: Parameters.model_validate(_mapping(raw)),
+            json_schema_input_type=GivenParameters,
         ),
     ] = Field({}, validate_default=True)
     t_end: Seconds
@@ -173,7 +153,7 @@ class NamedCase(Strict):
     @cached_property
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
-        p, request = self.parameters
+        p = self.parameters
         spans, faults = self._spans()
         if self.ramps:
             for fault in ramp_faults(p, self.ramps, poincare=self.record.poincare is not None):
@@ -192,8 +172,6 @@ class NamedCase(Strict):
             poincare=self.record.poincare,
             events=self._kept_events(events),
             start=_with_ratios_of(p, self.start),
-            # modes that are left to be chosen are chosen when the case runs
-            modes="" if request is None else json.dumps(request.model_dump(), sort_keys=True),
             ramps=self.ramps,
         )
 
@@ -319,7 +297,7 @@ class Study(Strict):
 
     study: Annotated[Name, _but({"compiled", "bench"}, "is the name of another folder of results")]
     title: str = ""
-    base: GivenParameters = GivenParameters()
+    base: GivenParameters = Field({}, validate_default=True)
     figures: Annotated[
         dict[Name, Figure],
         BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None]),
