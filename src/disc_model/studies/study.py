@@ -5,7 +5,7 @@ right.
 """
 
 import os
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
@@ -37,20 +37,12 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.grid import (
-    GRID_KEYS,
-    STATIC,
-    BatchSpec,
-    Columns,
-    FigureEntry,
-    GridStudy,
-    described,
-)
+from disc_model.studies.grid import GRID_KEYS, BatchSpec, Columns, FigureEntry, GridStudy, described
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.units import Positive, Seconds, Strict, Tolerance, must
+from disc_model.units import Positive, Seconds, Strict, Tolerance
 
 MODES = {
     "as_published": "modes scaled as in the published results",
@@ -83,8 +75,11 @@ TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameter
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
 
-def _but(taken: Collection[str], rule: str) -> AfterValidator:
-    return AfterValidator(must(lambda name: name not in taken, rule))
+def _no_folder(name: str) -> str:
+    """The name of a study, which is not that of another folder of results."""
+    if name in ("compiled", "bench"):
+        raise ValueError("is the name of another folder of results")
+    return name
 
 
 def _no_variable(name: str) -> str:
@@ -105,7 +100,6 @@ _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_le
 Name = Annotated[str, _LETTERS]
 CaseName = Annotated[Name, AfterValidator(_no_variable)]
 WindowName = Annotated[Name, AfterValidator(_no_group)]
-StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Named cases
 
@@ -295,7 +289,7 @@ def _with_form(fault: Fault, known: Mapping[str, Option]) -> Fault:
 class Study(Strict):
     """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md."""
 
-    study: Annotated[Name, _but({"compiled", "bench"}, "is the name of another folder of results")]
+    study: Annotated[Name, AfterValidator(_no_folder)]
     title: str = ""
     base: GivenParameters = Field({}, validate_default=True)
     figures: Annotated[
@@ -324,12 +318,8 @@ class Study(Strict):
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
     batch: BatchSpec = BatchSpec()
-    starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
-    overrides: dict[str, dict[str, Any]] = Field(
-        {}
-    )  # of values in these files, by the name of the study
     _tables: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
@@ -437,9 +427,6 @@ class Study(Strict):
         grids.update((name, self._grid_of(path)) for name, path in paths.items())
 
         faults = []
-        for name in sorted(self.overrides.keys() - grids.keys()):
-            told = suggestion(name, sorted(grids))
-            faults.append(f"overrides.{name}: no such study{told}")
         figures = [(self.name, name, plot) for name, plot in self.plots.items()]
         for name in sorted({*requested} - {self.name}):
             figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
@@ -458,9 +445,8 @@ class Study(Strict):
         return shown
 
     def _grid_of(self, path: Path) -> GridStudy:
-        """The grid of another file, with the overrides of this one."""
-        content = inherit(mapping(read_file(path)), self.overrides.get(path.stem, {}))
-        study = parse_study(content, path.parent, _shown(path))
+        """The grid of another file."""
+        study = parse_study(read_file(path), path.parent, _shown(path))
         wrong = {
             "must be the name of the file": study.name != path.stem,
             "is the name of another folder of results": study.name == self.name,
