@@ -1,6 +1,5 @@
 """How many modes a study needs: for quantities of the motion, and for frequencies of the disc."""
 
-import json
 import math
 import pickle
 from collections.abc import Callable
@@ -10,10 +9,7 @@ import pytest
 
 from disc_model import Disc, Parameters, choose_modes, mode_choice, steady_sliding
 from disc_model.errors import DiscModelError
-from disc_model.mode_choice import RICH, UndecidedModes, choose_when_run, frequency_error
-from disc_model.simulation.case import CaseSpec
-from disc_model.simulation.named_case import run_case
-from disc_model.studies.study import parse_study
+from disc_model.mode_choice import RICH, UndecidedModes, frequency_error
 from tests.blocks import STEEL
 from tests.refusals import refusal
 
@@ -68,26 +64,6 @@ def test_a_bar_counts_the_models(measured: Measured, capsys: pytest.CaptureFixtu
         choose_modes(RESIDUAL, progress=1)  # type: ignore[arg-type]
 
 
-def one_case(**text: Any) -> CaseSpec:
-    parameters = {"N": 385, "n_diameters": "auto", **text}
-    cases = {"A": {"title": "A", "t_end": 0.01, "parameters": parameters}}
-    return parse_study({"study": "s", "base": {"Omega": 15.1}, "cases": cases}).specs["A"]
-
-
-def test_a_case_is_run_with_the_modes_that_its_quantity_needs(measured: Measured) -> None:
-    measured(lambda d, c: 1.0 + 0.1 / d**2)
-    with pytest.raises(
-        DiscModelError, match=r"choose=None: must be `disc_model\.mode_choice\.choose_when_run`"
-    ):
-        run_case(one_case(truncation_quantity="growth"))
-    done = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
-    assert json.loads(done.attrs["parameters"])["n_diameters"] == 3
-    assert json.loads(done.attrs["truncation"])["quantity"] == "growth"
-    measured(lambda d, c: float(d))
-    failed = run_case(one_case(truncation_quantity="growth"), choose=choose_when_run)
-    assert "n_diameters: undecided" in failed.attrs["message"]
-
-
 @pytest.mark.parametrize("value", [float, lambda d: math.nan], ids=["changing", "missing"])
 def test_an_undecided_choice_has_the_values_it_looked_at(
     value: Callable[[int], float], measured: Measured
@@ -139,7 +115,6 @@ def test_modes_that_grow_and_are_left_out_are_told() -> None:
     assert choice.growing == (1, 3)
     assert repr(choice).endswith("; with all 5 modes 3 grow, with these 1)")
     assert dict(choice.summary())["modes that grow"] == "with all 5 modes 3 grow, with these 1"
-    assert json.loads(choice.to_json())["growing"] == [1, 3]
 
 
 def test_growth_of_steady_sliding_converges_under_a_pad_and_not_at_a_point(
@@ -200,7 +175,6 @@ def test_only_modes_up_to_a_frequency_are_judged(highest: Any, text: str) -> Non
     assert dict(choice.summary())["modes judged"] == text
     assert choice.highest_frequency is not None
     limit = math.tau * choice.highest_frequency
-    assert json.loads(choice.to_json())["highest_frequency"] == choice.highest_frequency
     for frequency in choice.frequencies.values():
         assert frequency <= choice.highest_frequency
 
@@ -274,26 +248,6 @@ def test_choice_meets_the_tolerance_with_the_fewest_modes(normalization, toleran
     assert frequency_error(chosen, rich) == pytest.approx(choice.error, rel=1e-9)
     smaller = chosen.replace(n_diameters=chosen.n_diameters - 1)
     assert frequency_error(smaller, rich) > tolerance
-
-
-@pytest.mark.compiled
-def test_a_case_of_the_workflow_keeps_the_record_of_its_choice() -> None:
-    raw = {"study": "s", "base": {"Omega": 15.1}, "cases": {}}
-    raw["cases"]["A"] = {
-        "title": "A",
-        "t_end": 0.01,
-        "parameters": {"N": 385, "n_diameters": "auto"},
-    }
-    raw["cases"]["B"] = {"title": "A", "t_end": 0.01, "parameters": {"N": 385, "n_diameters": 3}}
-    automatic, given = parse_study(raw).specs.values()
-    record = choose_modes(P).to_json()
-    read = CaseSpec.model_validate_json(automatic.canonical)
-    assert read == automatic
-    done = run_case(read, choose_when_run)
-    assert done.attrs["truncation"] == record
-    assert done.attrs["parameters"] == run_case(given).attrs["parameters"]
-    assert "truncation" not in run_case(given).attrs
-    assert given.modes == ""
 
 
 def test_a_choice_says_for_which_speed_it_is(measured: Measured) -> None:

@@ -30,7 +30,6 @@ WRONG |= {"matrix": np.eye(2), "dict": {1: 2}, "object": object(), "nothing": []
 SLIPPING = dm.simulate(P, 2.5e-3).final_state
 RUN = dm.simulate(P, 1e-4, {"all": dm.Window(rate=1e5)})
 GRID = xr.Dataset({"growth_rate": ("Omega", [0.1, 0.2])}, {"Omega": [1.0, 2.0]})
-BRANCHES = dm.sweep(dm.continue_cycle, P, name="Omega", bounds=(19.9, 20.1), N=[200])
 DISC = dm.Disc(diameters=[0], omega=[1e3], amplitude=[1.0])
 FREQUENCY = [{"quantity": "frequency_0_0", "value": 239.0, "uncertainty": 1.0}]
 PLANE = {"case": P, "bounds": {"Omega": (10.0, 30.0), "N": (100, 300)}, "lines": (200.0,)}
@@ -95,7 +94,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     ),
     (dm.plot_modes, {"case": P}, PICTURE | {"most": "huge"}),
     (dm.fit, {"case": P, "vary": ["E"], "data": FREQUENCY}, {"bounds": "None"}),
-    (dm.plot_branches, {"swept": BRANCHES}, PICTURE | {"looks": "None", "units": "None"}),
     (
         dm.plot_sweep,
         {"study": GRID},

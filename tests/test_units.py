@@ -161,8 +161,8 @@ def test_python_takes_units_everywhere() -> None:
 
 def grid(E: Any, h: Any, Omega: Any, **options: Any) -> dict[str, Any]:
     raw = {"study": "s", "quantity": "outcome", "base": {"N": 200, "E": E}}
-    raw |= {"starts": {"k": {"perturbation": {"u": options.pop("u")}}}, "options": options}
-    return raw | {"axes": {"Omega": Omega, "h": h, "start": ["static", "k"]}}
+    options["perturbation"] = {"u": options.pop("u")}
+    return raw | {"options": options, "axes": {"Omega": Omega, "h": h}}
 
 
 def test_spelling_with_units_runs_nothing_anew() -> None:

@@ -26,7 +26,6 @@ _NAMES = {
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
-    "figures.branch_pictures": "plot_branches",
     "figures.pictures": "plot_campbell plot_modes plot_sweep",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite "
@@ -86,7 +85,6 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
-    from disc_model.figures.branch_pictures import plot_branches
     from disc_model.figures.pictures import plot_campbell, plot_modes, plot_sweep
     from disc_model.fit import fit
     from disc_model.mode_choice import choose_modes

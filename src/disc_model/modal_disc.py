@@ -9,27 +9,12 @@ from functools import partial
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
-from pydantic import (
-    BeforeValidator,
-    Field,
-    ModelWrapValidatorHandler,
-    field_validator,
-    model_validator,
-)
+from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from disc_model.display import counted
 from disc_model.errors import Fault, raise_faults
-from disc_model.mode_units import OF_COLUMNS, UNCERTAIN, mode_number, mode_numbers
-from disc_model.units import (
-    Count,
-    Finite,
-    Positive,
-    Strict,
-    Unit,
-    limits_faults,
-    mixed_units,
-    within,
-)
+from disc_model.mode_units import UNCERTAIN, mode_number, mode_numbers
+from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
 
 if TYPE_CHECKING:
     import os
@@ -119,17 +104,6 @@ class Disc(Strict):
             circles: Column = ..., tangential: Column = ..., static_compliance: Quantity | None = ...,
             radii: Column = ..., shapes: Iterable[Column] = ...,
         ) -> None: ...  # fmt: skip
-
-    @model_validator(mode="wrap")
-    @classmethod
-    def _of_one_unit(cls, data: Any, handler: ModelWrapValidatorHandler[Self]) -> Self:
-        """Refuse columns of which some numbers have a unit and others none, where each is right by itself."""
-        disc = handler(data)
-        for name in UNCERTAIN:
-            column: Any = data.get(name) if isinstance(data, dict) else None
-            if isinstance(column, list | tuple) or hasattr(column, "dtype"):
-                raise_faults(mixed_units(column, OF_COLUMNS.get(name, "1"), (name,)))
-        return disc
 
     @model_validator(mode="after")
     def _consistent(self) -> Self:

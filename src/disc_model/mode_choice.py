@@ -5,28 +5,37 @@ is not known.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
+from pydantic import Field, model_validator
 
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Bar, Summarised, counted, number_text, progress_bar
-from disc_model.errors import DiscModelError, require, with_known_names
+from disc_model.errors import DiscModelError, Fault, raise_faults, require, with_known_names
 from disc_model.mode_measures import (
     LACKING,
     MEASURES,
+    SLIDING_GROWTH,
     growing_frequency,
     growing_modes,
     sliding_growth,
 )
-from disc_model.mode_request import FREQUENCIES, SLIDING_GROWTH, ModeRequest
 from disc_model.parameters import RESIDUAL, Disc, Parameters
+from disc_model.units import Finite, Strict, Unit
 
+FREQUENCIES = "frequencies"  # the quantity by which modes are chosen by default
+# quantities by which modes may be chosen, and their default relative tolerances
+CHOSEN_BY = {FREQUENCIES: 1e-3, "growth": 1e-2, SLIDING_GROWTH: 1e-2, "first_separation": 1e-2}
+# Least tolerance, relative: the coupled frequencies of `RICH` change as much with more modes (5e-5 as
+# published, 2e-4 orthonormal, against 30 diameters and 8 circles), and growth rates and times depend on
+# the frequencies.
+TRUSTED = 1e-4
 RICH = (20, 6)  # diameters and circles of the reference model for frequencies
 # diameters and circles of the candidates by a quantity of the motion: the last is compared with 99
 # modes
@@ -37,6 +46,29 @@ LARGER = ((10, 1), (10, 2), (14, 2), (10, 3), (14, 3))
 GIVEN_UP = (4, 0)  # the search ends here if no model so far, of up to 34 modes, has the quantity
 MORE_MODES = "give a table with more modes, or a larger tolerance"
 BAND = 2.0  # upper end of the band of compared frequencies, relative to the lowest frequency of the disc
+
+
+class ModeRequest(Strict):
+    """Quantity and tolerance for the choice of the number of modes, and the highest frequency of growing
+    modes that are judged, Hz; `CHOSEN_BY` has the default tolerances."""
+
+    quantity: Literal[*CHOSEN_BY] = FREQUENCIES  # type: ignore[valid-type]
+    tolerance: Annotated[Finite, Field(ge=TRUSTED)] = CHOSEN_BY[FREQUENCIES]
+    highest_frequency: Annotated[Finite, Field(gt=0), Unit("Hz")] | None = None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_tolerance(cls, values: dict[str, Any]) -> dict[str, Any]:
+        tolerance = CHOSEN_BY.get(str(values.get("quantity")), CHOSEN_BY[FREQUENCIES])
+        return {"tolerance": tolerance, **values}
+
+    @model_validator(mode="after")
+    def _of_sliding(self) -> Self:
+        """A highest frequency is that of modes of steady sliding."""
+        if self.highest_frequency is not None and self.quantity != SLIDING_GROWTH:
+            rule = f"is used with quantity={SLIDING_GROWTH!r} only"
+            raise_faults([Fault.of(("highest_frequency",), self.highest_frequency, rule)])
+        return self
 
 
 @dataclass(frozen=True)
@@ -127,28 +159,6 @@ class ModeChoice(Summarised):
         if len(size) == 1:
             return counted(size[0], "mode")
         return f"{counted(size[0], 'diameter')}, {counted(size[1], 'circle')}"
-
-    def to_json(self) -> str:
-        """The choice as JSON text, for an attribute of a dataset."""
-        p = self.parameters
-        record = {name: getattr(self, name) for name in ("tolerance", "error", "modes")}
-        if p.disc is None:
-            record |= {"n_diameters": p.n_diameters, "n_circles": p.n_circles}
-        else:
-            record["modes_of_the_table"] = len(p.disc.omega)
-        if self.quantity == FREQUENCIES:
-            record["band"] = BAND
-        else:
-            values: dict[str, float | None] = {}
-            for size, value in self.values.items():
-                values[",".join(map(str, size))] = value if np.isfinite(value) else None
-            record |= {"quantity": self.quantity, "values": values}
-        if self.growing is not None:
-            record["growing"] = list(self.growing)
-        if self.highest_frequency is not None:
-            record["highest_frequency"] = self.highest_frequency
-        record["compared_with"] = list(self.rich)
-        return json.dumps(record, sort_keys=True)
 
 
 class UndecidedModes(DiscModelError):
@@ -347,13 +357,6 @@ def choose_modes(
         case = Parameters.model_validate({name: x for name, x in case.items() if name not in sizes})
     with progress_bar("choose_modes", None, progress) as bar:
         return chosen_modes(case, request, bar)
-
-
-def choose_when_run(p: Parameters, request: str) -> tuple[Parameters, str]:
-    """A case with the modes that the text `CaseSpec.modes` asks for, and how they were chosen, as
-    JSON."""
-    choice = chosen_modes(p, ModeRequest(**json.loads(request)))
-    return choice.parameters, choice.to_json()
 
 
 def chosen_modes(p: Parameters, request: ModeRequest, bar: Bar | None = None) -> ModeChoice:

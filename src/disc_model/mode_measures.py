@@ -5,12 +5,12 @@ from collections.abc import Callable
 from functools import lru_cache
 from typing import NamedTuple
 
-from disc_model.mode_request import SLIDING_GROWTH
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
 
+SLIDING_GROWTH = "sliding_growth"  # the growth rate of steady sliding
 HORIZON = 600.0  # s, simulated at most until the first separation
 
 

@@ -18,8 +18,6 @@ from disc_model.hashing import canonical_json, content_key
 from disc_model.modal_disc import Disc, Quantity
 from disc_model.units import UNITS, Count, Finite, Real, Strict, in_si, is_number, must, number
 
-AUTO = "auto"  # value of ``n_diameters`` in a file for which `disc_model.mode_choice` chooses the modes
-CHOOSING = ("truncation_quantity", "truncation_tolerance")  # keys of files that control this choice
 RESIDUAL = "residual"  # value of ``contact_compliance`` that stands for the static flexibility of the modes left out
 NUMBER_OR_WORD = ("contact_compliance", "friction_offset")  # parameters that are one or the other
 SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on the disc's surface
@@ -69,9 +67,6 @@ _Distance = Annotated[
 _DECAY = must(lambda value: value <= 1e12 or value == math.inf, "must be at most 1e12 s/m, or inf")
 # What only files and the command line accept is refused with the name of the function to use
 # instead.
-_CHOSEN = must(
-    lambda value: value != AUTO, "must be a whole number; disc_model.choose_modes finds one"
-)
 _READ = must(
     lambda value: not isinstance(value, str),
     "must be a Disc: disc_model.Disc.from_csv reads a table of modes",
@@ -130,7 +125,7 @@ class Parameters(Strict):
     h: Finite = _field(0.002, "m", "thickness of the disc", gt=0)
     nu: Finite = _field(0.211, "1", "Poisson's ratio of the disc", gt=-1, lt=0.5)
     rho: Finite = _field(7200.0, "kg/m^3", "density of the disc", gt=0)
-    n_diameters: Annotated[Count, BeforeValidator(_CHOSEN)] = _field(
+    n_diameters: Count = _field(
         4, "1", "highest number of nodal diameters, -1 for a rigid disc", ge=-1, le=60
     )
     n_circles: Count = _field(0, "1", "highest number of nodal circles", ge=0, le=20)
@@ -282,7 +277,7 @@ class Parameters(Strict):
             rule = "must be left out where damping_ratio is given"
         for name in unused:
             value = getattr(self, name)
-            if value not in (type(self).model_fields[name].default, AUTO):
+            if value != type(self).model_fields[name].default:
                 yield Fault.of((name,), value, rule)
 
     def _order_faults(self) -> Iterator[Fault]:
@@ -449,7 +444,7 @@ def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
 def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
     """The values of a point that belong to its case, without starts and samples; a disc's name
     becomes its table. Ratios stay ratios, so that they are kept where the case is varied further."""
-    known = (*Parameters.model_fields, *CHOOSING, *RATIOS)
+    known = (*Parameters.model_fields, *RATIOS)
     case = {name: value for name, value in values.items() if name in known}
     if isinstance(case.get("disc"), str):
         case["disc"] = discs[case["disc"]]

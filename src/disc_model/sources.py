@@ -35,7 +35,6 @@ PHYSICS = (
     "modal_disc.py",
     "mode_choice.py",
     "mode_measures.py",
-    "mode_request.py",
     "mode_units.py",
     "parameters.py",
     "simulation",

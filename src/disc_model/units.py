@@ -9,7 +9,7 @@ import math
 import numbers
 import re
 import types
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import (
     TYPE_CHECKING,
@@ -95,17 +95,6 @@ _MISLEADING = {"gr": "g", "grad": "deg", "ton": "t", "Nm": "N m", "Ns": "N s", "
 nanometre) or for none, and what is meant."""
 _EXAMPLES = {"N": "kN", "Pa": "GPa", "m": "mm", "N/m": "kN/m", "kg": "g", "s": "ms"}
 """Units of the kind of others that readers often use."""
-_USUAL: tuple[str, ...] = (
-    *("kN", "MN", "N", "kPa", "MPa", "GPa", "Pa", "kJ", "J"),
-    *("mm", "m", "kg", "g", "ms", "s", "rpm", "rad", "deg", "Hz", "kHz"),
-)
-"""Units whose small and capital letters are often confused."""
-ENDS = ("start", "stop", "step")
-"""Keys of a range whose numbers have one unit."""
-PARTS_OF_AXES = (*ENDS, "extra", "blocks")
-"""Keys of an axis under which it has values."""
-GIVEN_IN = "given_in"
-"""Key of a range for the unit in which it is given, and for that of SI, in which its ends are."""
 
 
 @functools.lru_cache(maxsize=1)
@@ -177,18 +166,6 @@ def _rounded(quantity: Any, target: Any) -> float:
     return float(f"{quantity.to(target).magnitude:.15g}")
 
 
-def unit_of_text(text: str) -> str:
-    """The unit of a number in a text, as it is written there; "" without one."""
-    match = _WITH_UNIT.fullmatch(text.translate(_SPELLINGS))
-    return match[2].strip() if match else ""
-
-
-def one_unit_of(texts: Iterable[str]) -> str:
-    """The one unit of the numbers in all texts; "" without one, or if they have several."""
-    found = {unit_of_text(text) for text in texts}
-    return found.pop() if len(found) == 1 else ""
-
-
 def size_of_unit(unit: str, target: str) -> float:
     """One of a unit in another one; 0 if it is not of its kind."""
     faults: list[Fault] = []
@@ -231,7 +208,6 @@ def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Faul
     if unit == "1/s":
         rule += ", such as 1/min; Hz and rpm may mean turns"
     meant = [_MISLEADING[word] for word in re.findall(r"\w+", text) if word in _MISLEADING]
-    meant = meant or _other_letters(text, unit)
     if meant:
         rule += f", did you mean {meant[0]}?"
     elif unit in _EXAMPLES:
@@ -239,121 +215,21 @@ def _unit_fault(path: tuple[str, ...], value: Any, text: str, unit: str) -> Faul
     return Fault.of(path, value, rule)
 
 
-def _other_letters(text: str, unit: str) -> list[str]:
-    """A unit of the kind of another one that differs from a text in small and capital letters alone, if
-    there is one."""
-    usual = {word.lower(): word for word in _USUAL}
-    meant = re.sub(r"[A-Za-z]+", lambda word: usual.get(word[0].lower(), word[0]), text)
-    try:
-        converted(1.0, meant, unit)
-    except Exception:  # of pint and of Python's tokenizer, which have no common base
-        return []
-    return [meant]
-
-
-def mixed_units(values: Iterable[Any], unit: str, path: tuple[str, ...]) -> list[Fault]:
-    """The fault of a number without a unit beside such as have another one than that of SI, of which it
-    may have either; zero is zero in any."""
-    listed = list(values)
-    with_unit = [x for x in listed if _has_another_unit(x, unit)]
-    without = [x for x in listed if _has_no_unit(x)]
-    if not (with_unit and without):
-        return []
-    beside = str(with_unit[0])
-    rule = f"has no unit beside {beside!r}: give it one; decimals have a point in place of a comma"
-    return [Fault.of(path, without[0], rule)]
-
-
-def _has_another_unit(value: Any, unit: str) -> bool:
-    """Whether a text or a quantity of pint is a number in another unit than a given one."""
-    if is_quantity(value):
-        return format(value.units, "~C") != unit
-    if not isinstance(value, str):
-        return False
-    match = _WITH_UNIT.fullmatch(value)
-    return match is not None and match[2].strip() != unit
-
-
-def _has_no_unit(value: Any) -> bool:
-    """Whether a value is a number other than zero without a unit, or the text of one."""
-    if isinstance(value, str):
-        return _PLAIN_NUMBER.fullmatch(value) is not None and float(value) != 0
-    return is_number(value) and value != 0
-
-
-def _numbers_of_one_unit(value: Any) -> Iterator[Any]:
-    """Yield the numbers within a list or a range, which have one unit."""
-    parts: Iterable[Any] = ()
-    if isinstance(value, dict):
-        parts = [value[key] for key in PARTS_OF_AXES if key in value]
-    elif type(value) in (list, tuple):
-        parts = value
-    for part in parts:
-        if isinstance(part, dict | list | tuple):
-            yield from _numbers_of_one_unit(part)
-        else:
-            yield part
-
-
 def in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
     """A value with all texts within it that have a unit, such as ``"150 GPa"``, and all quantities
     of pint and single numbers of xarray with a unit, as numbers in the given unit. A unit of
-    another kind is a fault at its `path`, and so is a number without a unit beside others."""
-    if not unit or type(value) is float:
-        return value
-    wrong: list[Fault] = []
-    found = _all_in_si(value, unit, wrong, path)
-    if isinstance(unit, str) and not wrong:
-        wrong += mixed_units(_numbers_of_one_unit(value), unit, path)
-    faults += wrong
-    return found
-
-
-def _all_in_si(value: Any, unit: Units, faults: list[Fault], path: tuple[str, ...]) -> Any:
-    """A value with all numbers within it in SI units, which may be mixed with numbers without any."""
+    another kind is a fault at its `path`."""
     if not unit or type(value) is float:
         return value
     if isinstance(value, dict):
-        return _parts_in_si(value, unit, faults, path)
+        units = dict.fromkeys(value, unit) if isinstance(unit, str) else unit
+        return {x: in_si(value[x], units.get(x, ""), faults, (*path, str(x))) for x in value}
     if type(value) in (list, tuple):
-        return type(value)(
-            _all_in_si(part, unit, faults, (*path, str(i))) for i, part in enumerate(value)
-        )
+        parts = enumerate(value)
+        return type(value)(in_si(part, unit, faults, (*path, str(i))) for i, part in parts)
     if not isinstance(unit, str):
         return value
     return _single_in_si(value, unit, faults, path)
-
-
-def _parts_in_si(
-    value: dict[Any, Any], unit: Units, faults: list[Fault], path: tuple[str, ...]
-) -> Any:
-    """The values of a dict in SI units, all in one unit or each in its own; those of a range with the
-    unit in which it is given."""
-    if not isinstance(unit, str):
-        return {x: in_si(value[x], unit.get(x, ""), faults, (*path, str(x))) for x in value}
-    found = {}
-    for name, part in value.items():
-        convert = _all_in_si if name in PARTS_OF_AXES else in_si
-        found[name] = convert(part, unit, faults, (*path, str(name)))
-    given = _unit_of_range(value)
-    if given not in ("", unit):
-        found[GIVEN_IN] = (given, unit)
-    return found
-
-
-def _unit_of_range(value: Mapping[Any, Any]) -> str:
-    """The one unit in which a range is given; "" without one, or if this is no range."""
-    is_range = "start" in value and "stop" in value and ("count" in value or "step" in value)
-    if not is_range:
-        return ""
-    return one_unit_of(value[key] for key in ENDS if isinstance(value.get(key), str))
-
-
-def listed_in_si(values: Any, unit: str, name: str) -> Any:
-    """The values of an argument in a unit; raises `ParameterError` where some have one and others none.
-    What is no number with a unit of its kind stays as it is."""
-    raise_faults(mixed_units(_numbers_of_one_unit(values), unit, (name,)))
-    return _all_in_si(values, unit, [], (name,))
 
 
 def _single_in_si(value: Any, unit: str, faults: list[Fault], path: tuple[str, ...]) -> Any:

@@ -193,9 +193,7 @@ def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
     """Compared with twice as many and with the whole table."""
     monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: growth(len(p.disc.omega)))
     disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    choice = dm.choose_modes(
-        {"N": 385, "Omega": 15.1, "disc": disc, "n_diameters": "auto"}, quantity="growth"
-    )
+    choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc}, quantity="growth")
     assert choice.parameters.disc == disc.first(modes)
     assert choice.modes == 2 * modes - 1
     assert choice.rich == (8,)

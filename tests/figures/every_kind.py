@@ -566,19 +566,6 @@ def sliding_modes() -> Example:
     )
 
 
-def root_locus() -> Example:
-    study = sliding("mu_k")
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "x", "Growth rate", study["mode_growth_rate"], "1/s", "linear"),
-            Shown(0, "y", "Frequency in the slider's frame", study["frequency"], "Hz", "linear"),
-            Shown(1, "bar", "Kinetic friction μ_k", study["value"]),
-        ),
-    )
-
-
 def sliding_outcome() -> Example:
     study = computed(
         quantity="sliding",
@@ -627,7 +614,6 @@ EXAMPLES: dict[str, Callable[[], Example]] = {
         sensitivity,
         campbell,
         sliding_modes,
-        root_locus,
         sliding_outcome,
     )
 }

@@ -124,13 +124,6 @@ def test_a_branch_is_drawn_in_the_units_asked_for() -> None:
     assert any("rpm" in text for text in entries_of(ax))
 
 
-def test_branches_are_named_in_the_units_asked_for() -> None:
-    case = dm.Parameters(N=385, Omega=14.9)
-    swept = dm.sweep(dm.continue_cycle, case, name="Omega", bounds=(14.8, 15.2), N=[300, 385])
-    ax = dm.plot_branches(swept, units={"N": "kN"})
-    assert any("N = 0.3 kN" in text for text in entries_of(ax))
-
-
 def test_a_campbell_diagram_is_drawn_in_the_units_asked_for() -> None:
     axes = {"Omega": {"start": 10, "stop": 10.04, "step": 0.01}}
     study = dm.run_study({"study": "c", "quantity": "campbell", "base": {"N": 385}, "axes": axes})

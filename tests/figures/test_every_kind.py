@@ -76,8 +76,6 @@ def test_models_stand_beside_each_other_and_titles_say_what_differs(kind: str) -
     [
         ("late_range", "contact"),
         ("late_range", "disc"),
-        ("root_locus", "value"),
-        ("root_locus", "mode"),
         ("sliding_modes", "value"),
         ("sliding_modes", "mode"),
         ("staircase", "Omega"),

@@ -94,7 +94,7 @@ def test_a_section_has_one_sample_a_turn():
 
 def test_a_text_is_a_case():
     brief = CaseSpec(parameters=P, t_end=1.0, windows=(("w", Window(rate=10, stop=1)),))
-    later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1}), "modes": "b"}
+    later = {"start": Start(prerun={"parameters": {"N": 385}, "time": 1})}
     later |= {
         "ramps": (Ramp(parameter="N", to=100, start=0, end=1),),
         "poincare": Poincare(theta=2.0),

@@ -77,12 +77,12 @@ def test_an_axis_may_end_at_infinity() -> None:
 
 def test_a_perturbation_along_an_axis_is_added_to_that_of_the_start() -> None:
     p = Parameters(N=200, Omega=20)
-    starts = {"kicked": Start(perturbation={"u": 2e-3, "f": 1.0}), None: Start()}
-    varied = {"perturbation_u": 1e-3, "start": "kicked", "N": 200}
-    point = run._point(p, varied, starts)
+    start = Start(perturbation={"u": 2e-3, "f": 1.0})
+    varied = {"perturbation_u": 1e-3, "N": 200}
+    point = run._point(p, varied, start)
     assert isinstance(point, Point)
     assert point.start.perturbation == pytest.approx({"u": 3e-3, "f": 1.0})
-    assert run._point(p, {"sample": 7}, starts) == Point(p, Start(), 7)
+    assert run._point(p, {"sample": 7}, Start()) == Point(p, Start(), 7)
 
 
 def test_extra_values_leave_the_batches_that_there_are() -> None:
@@ -98,30 +98,6 @@ def test_extra_values_leave_the_batches_that_there_are() -> None:
         assert set(before.batches) < set(after.batches)
         (new,) = set(after.batches) - set(before.batches)
         assert json.loads(after.batches[new])["points"] == [[3.3]]
-
-
-def test_a_batch_knows_the_starts_that_its_points_have_and_no_others() -> None:
-    raw = {
-        "study": "x",
-        "quantity": "outcome",
-        "options": {"horizon": 2},
-        "base": {"N": 200, "Omega": 20},
-    }
-    raw |= {"batch": {"over": ["c"]}}
-    after = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 56}}
-
-    def texts(starts: dict[str, Any], names: list[str]) -> dict[str, dict[str, Any]]:
-        study = parse_grid(raw | {"axes": {"c": [0, 1], "start": names}, "starts": starts})
-        return {key: json.loads(text) for key, text in study.batches.items()}
-
-    before = texts({"apart": after}, ["static", "apart"])
-    assert sorted(sorted(text["starts"]) for text in before.values()) == [["apart"], ["static"]]
-    more = texts(
-        {"apart": after, "kicked": {"perturbation": {"u": 1e-3}}}, ["static", "apart", "kicked"]
-    )
-    assert set(before) < set(more)
-    changed = texts({"apart": after | {"perturbation": {"f": 1}}}, ["static", "apart"])
-    assert len(set(before) & set(changed)) == 1
 
 
 def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: Path) -> None:

@@ -9,10 +9,8 @@ import jsonschema
 import pytest
 import yaml
 
-from disc_model.studies import reading
-from disc_model.studies.reading import StudyError, read_file
+from disc_model.studies.reading import StudyError
 from disc_model.studies.study import load_study, parse_study
-from tests.studies.refused import faults_of
 from tests.studies.test_faults import STUDIES
 from workflow.schemas.write_schema import schema_text
 
@@ -47,48 +45,6 @@ def test_a_shipped_file_is_right(path: Path) -> None:
         assert {
             other for plot in study.grid.plots.values() for other in plot.overlays.values()
         } <= grids.keys()
-
-
-def test_numbers_that_look_like_what_they_are_are_read(tmp_path: Path) -> None:
-    """Zeros, hexadecimal numbers, digits in groups, leading zeros before a point, and texts."""
-    text = "a: [0, 00, 0x10, 1_000, 0.5, 007.5, -0, '010', '1:30', 1.5e+3, 12 rpm]"
-    path = tmp_path / "numbers.yaml"
-    path.write_text(text)
-    expected = [0, 0, 16, 1000, 0.5, 7.5, 0, "010", "1:30", 1500.0, "12 rpm"]
-    assert read_file(path) == {"a": expected}
-
-
-def nested(levels: int, aliases: int) -> str:
-    """A text in which each level has aliases of the one above."""
-    lines = ["a0: &a0 [1]"]
-    for i in range(levels):
-        lines.append(f"a{i + 1}: &a{i + 1} [{', '.join([f'*a{i}'] * aliases)}]")
-    return "\n".join(lines)
-
-
-def test_aliases_are_read_as_long_as_what_they_stand_for_is_small(tmp_path: Path) -> None:
-    """Ten levels of ten in 300 bytes took minutes and gigabytes, in a message about them."""
-    path = tmp_path / "aliases.yaml"
-    path.write_text("a: &a {x: 1}\nb: *a\nc: {<<: *a, y: 2}")
-    assert read_file(path) == {"a": {"x": 1}, "b": {"x": 1}, "c": {"x": 1, "y": 2}}
-    path.write_text(nested(3, 10))
-    assert len(read_file(path)["a3"]) == 10
-    path.write_text(nested(10, 10))
-    [fault] = faults_of(load_study, path)
-    assert re.search(r"its aliases stand for 2345679\d+ values, .* 50000\n +line 1", fault)
-    merged = nested(9, 10).replace("[1]", "{x: 1}").replace("[", "{<<: [").replace("]", "]}")
-    path.write_text(merged)
-    [fault] = faults_of(load_study, path)
-    assert "its aliases stand for" in fault
-
-
-def test_a_file_is_not_refused_for_being_long(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(reading, "MOST_EXPANDED", 5)
-    path = tmp_path / "long.yaml"
-    path.write_text(f"a: [{'1, ' * 1000}]\nb: [&x 2, *x]")
-    assert len(read_file(path)["a"]) == 1000
 
 
 def test_a_message_shows_the_first_of_many_faults(tmp_path: Path) -> None:

@@ -138,7 +138,6 @@ ARGUMENTS: list[tuple[Callable[[], object], str]] = [
     (lambda: dm.deflection(p(), dm.snapshots(p(), 0.1), 0.2, 0.0), "r=0.2 0.12"),
     (lambda: p(omega=3), "omega=3 unknown Omega"),
     (lambda: p(Omega="3 Hz"), "Omega='3 Hz' rad/s rpm"),
-    (lambda: p(n_diameters="auto"), "n_diameters='auto' choose_modes"),
     (lambda: p(disc=disc(diameters=[0, 1, 2]), E=2e11), "E=200000000000 disc"),
     (lambda: disc(circles=[0, 0, 0]), "omega.2=1820 axisymmetric"),
     (lambda: dm.simulate(p(), 1.0, ramps=(ramp(), ramp(start=0.02))), "ramps.1.start=0.02 0.03"),

@@ -59,13 +59,12 @@ def test_a_remark_on_a_point_with_a_result_is_no_failure() -> None:
 
 
 def test_what_is_no_parameter_has_its_unit_in_lists_of_points() -> None:
-    point = {"start": "static", "perturbation_f": 0.1, "mu_k_over_mu_s": 0.5, "sample": 3}
-    expected = "start = static, perturbation_f = 0.1 rad/s, mu_k_over_mu_s = 0.5, sample = 3"
+    point = {"perturbation_f": 0.1, "mu_k_over_mu_s": 0.5, "sample": 3}
+    expected = "perturbation_f = 0.1 rad/s, mu_k_over_mu_s = 0.5, sample = 3"
     assert point_text(point) == expected
 
 
-def test_a_study_states_the_starts_of_all_batches_and_its_rules() -> None:
-    starts = {name: {"perturbation": {"u": u}} for name, u in (("a", 1e-4), ("b", 2e-4))}
+def test_a_study_states_its_rules() -> None:
     raw = {
         "quantity": "floquet",
         "base": {"k_p": 0, "Omega": 10},
@@ -74,17 +73,6 @@ def test_a_study_states_the_starts_of_all_batches_and_its_rules() -> None:
     }
     done = computed(**raw)
     assert done.attrs["where"] == "(N > 50) and (c < 2 or N < 150)"
-    raw = {"study": "s", "quantity": "outcome", "options": {"horizon": 5}, "starts": starts}
-    raw |= {"base": {"N": 200, "Omega": 20}, "axes": {"start": ["a", "b"]}, "batch": {"size": 1}}
-    grid = parse_grid(raw)
-    texts = [json.loads(text) for text in grid.batches.values()]
-    assert [[*text["starts"]] for text in texts] == [["a"], ["b"]]
-    point = {"status": ("point", np.array([0], np.int8), {"flag_meanings": "ok failed"})}
-    batches = [
-        xr.Dataset(point, {"start": ("point", [name])}, {"specification": text})
-        for name, text in zip("ab", grid.batches.values(), strict=True)
-    ]
-    assert json.loads(merge_batches(batches, grid.grid, {}).attrs["starts"]).keys() == {"a", "b"}
 
 
 def test_the_table_of_cases_has_their_messages_and_labels() -> None:

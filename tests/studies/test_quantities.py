@@ -223,7 +223,6 @@ def test_a_share_comes_before_the_ends_of_its_interval() -> None:
 def test_the_word_for_infinity_is_a_number_where_numbers_stand() -> None:
     assert read_infinity("friction_decay", "inf") == math.inf
     assert read_infinity("disc", "inf") == "inf", "the name of a table"
-    assert read_infinity("start", "inf") == "inf"
     assert read_infinity("N", 3.0) == 3.0
 
 

@@ -169,12 +169,11 @@ def test_faults_between_studies_are_reported_together(tmp_path: Path) -> None:
     }
     path = tmp_path / "three.yaml"
     path.write_text(json.dumps(plane | {"figures": figure}))
-    study = parse_study({"study": "all", "studies": ["*.yaml"], "overrides": {"six": {}}})
+    study = parse_study({"study": "all", "studies": ["*.yaml"]})
     found = faults_of(study.grids, [tmp_path])
     for fault in (
         "three: figures.f.overlays.curves='elsewhere': no such study (known: three); "
         "name the file of another study by the key studies: [elsewhere.yaml]",
-        "overrides.six: no such study (known: three)",
     ):
         assert fault in found, found
 
@@ -198,19 +197,6 @@ def test_a_fault_of_another_file_is_named(
     (tmp_path / f"{name}.yaml").write_text(json.dumps(content))
     study = parse_study({"study": "all", "studies": ["*.yaml"]})
     assert faults_of(study.grids, [tmp_path]) == [fault]
-
-
-def test_overrides_are_laid_over_the_file(tmp_path: Path) -> None:
-    axes = {"N": [100, 200], "Omega": {"start": 10, "stop": 20, "count": 3}}
-    small = {"study": "small", "quantity": "outcome", "options": {"horizon": 2}, "axes": axes}
-    path = tmp_path / "small.yaml"
-    path.write_text(json.dumps(small))
-    over = {"small": {"axes": {"N": [50]}, "options": {"horizon": 7}}}
-    study = parse_study({"study": "all", "studies": ["small.yaml"], "overrides": over})
-    grids, asked = study.grids([tmp_path])
-    assert asked == ("small",)
-    assert grids["small"].n_points == 3
-    assert grids["small"].options.horizon == 7  # type: ignore[attr-defined]
 
 
 @pytest.mark.parametrize(

@@ -270,7 +270,7 @@ def test_a_sweep_gathers_branches_with_their_parameter() -> None:
     assert swept["Omega"].attrs["units"] == "rad s-1"
     assert swept["ended"].sel(N=385).item() == branch.attrs["ended"]
     for branches in (swept, swept.sel(N=385)):
-        with refusal(r"draw all by disc_model\.plot_branches\(study\)"):
+        with refusal(r"holds branches: draw one by disc_model\.Branch\.from_dataset\(study"):
             dm.plot_sweep(branches)
 
 
@@ -293,29 +293,6 @@ def test_a_point_of_a_sweep_is_the_branch_of_a_direct_call(N: float) -> None:
         assert again.case == branch.case
         assert again.state(-1) == branch.state(-1)
         assert again.plot().get_ylabel() == branch.plot().get_ylabel()
-
-
-def test_all_branches_of_a_sweep_are_drawn_but_those_that_failed() -> None:
-    """A loop over the points stopped at the first that had failed."""
-    swept = swept_branches()
-    with pytest.warns(UserWarning, match=r"^no branch at N = -1 N: swept\[.message.\] says why$"):
-        ax = dm.plot_branches(swept, "period")
-    said = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert [" ".join(text.split()) for text in said[:2]] == ["N = 300 N", "N = 385 N"]
-    assert said[-1] == "N = -1 N: no branch"
-    with refusal(r"swept: must have a branch, but all of its points failed, .* N=-1: must be"):
-        dm.plot_branches(swept.sel(N=[-1]))
-    with refusal(r"swept=3: must be a sweep of continue_cycle"):
-        dm.plot_branches(3)
-
-
-def test_branches_that_differ_in_an_option_are_named_by_it() -> None:
-    options = {"name": "Omega", "bounds": (14.8, 14.9)}
-    case = P.replace(N=385, Omega=14.85)
-    swept = sweep(dm.continue_cycle, case, over={"tol": [1e-12, 1e-10]}, **options)
-    ax = dm.plot_branches(swept)
-    said = [text.get_text() for text in ax.figure.legends[0].get_texts()]
-    assert said[:2] == ["tol = 1e-12", "tol = 1e-10"]
 
 
 NEAR_14: dict[str, Any] = {
@@ -346,16 +323,6 @@ def test_branches_are_whole_where_a_parameter_has_the_name_of_a_variable() -> No
     first = dm.Branch.from_dataset(swept.isel(a=0))
     expected = dm.continue_cycle(**NEAR_14)
     assert_same_variable("a", first, expected)
-
-
-@pytest.mark.parametrize("varied", [{"over": {"direction": [1, -1]}}, {"a": [0.044, 0.045]}])
-def test_branches_over_what_has_the_name_of_a_variable_have_a_picture(
-    varied: dict[str, Any],
-) -> None:
-    swept = sweep(dm.continue_cycle, **NEAR_14, **varied)
-    ax = dm.plot_branches(swept)
-    [legend] = ax.figure.legends
-    assert len(legend.get_texts()) > 2
 
 
 def profile(case: dm.Parameters, count: int = 3) -> xr.Dataset:
@@ -405,7 +372,7 @@ def test_branches_of_a_function_of_ones_own_are_branches_too() -> None:
     swept = sweep(softer, P, N=[300])
     branch = dm.Branch.from_dataset(swept.sel(N=300))
     assert branch.case == P.replace(N=300, k_p=15000)
-    with refusal(r"draw all by disc_model\.plot_branches"):
+    with refusal(r"holds branches: draw one by"):
         dm.plot_sweep(swept)
 
 

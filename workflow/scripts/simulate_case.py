@@ -5,7 +5,6 @@ from pathlib import Path
 
 from disc_model.data.dataset import save
 from disc_model.errors import script
-from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.named_case import run_case
 
@@ -14,4 +13,4 @@ from disc_model.simulation.named_case import run_case
 def main(case: str, output: str) -> None:
     path = Path(output)
     path.parent.mkdir(parents=True, exist_ok=True)
-    save(run_case(CaseSpec.model_validate_json(case), choose_when_run), path)
+    save(run_case(CaseSpec.model_validate_json(case)), path)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import xarray as xr
 
@@ -50,13 +48,6 @@ def is_of_sweep(data: object) -> bool:
     return isinstance(data, xr.Dataset) and NEEDED.issubset(data.variables)
 
 
-def points_of_sweep(swept: xr.Dataset) -> Iterator[xr.Dataset]:
-    """Yield the points of a sweep in their order."""
-    status = swept["status"]
-    for place in np.ndindex(status.shape):
-        yield swept.isel(dict(zip(status.dims, place, strict=True)))
-
-
 def selected_text(data: xr.Dataset, name: str) -> str:
     """How one of the branches of a sweep is selected of the dataset of a name, as "study.isel(N=0)"."""
     dims = data["status"].dims
@@ -64,16 +55,11 @@ def selected_text(data: xr.Dataset, name: str) -> str:
     return f"{name}.isel({chosen})" if dims else name
 
 
-def has_failed(point: xr.Dataset) -> bool:
-    """Whether a point of a sweep has no branch."""
-    return bool(point["status"].item() == "failed")
-
-
 def refuse_failed(data: object) -> None:
     """Raise `ParameterError` for a point of a sweep that has failed, with its message."""
     if not isinstance(data, xr.Dataset) or not OF_SWEEPS.issubset(data.variables):
         return
-    if data["status"].size == 1 and has_failed(data):
+    if data["status"].size == 1 and data["status"].item() == "failed":
         rule = f"must be a branch, but this point of the sweep failed: {data['message'].item()}"
         raise ParameterError(Fault(("data",), "", rule))
 

@@ -192,7 +192,6 @@ WITHOUT_CYCLE |= {"no_stick_slip": "steady sliding", "at_rest": "permanent stick
 EXCLUDED = (
     "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
 )
-START = "start"  # the dimension of a grid along which the initial conditions vary
 SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distributed parameters
 
 

@@ -147,7 +147,6 @@ def _study_contents(
         "call": call,
         "discs": stated_in(study, "discs"),
         "tables": dict(stated.tables),
-        "starts": stated_in(study, "starts"),
         "start": _start_of_all(study),
         "where": rule_of(study),
         "confidence": _confidence(study),

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from disc_model.data.variables import typeset
 from disc_model.figures.branch_family import (
     NAME,
     NO_FURTHER,
@@ -62,13 +60,11 @@ def plot_branch(
     labels: Any = None,
     title: str | bool | None = None,
     looks: Any = None,
-    failed: Sequence[str] = (),
 ) -> Axes:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
     its first; returns the axes.
 
     looks : of the stable and unstable parts and of the cycles, as `part_looks` reads them
-    failed : names of points of its sweep without a branch, which the legend says
     """
     first, *second = branch.parameters
     across, factor = label_along(first)
@@ -108,10 +104,6 @@ def plot_branch(
         member.line = line_in_legend(look, stable, wished)
         member.coloured = wished.coloured
         join_family(page, member)
-        without = _no_branch(failed)
-        page.explain([*page.handles, *without])
-        # a legend is written more than once, each time behind what it keeps
-        page.replaced = [*page.replaced, *(str(each.get_label()) for each in without)]
     return page.ax
 
 
@@ -129,11 +121,6 @@ def _stability_samples(stable: Mask, wished: PartLooks) -> list[Artist]:
     if not stable.all():
         samples.append(sample(**unstable, label="unstable"))
     return samples
-
-
-def _no_branch(failed: Sequence[str]) -> list[Artist]:
-    """Entries of the legend for points of a sweep without a branch: words alone."""
-    return [sample(linestyle="", label=f"{typeset(name)}: no branch") for name in failed]
 
 
 def _mark_special_points(

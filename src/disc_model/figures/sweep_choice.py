@@ -136,7 +136,7 @@ def _refuse_branches(study: xr.Dataset) -> None:
     if not is_of_sweep(study):
         return
     branch = f"disc_model.Branch.from_dataset({selected_text(study, 'study')})"
-    rule = f"holds branches: draw all by disc_model.plot_branches(study), or one by {branch}.plot()"
+    rule = f"holds branches: draw one by {branch}.plot()"
     raise ParameterError(Fault(("study",), "a sweep of branches", rule))
 
 

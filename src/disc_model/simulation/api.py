@@ -13,7 +13,7 @@ from disc_model.simulation.request import Execution, Request, checked_request
 from disc_model.simulation.result import Result
 from disc_model.simulation.run import Run
 from disc_model.simulation.states import State
-from disc_model.units import listed_in_si
+from disc_model.units import in_si
 
 _PLAIN = Execution()
 
@@ -144,7 +144,7 @@ def snapshots(
     ['stick', 'slip']
     """
     ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    numbers = states.finite_numbers(listed_in_si(times, "s", "times"))
+    numbers = states.finite_numbers(in_si(times, "s", [], ()))
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     starts = initial_state is None or isinstance(initial_state, State)
     wrong = violations(

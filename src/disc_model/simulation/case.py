@@ -23,7 +23,7 @@ from pydantic import (
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
 from disc_model.hashing import canonical_json, content_key
-from disc_model.parameters import AUTO, FORMAT, Parameters
+from disc_model.parameters import FORMAT, Parameters
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
@@ -422,14 +422,6 @@ class Prerun(Strict):
     @classmethod
     def _checked(cls, values: dict[str, Any]) -> dict[str, Any]:
         """The values as `Parameters` converts them: floats, whole numbers, words."""
-        require(
-            (
-                values.get("n_diameters") != AUTO,
-                "n_diameters",
-                AUTO,
-                "must be a whole number, that of the points",
-            )
-        )
         checked = SomeParameters(**values)
         return {name: getattr(checked, name) for name in values}
 
@@ -482,7 +474,6 @@ class CaseSpec(Strict):
     )
     audit_every_step: bool = False
     start: Start = Start()
-    modes: str = ""  # quantity and tolerance by which the run shall choose the number of modes, as JSON, if it shall
     ramps: tuple[Ramp, ...] = ()
     format: Literal[1] = FORMAT
 

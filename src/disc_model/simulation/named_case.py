@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import logging
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-from disc_model.errors import DiscModelError, require
+from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import CaseSpec, Start
 from disc_model.simulation.request import Execution
@@ -18,23 +18,16 @@ if TYPE_CHECKING:
 log = logging.getLogger(__name__)
 
 
-def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
+def run_case(spec: CaseSpec) -> xr.DataTree:
     """Simulate a named case of a study, in the layout of `disc_model.data.dataset`; a failure is
-    recorded as a status. `choose` is `disc_model.mode_choice.choose_when_run`, which only a case
-    with `modes` needs."""
+    recorded as a status."""
     import xarray as xr
 
     from disc_model.data.columns import scalars_dataset
     from disc_model.data.dataset import json_attribute
 
-    needed = "must be `disc_model.mode_choice.choose_when_run`, as the case leaves its modes to be chosen"
-    require((callable(choose) or not spec.modes, "choose", choose, needed))
     p = spec.parameters
-    truncation = ""  # how the number of modes was chosen, as JSON, if it was
     try:
-        if spec.modes:
-            p, truncation = choose(p, spec.modes)
-            log.info("modes chosen: %s", truncation)
         start = make_initial_state(p, spec.start, spec.tol)
         result = simulate(
             p,
@@ -69,8 +62,6 @@ def run_case(spec: CaseSpec, choose: Any = None) -> xr.DataTree:
         tree["events"].dataset = events.isel(event=within).assign_attrs(span)
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
-    if truncation:
-        tree.attrs["truncation"] = truncation
     tree.attrs |= {
         "source_hash": source_hash(*PHYSICS),
         "git_commit": git_commit(),

@@ -26,7 +26,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
 from disc_model.sources import versions_text
-from disc_model.units import Count, Finite, Real, Strict, listed_in_si
+from disc_model.units import Count, Finite, Real, Strict, in_si
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -152,7 +152,7 @@ class Result(Summarised, EqualByValue):
         ParameterError
             If the name is another one, or a time is not a finite number.
         """
-        seconds = listed_in_si(times, "s", "times")
+        seconds = in_si(times, "s", [], ())
         require(
             (isinstance(name, str) and name in RAMPED, "name", name, rule_of_choice(name, RAMPED)),
             (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),

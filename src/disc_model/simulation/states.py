@@ -43,7 +43,7 @@ from disc_model.errors import (
 )
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.sources import versions_text
-from disc_model.units import Count, Real, Strict, is_number, is_quantity, listed_in_si
+from disc_model.units import Count, Real, Strict, in_si, is_number, is_quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -378,8 +378,8 @@ def deflection(
     raise_faults(foreign_case(case))
     modes = mode_arrays(case)
     low, high = radial_range(case)
-    radii = finite_numbers(listed_in_si(r, "m", "r"))
-    angles = finite_numbers(listed_in_si(theta, "rad", "theta"))
+    radii = finite_numbers(in_si(r, "m", [], ()))
+    angles = finite_numbers(in_si(theta, "rad", [], ()))
     states_in_order: list[Any] = list(states) if np.iterable(states) else [states]
     within = radii is not None and radii.size and np.all((radii >= low) & (radii <= high))
     fits = [

@@ -8,14 +8,13 @@ from typing import Any, Literal, Self
 import pydantic
 from pydantic import Field
 
-from disc_model.data.variables import CHOICES, START
+from disc_model.data.variables import CHOICES
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import FORMAT, Disc
-from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Value
 from disc_model.units import Strict
 
-WORDS = (*CHOICES, "disc", START)  # what varies by words
+WORDS = (*CHOICES, "disc")  # what varies by words
 Values = tuple[Value, ...]
 
 
@@ -107,7 +106,6 @@ class Batch(Strict):
     base: dict[str, Any]
     names: tuple[str, ...]
     points: tuple[Values, ...]
-    starts: dict[str, Start] = Field({})
     discs: dict[str, Disc] = Field({})
     tile: TileSides | None = None
     format: Literal[1] = FORMAT

@@ -15,28 +15,18 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
-from disc_model.data.variables import PERTURBATIONS, START, attributes, values_text
+from disc_model.data.variables import PERTURBATIONS, attributes, values_text
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
 from disc_model.figures.words import factors_of
-from disc_model.parameters import (
-    AUTO,
-    CHOOSING,
-    NUMBER_OR_WORD,
-    PLATE,
-    RATIOS,
-    RELATED,
-    Parameters,
-    case_of,
-)
-from disc_model.simulation.case import SomeParameters, Start
+from disc_model.parameters import NUMBER_OR_WORD, PLATE, RATIOS, RELATED, Parameters, case_of
+from disc_model.simulation.case import SomeParameters
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.quantity import Blocks, Quantity, Range, Value, compiled_rule, holds
 from disc_model.units import Count, Finite, Positive, Strict, given_values, is_number
 
-GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "starts", "discs"})
+GRID_KEYS = frozenset({"quantity", "options", "axes", "zip", "where", "batch", "discs"})
 REQUIRED = ("N", "Omega")  # parameters without a base value
-STATIC = "static"  # name of the default start
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs; many more do not fit into memory
 ALL_MOTIONS = (
     100  # points of a grid up to which a motion of each is stored, some 3 kB of the explorer each
@@ -81,12 +71,7 @@ Axis = Annotated[
 ]
 
 
-VARIED = (
-    *Parameters.model_fields,
-    *RATIOS,
-    START,
-    *PERTURBATIONS,
-)  # what a grid may vary, in this order
+VARIED = (*Parameters.model_fields, *RATIOS, *PERTURBATIONS)  # what a grid may vary, in this order
 
 
 class _Columns(Strict):
@@ -222,7 +207,6 @@ class GridStudy:
         self.quantity = str(file.quantity)
         self.where = file.where
         self.discs = file.discs
-        self.starts = {STATIC: Start(), **file.starts}
         self.options: Quantity = file.options
         self.given: dict[str, Any] = given_values(file.base)  # values of base, as in the file
         self.dims = self._dimensions()
@@ -240,7 +224,7 @@ class GridStudy:
     def _check(self) -> None:
         """Raise `ParameterError` with the faults between the parts of the file; what the later ones
         need is checked first."""
-        raise_faults([*self._wrong_modes(), *self._wrong_names(), *self._wrong_starts()])
+        raise_faults([*self._wrong_names(), *self._wrong_starts()])
         raise_faults([*self._wrong_extent()])
         self.base  # noqa: B018
         faults = [*self.options.faults(self)]
@@ -339,7 +323,6 @@ class GridStudy:
     def _batch(self, part: Part) -> Batch:
         """A part of the grid as a text with everything that its result depends on."""
         points = [*self.points_along(self.dims, part.points)]
-        starts = {str(point[START]) for point in points if START in point}
         discs = {str(point["disc"]) for point in points if "disc" in point}
         return Batch(
             quantity=self.quantity,
@@ -347,7 +330,6 @@ class GridStudy:
             base=self.base,
             names=tuple(self.varied),
             points=tuple(tuple(point.values()) for point in points),
-            starts={name: self.starts[name] for name in sorted(starts)},
             discs={name: self.discs[name] for name in sorted(discs)},
             tile=part.tile,
         )
@@ -438,25 +420,14 @@ class GridStudy:
 
     def _value(self, name: str, value: Value) -> Value:
         """Convert and check one value by itself; `_base_of_points` checks them together."""
-        if name in (START, "disc"):
-            known = [*(self.starts if name == START else self.discs)]
-            if value not in known:
-                rule = f"no such {name}{suggestion(value, known)}"
+        if name == "disc":
+            if value not in self.discs:
+                rule = f"no such disc{suggestion(value, [*self.discs])}"
                 raise ParameterError(Fault.of((), value, rule))
             return value
         return getattr(_Varied.model_validate({name: value}), name)  # type: ignore[no-any-return]
 
     # ---- rules between its parts
-
-    def _wrong_modes(self) -> Iterator[Fault]:
-        """The points of a grid have the same modes, or a number of them along an axis."""
-        if self.given.get("n_diameters") == AUTO:
-            rule = "chooses the modes of named cases; a grid states their number (choose_modes)"
-            yield Fault.of(("base", "n_diameters"), AUTO, rule)
-        for name in CHOOSING:
-            if name in self.given:
-                rule = f"is used with n_diameters={AUTO!r} only, in named cases"
-                yield Fault.of(("base", name), self.given[name], rule)
 
     def _wrong_names(self) -> Iterator[Fault]:
         """Each parameter must be given once: along an axis, in base, by a ratio, or by the
@@ -466,7 +437,7 @@ class GridStudy:
         for path, *others in given.values():
             for other in others:
                 rule = f"is given by {' '.join(other)} as well, and must be given once"
-                yield Fault(path, "", f"{rule}: {self._remedy_of_twice(path, other)}")
+                yield Fault(path, "", rule)
         if "disc" in given:
             for name in self.varied:
                 if not {name, *RATIOS.get(name, ())}.isdisjoint((*PLATE, "damping_ratio")):
@@ -482,18 +453,6 @@ class GridStudy:
             yield Fault.of(
                 ("batch", "over"), name, f"must name dimensions (known: {', '.join(self.values)})"
             )
-
-    def _remedy_of_twice(self, path: tuple[str, str], other: tuple[str, str]) -> str:
-        """What to do about a parameter that two parts of the file give: the part that varies it
-        stays."""
-        parts = (path[0], other[0])
-        if parts[0] == parts[1]:
-            return "keep one of them"
-        if "base" not in parts:
-            return "leave it out of axes"
-        if self.file.cases:
-            return "leave it out of base, and give it under parameters of each case"
-        return "leave it out of base"
 
     def _places_of_names(self) -> dict[str, list[tuple[str, str]]]:
         """Return, by parameter, the parts of the file that give it, with the name there; a ratio
@@ -513,7 +472,7 @@ class GridStudy:
     def _wrong_starts(self) -> Iterator[Fault]:
         """Only some quantities accept another start, and the file must give it in one place
         only."""
-        for name in {START, *PERTURBATIONS}.intersection(self.varied):
+        for name in sorted(PERTURBATIONS.keys() & {*self.varied}):
             coordinate = name.removeprefix("perturbation_")
             if "perturbation" not in type(self.options).model_fields:
                 yield Fault(
@@ -527,13 +486,6 @@ class GridStudy:
                     "",
                     f"is given, and varies as axes.{name}",
                 )
-            elif name == START:
-                for key in self.options.model_fields_set & {"prerun", "perturbation"}:
-                    yield Fault(
-                        ("options", key),
-                        "",
-                        "must not be given where the start varies: say it under starts",
-                    )
 
     def _wrong_extent(self) -> Iterator[Fault]:
         over = self.file.batch.over

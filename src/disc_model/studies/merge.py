@@ -110,21 +110,16 @@ def _places(
 
 
 def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str, str]:
-    """Return attributes that describe what the batches have in common, and all their starts and
-    discs."""
+    """Return attributes that describe what the batches have in common, and all their discs."""
     first = batches[0]
-    starts: dict[str, Any] = {}
     discs: dict[str, Any] = {}
     for batch in batches:
-        starts.update((name, start.model_dump()) for name, start in batch.starts.items())
         discs.update((name, disc.model_dump()) for name, disc in batch.discs.items())
     described = {
         "quantity": first.quantity,
         "options": json_attribute(first.options),
         "base": json_attribute(fixed_base(first.base, first.names, quantity)),
     }
-    if starts:
-        described["starts"] = json_attribute(dict(sorted(starts.items())))
     if discs:
         described["discs"] = json_attribute(dict(sorted(discs.items())))
     return described

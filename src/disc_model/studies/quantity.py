@@ -12,16 +12,7 @@ from types import CodeType, MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
-from pydantic import (
-    AfterValidator,
-    ConfigDict,
-    Field,
-    PrivateAttr,
-    SerializerFunctionWrapHandler,
-    model_serializer,
-    model_validator,
-)
-from pydantic.json_schema import SkipJsonSchema
+from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
 
 from disc_model.data.variables import (
     OUTCOMES_TO_HORIZON,
@@ -33,7 +24,7 @@ from disc_model.data.variables import (
 from disc_model.errors import DiscModelError, Fault, Status
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, converted, must, number
+from disc_model.units import Count, Finite, Positive, Strict, must, number
 
 if TYPE_CHECKING:
     from xarray import Dataset
@@ -75,9 +66,6 @@ class Range(Ruled):
     count: Annotated[Count, Field(ge=2)] | None = None
     step: Positive | None = None
     scale: Literal["linear", "log"] = "linear"  # log: the ratio of neighbours is constant
-    given_in: SkipJsonSchema[tuple[str, str] | None] = Field(
-        None, repr=False
-    )  # the unit in which the file has the range, and that of SI, if these differ
 
     _rules = (
         (lambda r: r.start < r.stop, "start={0.start:g} must be < stop={0.stop:g}"),
@@ -95,14 +83,6 @@ class Range(Ruled):
         ),
     )
 
-    @model_serializer(mode="wrap")
-    def _without_unset_unit(self, serialize: SerializerFunctionWrapHandler) -> dict[str, Any]:
-        """The fields by name, as they are in files of ranges in the unit of SI."""
-        content: dict[str, Any] = serialize(self)
-        if self.given_in is None:
-            content.pop("given_in", None)
-        return content
-
     @property
     def _steps(self) -> float:
         if self.step:
@@ -115,8 +95,7 @@ class Range(Ruled):
 
     @property
     def values(self) -> list[float]:
-        """All values, those inside rounded to 12 digits in the unit in which the range is given, so
-        that ranges and lists agree on 0.3."""
+        """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
         return [self.value_at(place) for place in range(self.intervals + 1)]
 
     def value_at(self, place: int) -> float:
@@ -126,20 +105,10 @@ class Range(Ruled):
         if place == self.intervals:
             return self.stop
         share = place / self.intervals
-        if self.given_in is None:
-            return self._inside(self.start, self.stop, share)
-        given, unit = self.given_in
-        size = converted(1.0, given, unit)
-        low = float(f"{self.start / size:.12g}")
-        high = float(f"{self.stop / size:.12g}")
-        return converted(self._inside(low, high, share), given, unit)
-
-    def _inside(self, start: float, stop: float, share: float) -> float:
-        """The value at a share of the way between two ends, with 12 digits."""
         if self.scale == "log":
-            value = start * (stop / start) ** share
+            value = self.start * (self.stop / self.start) ** share
         else:
-            value = start + share * (stop - start)
+            value = self.start + share * (self.stop - self.start)
         return float(f"{value:.12g}")
 
 

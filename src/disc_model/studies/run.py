@@ -9,7 +9,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, START, Variable, attributes
+from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Variable, attributes
 from disc_model.errors import DiscModelError
 from disc_model.parameters import Parameters, case_of
 from disc_model.simulation.case import Start
@@ -67,11 +67,10 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
 def _results_at_points(computed: Any, batch: Batch) -> list[Computed]:
     """Return the results at the points of a batch, each computed by itself."""
     own = {name: value for name, value in batch.options.items() if name in Start.model_fields}
-    starts: dict[str | None, Start] = {None: Start(**own)}
-    starts.update(batch.starts)
+    start = Start(**own)
     results = []
     for varied in batch.varied:
-        point = _point(_parameters_or_error(batch, varied), varied, starts)
+        point = _point(_parameters_or_error(batch, varied), varied, start)
         results.append(tried("status", computed.compute_point, point))
     return results
 
@@ -103,14 +102,11 @@ def _row_of_tile(batch: Batch, sides: TileSides, values: Mapping[str, Any]) -> l
     return [_parameters_or_error(batch, {**values, second: x}) for x in sides.along[1]]
 
 
-def _point(
-    p: Made, varied: Mapping[str, Any], starts: Mapping[str | None, Start]
-) -> Point | DiscModelError:
+def _point(p: Made, varied: Mapping[str, Any], start: Start) -> Point | DiscModelError:
     """Return a point with its parameters and everything else that varies; an error in place of the
-    parameters stays one. The start of None is that of the options."""
+    parameters stays one."""
     if isinstance(p, DiscModelError):
         return p
-    start = starts[varied.get(START)]
     perturbation = defaultdict[Any, float](float, start.perturbation)
     for name in varied.keys() & PERTURBATIONS.keys():
         perturbation[name.removeprefix("perturbation_")] += varied[name]

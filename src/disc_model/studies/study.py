@@ -4,9 +4,8 @@ One `StudyError` lists all faults: those of single values, or those between valu
 right.
 """
 
-import json
 import os
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
@@ -27,8 +26,7 @@ from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, va
 from disc_model.disc.table import disc_of_table
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
-from disc_model.mode_request import CHOSEN_BY, TRUSTED, ModeRequest, read_asked
-from disc_model.parameters import AUTO, RATIOS, Disc, Parameters
+from disc_model.parameters import RATIOS, Disc, Parameters
 from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
@@ -39,20 +37,12 @@ from disc_model.simulation.case import (
     Window,
     ramp_faults,
 )
-from disc_model.studies.grid import (
-    GRID_KEYS,
-    STATIC,
-    BatchSpec,
-    Columns,
-    FigureEntry,
-    GridStudy,
-    described,
-)
+from disc_model.studies.grid import GRID_KEYS, BatchSpec, Columns, FigureEntry, GridStudy, described
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.quantity import compiled_rule
 from disc_model.studies.reading import StudyError, read_file
 from disc_model.studies.registry import quantity_names, quantity_of
-from disc_model.units import Finite, Positive, Seconds, Strict, Tolerance, must
+from disc_model.units import Positive, Seconds, Strict, Tolerance
 
 MODES = {
     "as_published": "modes scaled as in the published results",
@@ -85,8 +75,11 @@ TAKEN = frozenset({"case", "message", "title", "reference", *SCALARS, *Parameter
 """Names of variables in a study's file. Cases and windows become groups beside them and must differ."""
 
 
-def _but(taken: Collection[str], rule: str) -> AfterValidator:
-    return AfterValidator(must(lambda name: name not in taken, rule))
+def _no_folder(name: str) -> str:
+    """The name of a study, which is not that of another folder of results."""
+    if name in ("compiled", "bench"):
+        raise ValueError("is the name of another folder of results")
+    return name
 
 
 def _no_variable(name: str) -> str:
@@ -107,7 +100,6 @@ _LETTERS = pydantic.StringConstraints(pattern=r"^[A-Za-z][A-Za-z0-9_]*$", max_le
 Name = Annotated[str, _LETTERS]
 CaseName = Annotated[Name, AfterValidator(_no_variable)]
 WindowName = Annotated[Name, AfterValidator(_no_group)]
-StartName = Annotated[Name, _but({STATIC}, "is the name of the default start")]
 
 # ---- Named cases
 
@@ -123,27 +115,8 @@ class RecordSpec(Strict):
 _ratios: dict[str, Any] = {
     name: (Positive | None, Field(None, **described(name))) for name in RATIOS
 }
-_WithRatios = create_model("_WithRatios", __base__=SomeParameters, **_ratios)
-
-
-class GivenParameters(_WithRatios):  # type: ignore[misc, valid-type]
-    """Parameters, or ratios of them, any of which may be left out; the number of modes may be left
-    to each case."""
-
-    n_diameters: Annotated[
-        int,
-        *Parameters.model_fields["n_diameters"].metadata,
-        pydantic.WrapValidator(lambda value, check: value if value == AUTO else check(value)),
-        WithJsonSchema(
-            {"anyOf": [{"type": "integer", "minimum": -1, "maximum": 60}, {"const": AUTO}]}
-        ),
-    ] = Field(None, **described("n_diameters"))
-    truncation_quantity: Literal[*CHOSEN_BY] = Field(  # type: ignore[valid-type]
-        None, description="quantity by which n_diameters: auto chooses the modes"
-    )
-    truncation_tolerance: Annotated[Finite, Field(ge=TRUSTED)] = Field(  # type: ignore[assignment]
-        None, description="relative tolerance of this quantity"
-    )
+GivenParameters = create_model("GivenParameters", __base__=SomeParameters, **_ratios)
+"""Parameters, or ratios of them, any of which may be left out."""
 
 
 def _mapping(raw: Any) -> Mapping[str, Any]:
@@ -158,9 +131,10 @@ class NamedCase(Strict):
     title: str = ""
     reference: str = ""
     parameters: Annotated[
-        tuple[Parameters, ModeRequest | None],
+        Parameters,
         PlainValidator(
-            lambda raw: read_asked(_mapping(raw)), json_schema_input_type=GivenParameters
+            lambda raw: Parameters.model_validate(_mapping(raw)),
+            json_schema_input_type=GivenParameters,
         ),
     ] = Field({}, validate_default=True)
     t_end: Seconds
@@ -173,7 +147,7 @@ class NamedCase(Strict):
     @cached_property
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
-        p, request = self.parameters
+        p = self.parameters
         spans, faults = self._spans()
         if self.ramps:
             for fault in ramp_faults(p, self.ramps, poincare=self.record.poincare is not None):
@@ -192,8 +166,6 @@ class NamedCase(Strict):
             poincare=self.record.poincare,
             events=self._kept_events(events),
             start=_with_ratios_of(p, self.start),
-            # modes that are left to be chosen are chosen when the case runs
-            modes="" if request is None else json.dumps(request.model_dump(), sort_keys=True),
             ramps=self.ramps,
         )
 
@@ -317,9 +289,9 @@ def _with_form(fault: Fault, known: Mapping[str, Option]) -> Fault:
 class Study(Strict):
     """A study: named cases, a grid of points, or both, and their figures; see docs/studies.md."""
 
-    study: Annotated[Name, _but({"compiled", "bench"}, "is the name of another folder of results")]
+    study: Annotated[Name, AfterValidator(_no_folder)]
     title: str = ""
-    base: GivenParameters = GivenParameters()
+    base: GivenParameters = Field({}, validate_default=True)
     figures: Annotated[
         dict[Name, Figure],
         BeforeValidator(_given_figures, json_schema_input_type=dict[Name, Figure | None]),
@@ -346,12 +318,8 @@ class Study(Strict):
         BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
     batch: BatchSpec = BatchSpec()
-    starts: dict[StartName, Start] = Field({})
     discs: dict[str, Annotated[Disc, WithJsonSchema({"type": "string"})]] = Field({})
     studies: tuple[str, ...] = ()  # further files of grid studies, * stands for any part of a name
-    overrides: dict[str, dict[str, Any]] = Field(
-        {}
-    )  # of values in these files, by the name of the study
     _tables: dict[str, str] = PrivateAttr(default_factory=dict)
 
     @pydantic.model_validator(mode="after")
@@ -459,9 +427,6 @@ class Study(Strict):
         grids.update((name, self._grid_of(path)) for name, path in paths.items())
 
         faults = []
-        for name in sorted(self.overrides.keys() - grids.keys()):
-            told = suggestion(name, sorted(grids))
-            faults.append(f"overrides.{name}: no such study{told}")
         figures = [(self.name, name, plot) for name, plot in self.plots.items()]
         for name in sorted({*requested} - {self.name}):
             figures += ((name, figure, plot) for figure, plot in grids[name].plots.items())
@@ -480,9 +445,8 @@ class Study(Strict):
         return shown
 
     def _grid_of(self, path: Path) -> GridStudy:
-        """The grid of another file, with the overrides of this one."""
-        content = inherit(mapping(read_file(path)), self.overrides.get(path.stem, {}))
-        study = parse_study(content, path.parent, _shown(path))
+        """The grid of another file."""
+        study = parse_study(read_file(path), path.parent, _shown(path))
         wrong = {
             "must be the name of the file": study.name != path.stem,
             "is the name of another folder of results": study.name == self.name,

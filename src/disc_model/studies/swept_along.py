@@ -15,7 +15,6 @@ from disc_model.figures.words import within_words
 from disc_model.parameters import RATIOS, foreign_case
 from disc_model.simulation.states import mode_arrays
 from disc_model.stability.continuation.arguments import free_faults, values_in_si
-from disc_model.units import GIVEN_IN, mixed_units, one_unit_of
 
 
 def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
@@ -27,24 +26,11 @@ def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:
     faults: list[Fault] = []
     ends = values_in_si(name, bounds, faults, "bounds")
     [length] = values_in_si(name, [step], faults, "step")
-    unit = unit_of_parameter(name) if isinstance(name, str) else ""
-    faults += mixed_units([*bounds, step], unit, ("bounds",)) if not faults else []
     raise_faults(foreign_case(case) or [*free_faults(case, [name]), *faults])
     low, high = (mode_arrays(case.replace(**{name: end})).psi for end in ends)
     same = low.shape == high.shape and np.allclose(low, high, rtol=1e-9)
     require((same, "name", name, "must be a number that does not change the shapes of the modes"))
-    return {
-        "start": ends[0],
-        "stop": ends[1],
-        "step": length,
-        GIVEN_IN: _given_in(bounds, step, unit),
-    }
-
-
-def _given_in(bounds: Any, step: Any, unit: str) -> tuple[str, str] | None:
-    """The one unit of texts of a range and that of SI; None if they have none, or that of SI."""
-    given = one_unit_of(text for text in (*bounds, step) if isinstance(text, str))
-    return None if given in ("", unit) else (given, unit)
+    return {"start": ends[0], "stop": ends[1], "step": length}
 
 
 def unit_along(name: str) -> str:

@@ -8,10 +8,10 @@ import numpy as np
 from pydantic import create_model
 
 from disc_model.errors import Fault, ParameterError
-from disc_model.mode_units import column_of, mode_number_in_si, si_unit_of_mode
+from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import Disc, Parameters
 from disc_model.simulation.case import SomeParameters
-from disc_model.units import Finite, Strict, in_si, is_missing, mixed_units, number
+from disc_model.units import Finite, Strict, in_si, is_missing, number
 
 
 def checked_values(name: str, values: Any, faults: list[str], *within: str) -> list[Any]:
@@ -23,8 +23,6 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
     """
     several = _are_several(values)
     raw = as_list(values)
-    mixed = mixed_units(raw, _unit_of(name), (*within, name))
-    known = len(faults)
     if not raw:
         faults.append(Fault.of((*within, name), values, "must have one value or more"))
     if any(isinstance(value, list | tuple | np.ndarray) for value in raw):
@@ -48,8 +46,6 @@ def checked_values(name: str, values: Any, faults: list[str], *within: str) -> l
                 impossible.append(told)
     if impossible and len(impossible) == len(raw):
         faults += [fault for told in impossible for fault in told]
-    if len(faults) == known:
-        faults += mixed
     return checked
 
 
@@ -92,13 +88,6 @@ def _model_of(name: str) -> type[Strict]:
         return SomeParameters
     only: dict[str, Any] = {name: Finite}
     return create_model("Number", __base__=Strict, **only)
-
-
-def _unit_of(name: str) -> str:
-    """The SI unit of a number of the case, "1" of a ratio."""
-    if name in Parameters.model_fields:
-        return Parameters.unit(name)
-    return si_unit_of_mode(name) or "1"
 
 
 def _number_of(name: str, value: Any) -> float | None:

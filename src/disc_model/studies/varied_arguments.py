@@ -15,7 +15,7 @@ from disc_model.errors import Fault, suggestion
 from disc_model.studies.options import Option, options_of
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.swept_values import as_list, faults_along_axis
-from disc_model.units import in_si, mixed_units, number
+from disc_model.units import in_si, number
 
 QUANTITIES = {"lyapunov_exponents": "lyapunov"}
 """Quantities that have the options of a function of another name."""
@@ -132,7 +132,6 @@ def values_over(
             faults.append(Fault(("over", str(name)), "", wrong))
             continue
         unit, _ = arguments.unit_and_meaning(name)
-        faults += mixed_units(as_list(given), unit, ("over", name))
         values = [_in_unit(value, unit) for value in as_list(given)]
         wrong = _fault_of_values(values)
         if wrong:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
 from disc_model.errors import require
-from disc_model.mode_choice import choose_when_run
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.merge import merge_batches, merge_cases
 from disc_model.studies.run import run_batch
@@ -81,8 +79,7 @@ def run_study(
         batches = calls.results(run_batch, texts, grid.name)
         datasets[grid.name] = merge_batches(batches, grid.grid, grid.attrs)
     if study.specs:
-        run = partial(run_case, choose=choose_when_run)
-        cases = calls.results(run, [*study.specs.values()], "cases")
+        cases = calls.results(run_case, [*study.specs.values()], "cases")
         datasets["cases"] = merge_cases(dict(zip(study.specs, cases, strict=True)), study.labels)
     if len(datasets) == 1:
         return next(iter(datasets.values()))

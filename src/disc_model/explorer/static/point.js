@@ -169,8 +169,7 @@ const PERTURBED = "perturbation_"; // before a coordinate of the start that vari
 /** The start of a point's motion: the motion before it, if any, and the perturbations that are not 0. */
 function beginningOf(study, place) {
   const varied = variedAt(gridOf(study), place);
-  const named = Object.fromEntries(varied).start;
-  const { prerun, perturbation } = study.starts[named] ?? study.start;
+  const { prerun, perturbation } = study.start;
   const kicks = varied.filter(([name]) => name.startsWith(PERTURBED)).map(([name, value]) => [name.slice(PERTURBED.length), value]);
   const kick = Object.fromEntries([...Object.entries(perturbation ?? {}), ...kicks].filter(([, value]) => value !== 0));
   return { prerun, kick, isStatic: !prerun && !Object.keys(kick).length };
@@ -191,9 +190,8 @@ function studyOf(study, place, variable) {
     study: "point", quantity: study.call.quantity, options: study.call.options, base: unusualOf(study),
     axes: Object.fromEntries(axes.map(([name, one]) => [name, [one]])),
   };
-  const { disc, start } = Object.fromEntries(axes);
+  const { disc } = Object.fromEntries(axes);
   if (study.discs[disc]) given.discs = { [disc]: discOf(study, disc, study.discs[disc]) };
-  if (study.starts[start]) given.starts = { [start]: study.starts[start] };
   const stored = `found["${variable.name}"]`;
   const one = `${stored}${placeWithin(study, place, variable)}.item()`;
   return {

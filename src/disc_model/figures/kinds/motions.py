@@ -217,11 +217,3 @@ class SlidingModes(Compared):
     quantities = ("sliding",)
     kind: Literal["sliding_modes"] = "sliding_modes"
     highest: Annotated[Positive, Unit("Hz")] | None = None
-
-
-class RootLocus(Compared):
-    """Eigenvalues of steady sliding in the plane of growth rate and frequency, coloured along the
-    parameter."""
-
-    quantities = ("sliding",)
-    kind: Literal["root_locus"] = "root_locus"

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
-from disc_model.mode_units import column_of, mode_number_in_si, si_unit_of_mode
+from disc_model.mode_units import column_of, mode_number_in_si
 from disc_model.parameters import RATIOS, Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
-from disc_model.units import in_si, is_number, is_quantity, mixed_units, number
+from disc_model.units import in_si, is_number, is_quantity, number
 
 UNSET = ("damping_ratio",)  # numbers that are None in a case without them
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
@@ -49,7 +49,6 @@ def values_in_si(
     if column_of(name):
         converted = values
         if isinstance(values, list | tuple):
-            found += mixed_units(values, si_unit_of_mode(name), (argument,))
             converted = [mode_number_in_si(name, value, found) for value in values]
     else:
         converted = _numbers(in_si(values, _unit_of(name), found, ()))
