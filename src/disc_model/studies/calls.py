@@ -146,7 +146,7 @@ def _warn_beside(dimensions: Sequence[Dimension]) -> None:
     """Warn of columns of a table of samples that are no numbers of the case."""
     if beside := " and ".join(name for each in dimensions for name in each.beside):
         text = f"{beside}: no number of the case, kept beside the samples"
-        warnings.warn(text, ImplausibleValue, stacklevel=5)
+        warnings.warn(text, ImplausibleValue, stacklevel=4)
 
 
 def checked_call(
