@@ -351,11 +351,11 @@ def study(
     ] = False,
 ) -> None:
     """Compute a study and draw its figures: only what is missing or out of date, by Snakemake."""
-    import snakemake.cli  # type: ignore[import-untyped]
-
     from disc_model.studies.study import load_study
 
     load_study(*files)  # says what is wrong in fewer words than Snakemake
+    import snakemake.cli  # type: ignore[import-untyped]
+
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     options = ["-s", str(snakefile), *(target or []), f"-j{cores}", "--directory", str(directory)]
     options += ["--dry-run"] * dry_run + ["--unlock"] * unlock

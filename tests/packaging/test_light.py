@@ -80,7 +80,7 @@ def test_the_numerics_need_nothing_of_the_workflow(tmp_path: Path) -> None:
     assert "amplitude" in done.stdout
     assert done.stderr.count("pip install 'disc_model[workflow]'") == 2
     assert done.stderr.endswith(
-        "error: there is no module snakemake: pip install 'disc_model[workflow]' brings all that studies need\n"
+        "error: there is no module yaml: pip install 'disc_model[workflow]' brings all that studies need\n"
     )
 
 
