@@ -98,7 +98,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     ]:
         path.write_text(path.read_text() + "\n# a comment\n")
     api = "src/disc_model/simulation/api.py"
-    project.edit(api, "def simulate(", '"""Of what follows."""\n\n\ndef simulate(')
+    project.edit(api, "def _with_windows", '"""Of what follows."""\n\n\ndef _with_windows')
     for path in (project.folder / "config").glob("*"):
         os.utime(path)
     assert project.planned() == set()
@@ -166,5 +166,5 @@ def test_a_point_that_fails_is_reported(project: Project) -> None:
     lines = (project.folder / "results/small_map/small_map.failed.txt").read_text().splitlines()
     assert len(lines) == bad > 0
     assert lines[-2].startswith(
-        "N = 1000000, Omega = 25, normalization = as_published: paradox: at t = "
+        "N = 1000000 N, Omega = 25 rad/s, normalization = as_published: paradox: at t = "
     )
