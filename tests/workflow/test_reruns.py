@@ -100,7 +100,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
     ]:
         path.write_text(path.read_text() + "\n# a comment\n")
     api = "src/disc_model/simulation/api.py"
-    project.edit(api, "def simulate(", '"""Of what follows."""\n\n\ndef simulate(')
+    project.edit(api, "def _with_windows", '"""Of what follows."""\n\n\ndef _with_windows')
     for path in (project.folder / "config").glob("*"):
         os.utime(path)
     assert project.planned() == set()
