@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -103,44 +103,20 @@ def fit(
     raise_faults(foreign_case(case) or [*_faults(case, request)])
     lmfit = brought("lmfit", "fit")
     raise_faults([*_faults_of_start(case, request.data)])
-    start = {name: case.numbers[name] for name in request.vary}
-    scales = [abs(value) or 1.0 for value in start.values()]
-
-    @cache
-    def deviations(*values: float) -> Array:
-        changes = dict(zip(start, values, strict=True))
-        try:
-            return _deviations(case.replace(**changes), request.data)
-        except DiscModelError:  # such as mu_k > mu_s
-            return np.full(len(request.data), math.nan)
-
-    def residuals(params: Any) -> Array:
-        return np.nan_to_num(deviations(*params.valuesdict().values()), nan=NOT_THERE)
-
-    def jacobian(params: Any) -> Array:
-        values = np.array([*params.valuesdict().values()])
-        here = deviations(*values)
-        columns = []
-        for step in STEP * np.diag(scales):
-            # mean of the differences in both directions, or that of the one in which there is a case
-            changes = [deviations(*values + step) - here, here - deviations(*values - step)]
-            slope = np.ma.masked_invalid(changes).mean(axis=0).filled(0.0)
-            columns.append(slope / step.sum())
-        return np.transpose(columns)
-
     params = lmfit.Parameters()
-    for name, value in start.items():
+    for name in request.vary:
         low, high = request.bounds.get(name, (-math.inf, math.inf))
-        params.add(name, value, min=low, max=high)
+        params.add(name, case.numbers[name], min=low, max=high)
+    search = _Search(case, request.data, [abs(each.value) or 1.0 for each in params.values()])
     # scipy's other tests of convergence depend on the parameters' units
     tests = {"ftol": 1e-10, "xtol": 1e-15, "gtol": None}
     return lmfit.minimize(
-        residuals,
+        search.residuals,
         params,
         method="least_squares",
         scale_covar=False,
-        jac=jacobian,
-        x_scale=scales,
+        jac=search.jacobian,
+        x_scale=search.scales,
         **tests,
     )
 
@@ -202,6 +178,37 @@ def _faults_of_start(case: Parameters, data: Sequence[_Measurement]) -> Iterator
             at = ", ".join(f"{name}={value}" for name, value in settings.items())
             path = ("data", str(i), "quantity")
             yield Fault.of(path, data[i].quantity, f"is not there at the start with {at}")
+
+
+class _Search(NamedTuple):
+    """What lmfit calls: a case at the start, measurements, and scales of the varied parameters."""
+
+    case: Parameters
+    data: Sequence[_Measurement]
+    scales: Sequence[float]
+
+    def residuals(self, params: Any) -> Array:
+        return np.nan_to_num(self.deviations(params.valuesdict()), nan=NOT_THERE)
+
+    def jacobian(self, params: Any) -> Array:
+        values = params.valuesdict()
+        here = self.deviations(values)
+        columns = []
+        for name, scale in zip(values, self.scales, strict=True):
+            step = STEP * scale
+            ahead = self.deviations({**values, name: values[name] + step}) - here
+            behind = here - self.deviations({**values, name: values[name] - step})
+            # their mean, or the one in whose direction there is a case
+            slope = np.ma.masked_invalid([ahead, behind]).mean(axis=0) / step
+            columns.append(slope.filled(0.0))
+        return np.transpose(columns)
+
+    def deviations(self, values: Mapping[str, float]) -> Array:
+        """Deviations of the case with these values of its parameters."""
+        try:
+            return _deviations(self.case.replace(**values), self.data)
+        except DiscModelError:  # such as mu_k > mu_s
+            return np.full(len(self.data), math.nan)
 
 
 def _deviations(case: Parameters, data: Sequence[_Measurement]) -> Array:
