@@ -152,13 +152,9 @@ class ModesOptions(Strict):
     )
 
     def read(self, case: Mapping[str, Any]) -> Disc:
-        """The disc of the file."""
+        """The disc of the file: a table, or, if its place is given, a universal file."""
         if "disc" in case:
             raise ParameterError(Fault(("disc",), "", "must be left out: --from gives the disc"))
-        return self._disc(case)
-
-    def _disc(self, case: Mapping[str, Any]) -> Disc:
-        """The disc of a table, or, if its place is given, of a universal file."""
         file = self.from_ or ""
         if self.axis is None and self.centre is None and self.units is None:
             return Disc.from_csv(file)
