@@ -1,0 +1,1 @@
+"""Figures of single runs: time histories, phase portraits, Poincaré sections and spectra."""

@@ -1,0 +1,2 @@
+"""Pictures of stability: branches, multipliers, eigenvalues, exponents, curves, modes, and Campbell
+diagrams."""

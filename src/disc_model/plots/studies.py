@@ -1,0 +1,87 @@
+"""Figures of studies over parameters: each a few lines over `draw`."""
+
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.plots.draw import (
+    COLUMN,
+    PAGE,
+    bar_of,
+    class_map,
+    colours_of,
+    each_value,
+    is_rate,
+    lines,
+    number_map,
+    panels,
+    rate_axis,
+    sign_changes,
+    unresolved,
+)
+from disc_model.plots.schema import NORM, grid_figure
+
+SIGN_CHANGES = "growth rate changes its sign"
+
+
+# ---- Any variable
+
+
+@grid_figure()
+def heat_map(
+    study: xr.Dataset, variable: str, x: str, y: str, by: str = NORM, log: bool = False
+) -> Figure:
+    """Any variable in colour over two dimensions, with a panel for each value of a third."""
+    parts = each_value(study, by)
+    names = [str(i) for i in range(len(parts))]
+    width = PAGE if len(parts) > 1 else COLUMN
+    figure, axes = panels([names], width, 2.4, sharex=True, sharey=True)
+    for ax, (title, part) in zip(axes.values(), parts, strict=True):
+        plane = part[variable].transpose(y, x)
+        ax.set_title(title)
+        if plane.dtype == object:
+            class_map(ax, plane)
+            continue
+        scale = colours_of(study[variable], log=log)
+        mesh = number_map(ax, plane, why_missing(part, variable), **scale)
+        if is_rate(plane):
+            sign_changes(ax, plane, SIGN_CHANGES)
+    if study[variable].dtype != object:
+        bar_of(figure, [*axes.values()], mesh, study[variable])
+    return figure
+
+
+@grid_figure()
+def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = False) -> Figure:
+    """Any variable against one dimension, with a line for each value of another."""
+    figure, axes = panels([["a"]], COLUMN, 2.6)
+    jump = 1.0 if is_rate(study[variable]) else np.inf
+    lines(axes["a"], study[variable], x, doubtful=in_doubt(study, variable), jump=jump)
+    if is_rate(study[variable]):
+        rate_axis(axes["a"])
+    elif log:
+        axes["a"].set_yscale("log")
+    return figure
+
+
+def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Words for the points of a variable without a number: what there is in place of a cycle, or a
+    status that is not "ok"."""
+    x = data[variable]
+    if is_rate(x) and "cycle" in data and data["cycle"].dims == x.dims:
+        return data["cycle"]
+    if "status" in data and set(data["status"].dims) <= set(x.dims):
+        status = data["status"].broadcast_like(x).transpose(*x.dims)
+        return status.where(status != "ok", "no_value")
+    return None
+
+
+def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Where a motion of which a variable says something has not been shown to settle."""
+    for name, good in (("settled", "settled"), ("converged", "yes")):
+        if name in data and name != variable and set(data[name].dims) <= set(data[variable].dims):
+            unsure: Any = data[name] != good
+            return unsure.broadcast_like(data[variable])  # type: ignore[no-any-return]
+    return None
