@@ -15,7 +15,7 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
-from disc_model.data.variables import PERTURBATIONS, attributes, values_text
+from disc_model.data.variables import OF_QUANTITIES, PERTURBATIONS, attributes, values_text
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
 from disc_model.figures.kinds import General, Kind, Plot, RegionMap
 from disc_model.figures.words import factors_of
@@ -81,10 +81,10 @@ class _Columns(Strict):
 def described(name: str) -> dict[str, Any]:
     """Description and unit of a value in the schema of files."""
     stated = attributes(name)
-    unit = stated.get("units", "")
+    meaning, unit = stated["long_name"], stated.get("units", "")
     if name in Parameters.model_fields:
-        unit = Parameters.unit(name)
-    return {"description": stated["long_name"], "json_schema_extra": {"unit": unit}}
+        meaning, unit = Parameters.model_fields[name].description, Parameters.unit(name)
+    return {"description": meaning, "json_schema_extra": {"unit": unit}}
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **described(name))) for name in VARIED}
@@ -609,9 +609,8 @@ class GridStudy:
         """Axes that name a parameter which the quantity varies by itself, along a dimension of another
         name."""
         for axis, name in plot.axes.items():
-            for dim, coordinate in self.options.COORDINATES.items():
-                is_scanned = dim in (f"scan_{name}", f"sweep_{name}")
-                if is_scanned or coordinate.long_name.format(self.options) == name:
+            for dim, known in OF_QUANTITIES[self.quantity].get("coordinates", {}).items():
+                if name == getattr(self.options, known.parameter, known.parameter):
                     rule = f"varies along the dimension {dim} of this study: write {axis}: {dim}"
                     yield Fault.of((axis,), name, rule)
 
