@@ -4,6 +4,7 @@ Words and units are written by hand, values are taken from the data in SI units:
 them by the unit in the label.
 """
 
+import functools
 import json
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
@@ -11,18 +12,32 @@ from typing import Any, NamedTuple
 import numpy as np
 import xarray as xr
 
+from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.data.variables import LONG_TERM_OUTCOMES, OUTCOMES_TO_HORIZON, attributes
 from disc_model.studies.registry import quantity_of
 from tests.figures.measured import Shown
-from tests.figures.test_cases import simulated
 from tests.studies.conftest import computed
 
+RECORDED = {
+    "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
+    "zoom": Window(start=56, stop=56.035, rate=1e5, theta=0.5),
+    "spectrum_a": Window(start=0, stop=3, rate=4e3, theta=0.5),
+    "orbit": Window(start=59, rate=5e3, theta=0.5),
+    "poincare": Poincare(theta=0.5),
+}
 SPEED = "Speed Ω"
 LOAD = "Preload N"
 SPEEDS = np.array([8.0, 11.0, 14.5])  # rad/s
 LOADS = np.array([120.0, 310.0, 475.0])  # N
 OK = {"flag_meanings": "ok failed"}
 ONE = {"normalization": ["as_published"]}
+
+
+@functools.cache
+def simulated(separates: bool) -> xr.DataTree:
+    """A minute with windows; contact is first lost at 54.4 s, or never."""
+    Omega = 15.1 if separates else 15.0
+    return simulate(Parameters(N=385, Omega=Omega), 60, RECORDED).to_tree()
 
 
 class Example(NamedTuple):
