@@ -44,24 +44,26 @@ class Shows(NamedTuple):
     quantities : of the study; none for any
     needs : dimensions of the study, beside those that its keys name
     takes : whether it takes dimensions beyond these, too
+    inner : dimensions of the quantity itself that keys may name, too
     windows : of each case, by name, with the rules that they must keep
     """
 
     quantities: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
     takes: bool = False
+    inner: tuple[str, ...] = ()
     windows: Mapping[str, Any] = {}
 
 
 def grid_figure(
-    *quantities: str, needs: Sequence[str] = (), takes: bool = False
+    *quantities: str, needs: Sequence[str] = (), takes: bool = False, inner: Sequence[str] = ()
 ) -> Callable[[Function], Function]:
     """Mark a function that draws a study, its first argument.
 
     Parameters with the type ``Annotated[xr.Dataset | None, Role(...)]`` take further studies; `x`, `y`,
     `by` and `starts` name dimensions.
     """
-    return _marked(Shows(quantities, tuple(needs), takes))
+    return _marked(Shows(quantities, tuple(needs), takes, tuple(inner)))
 
 
 def case_figure(windows: Mapping[str, Any] | None = None) -> Callable[[Function], Function]:
@@ -196,15 +198,13 @@ class Plot(Kind):
     names: Annotated[dict[str, str], BeforeValidator(_by_key)] = Field({})
 
     def axes(self) -> dict[str, str]:
-        """Dimensions by the keys that name them."""
+        """Dimensions of the grid by the keys that name them."""
         chosen = {key: getattr(self, key, None) for key in ("x", "y", "by", "starts")}
-        return {key: name for key, name in chosen.items() if name}
+        inner = self.shows.inner
+        return {key: name for key, name in chosen.items() if name and name not in inner}
 
     def faults(
-        self,
-        values: Values,
-        variables: Mapping[str, Sequence[str]],
-        classes: Sequence[str] = (),
+        self, values: Values, variables: Mapping[str, Sequence[str]], classes: Sequence[str] = ()
     ) -> Iterator[Fault]:
         """What keeps it from showing a study.
 
@@ -258,7 +258,9 @@ class Plot(Kind):
         free = {name: along for name, along in own.items() if name not in shown}
         for name, value in self.at.items():
             if name not in free:
-                yield Fault.of(("at", name), value, f"is no dimension that remains{suggestion(name, free)}")
+                yield Fault.of(
+                    ("at", name), value, f"is no dimension that remains{suggestion(name, free)}"
+                )
             elif free[name] and key_of(value) not in {key_of(x) for x in free[name]}:
                 yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
         if self.shows.takes:
