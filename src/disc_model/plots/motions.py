@@ -25,7 +25,7 @@ from disc_model.plots.draw import (
 )
 from disc_model.plots.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED
 from disc_model.plots.schema import Role, grid_figure
-from disc_model.plots.shown import label, placed
+from disc_model.plots.shown import label, placed, value_text
 from disc_model.units import Finite, Unit
 
 Named = Annotated[dict[str, Finite] | None, Unit(of="x")]
@@ -66,15 +66,21 @@ def bifurcation(
     figure, axes = panels([[n] for n in heights], PAGE, 1.7, sharex=True, height_ratios=ratios)
     _samples(axes["samples"], study, x)
     events = study["period_events"]
-    look: dict[str, Any] = {"color": BLACK, "ls": "", "marker": "o", "ms": 1.5}
-    lines(axes["period"], events.where(events > 0), x, missing="not shown to repeat", **look)
-    axes["period"].set(yscale="log", ylabel="Events in a period", ylim=(0.7, None))
+    lines(
+        axes["period"],
+        events.where(events > 0),
+        x,
+        missing="not shown to repeat",
+        color=BLACK,
+        marker="o",
+        ls="",
+        ms=1.5,
+    )
+    axes["period"].set(yscale="log", ylabel="Events in a period", ylim=(0.7, None), xlabel="")
     if lyapunov is not None:
         _exponents(axes["exponents"], lyapunov, x)
-    for ax in axes.values():
-        ax.set_xlabel(label(study[x]))
-        ax.label_outer()
     first, *others = axes.values()
+    others[-1].set_xlabel(label(study[x]))
     threshold(first, _places(study[x], paper_cases), others)
     return figure
 
@@ -87,10 +93,15 @@ def _places(along: xr.DataArray, values: dict[str, float] | None) -> dict[str, f
 def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     """Samples by phase, hollow where motions have not settled, below the classes of motion."""
     options = stated_in(study, "options")
-    names = EVENTS if options["section"] == "event" else {}
+    names = EVENTS
+    said = ""
+    if options["section"] != "event":
+        names = {}
+        said = ", once per turn of the drive"
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     samples = study[["psi", "phase", "settled"]].stack(point=[x, "sample"])
-    settled, first = samples["settled"] == "settled", samples["sample"] <= MOST_RINGS
+    settled = samples["settled"] == "settled"
+    first = samples["sample"] <= MOST_RINGS
     for word, look in MARKS.items():
         heights = samples["psi"].where(samples["phase"] == word)
         colour = OF_PHASE[word]
@@ -101,9 +112,8 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     low, high = ax.get_ylim()
     ax.set_ylim(low, high + 1.5 * CLASSES * (high - low))
     strip(ax, study["kind"], 1 - CLASSES)
-    said = "" if names else ", once per turn of the drive"
-    name = study["psi"].attrs["long_name"] + said
-    ax.set_ylabel(label(study["psi"].assign_attrs(long_name=name)))
+    study["psi"].attrs["long_name"] += said
+    ax.set_ylabel(label(study["psi"]))
 
 
 def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
@@ -114,11 +124,11 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
     moving = lyapunov["converged"] != "yes"
     exponents = lyapunov["exponent"]
     lines(ax, exponents, x, doubtful=moving, doubt="not converged", ls="", ms=2.5)
+    bars = f"± {ERRORS} standard errors"
     for number in numbers:
         one = lyapunov.sel(exponent_number=number)
         errors = ERRORS * one["exponent_error"]
-        name = f"± {ERRORS} standard errors"
-        ax.errorbar(one[x], one["exponent"], errors, fmt="none", ecolor=GREY, label=name)
+        ax.errorbar(one[x], one["exponent"], errors, fmt="none", ecolor=GREY, label=bars)
     ax.axhline(0, color=GREY, lw=0.5, zorder=0)
 
 
@@ -137,14 +147,16 @@ def branches(study: xr.Dataset, paper_cases: dict[str, Finite] | None = None) ->
     paper_cases : values of the parameter by the paper's names of cases
     """
     figure, axes = panels([["a"]], PAGE, 3.2)
-    ax, along = axes["a"], study["sweep_value"]
+    ax = axes["a"]
+    along = study["sweep_value"]
     branch_line(ax, along, 0 * along, study["sliding_growth_rate"], GREY, "steady sliding")
     for i in range(int(study["n_branches"])):
         branch = study.isel(branch=i).dropna("branch_point", subset=["value"])
-        colour, name = BLACK, "cycle in contact"
+        drawn = branch["value"], branch["range"], branch["growth_rate"]
         if branch["separations"] > 0:
-            colour, name = RED, "separating cycle"
-        branch_line(ax, branch["value"], branch["range"], branch["growth_rate"], colour, name)
+            branch_line(ax, *drawn, RED, "separating cycle")
+        else:
+            branch_line(ax, *drawn, BLACK, "cycle in contact")
     _sweep(ax, study.sel(direction="up"), "^", "simulated, rising")
     _sweep(
         ax,
@@ -155,8 +167,12 @@ def branches(study: xr.Dataset, paper_cases: dict[str, Finite] | None = None) ->
     if ax.texts:
         ax.plot([], [], color=GREY, ls="", marker=r"$\rightarrow$", ms=8, label="jump")
     ax.set_yscale("symlog", linthresh=REST, linscale=0.4, subs=range(2, 10))
-    ax.set(xlim=along.values[[0, -1]], ylim=(-REST, None))
-    ax.set(xlabel=label(along), ylabel=label(study["range"]))
+    ax.set(
+        xlim=along.values[[0, -1]],
+        ylim=(-REST, None),
+        xlabel=label(along),
+        ylabel=label(study["range"]),
+    )
     threshold(ax, _places(along, paper_cases))
     return figure
 
@@ -173,9 +189,9 @@ def branch_line(
     stable = stable_between(rate.values)
     for text, kept, width in (("unstable", ~stable, 0.7), ("stable", stable, 2.0)):
         if kept.any():
-            said = f"{name}: {text}"
-            line = LineCollection(parts[kept], colors=colour, lw=width, label=said)
-            line.set_capstyle("round")
+            line = LineCollection(
+                parts[kept], colors=colour, lw=width, capstyle="round", label=f"{name}: {text}"
+            )
             ax.add_collection(line)
 
 
@@ -191,7 +207,8 @@ def stable_between(rate: Any) -> Any:
 def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
     """Marks of a sweep in its order, filled where motions have not settled, and arrows where it
     jumps."""
-    x, heights = sweep["sweep_value"].values, sweep["sweep_range"]
+    x = sweep["sweep_value"].values
+    heights = sweep["sweep_range"]
     apart = sweep["sweep_separation_rate"] > 0
     late = sweep["sweep_settled"] != "settled"
     for text, here, colour, face in (
@@ -199,8 +216,18 @@ def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
         ("simulated, separating", apart, RED, "white"),
         ("filled: not settled", late, GREY, GREY),
     ):
-        look: dict[str, Any] = {"color": colour, "mfc": face, "marker": marker, "ms": 2.5}
-        mark_points(ax, x, heights.where(here), text, mew=0.5, clip_on=False, **look)
+        mark_points(
+            ax,
+            x,
+            heights.where(here),
+            text,
+            marker=marker,
+            color=colour,
+            mfc=face,
+            ms=2.5,
+            mew=0.5,
+            clip_on=False,
+        )
     ratio = np.diff(np.log(heights.clip(NOISE)))
     for i in np.flatnonzero(np.abs(ratio) > np.log(JUMP)):
         arrow = {"arrowstyle": "->", "color": GREY, "lw": 1.0}
@@ -229,14 +256,16 @@ def basins(study: xr.Dataset, x: str, by: str = "") -> Figure:
     """
     study[ENERGY].attrs["long_name"] = "Energy"
     over_energy = x == ENERGY
-    parts = each_value(study, by if over_energy else ENERGY)
+    across = by if over_energy else ENERGY
+    parts = each_value(study, across)
     names = [str(i) for i in range(len(parts))]
     rows = [np.repeat(names, 2).tolist()]
     if not over_energy:
         rows.append(["attractors"] * len(parts) + ["critical"] * len(parts))
     figure, axes = panels(rows, PAGE, 2.2, sharex=True)
-    for name, (title, part) in zip(names, parts, strict=True):
-        axes[name].set_title(title)
+    for name, (_, part) in zip(names, parts, strict=True):
+        if across:
+            axes[name].set_title(value_text(part[across]))
         _shares(axes[name], part, x)
     if not over_energy:
         _attractors(axes["attractors"], study, x)
@@ -244,8 +273,7 @@ def basins(study: xr.Dataset, x: str, by: str = "") -> Figure:
     for ax in axes.values():
         ax.tick_params(labelbottom=True)
     for name in names[1:]:
-        axes[name].set_ylabel("")
-        axes[name].tick_params(labelleft=False)
+        axes[name].set(ylabel="", yticklabels=[])
     return figure
 
 
@@ -288,8 +316,15 @@ def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
 
 def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
     """The least energy that leads to separation, sampled and by bisection, from zero on."""
-    look: dict[str, Any] = {"color": RED, "marker": "v", "label": "least energy, by bisection"}
-    lines(ax, study["critical_energy"], x, missing="no start separates", **look)
+    lines(
+        ax,
+        study["critical_energy"],
+        x,
+        missing="no start separates",
+        label="least energy, by bisection",
+        color=RED,
+        marker="v",
+    )
     sampled = study["critical_energy_sampled"]
     ax.plot(study[x], sampled, "_", color=BLACK, ms=6, label="least energy of the starts")
     energies = study[ENERGY]
@@ -302,7 +337,6 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
 
 Zooms = Annotated[tuple[tuple[Finite, Finite], ...], Field(max_length=3), Unit(of="x")]
 SAME_HEIGHT = 1e-6  # change of asinh(10 height) up to which a step goes on
-SHOWN_OF_STEPS = ["motion", "separations_per_release", "period_releases"]
 APART = 0.04  # least distance of numbers of releases over the width of the page
 
 
@@ -319,17 +353,23 @@ def staircase(
     zooms : ends of parts of the axis that are shown enlarged, each within the one before
     """
     names = [f"zoom {i}" for i in range(len(zooms))]
-    figure, axes = panels([["whole"] * len(names), names] if names else [["whole"]], PAGE, 2.4)
+    rows = [["whole"] * max(1, len(names)), names]
+    figure, axes = panels([row for row in rows if row], PAGE, 2.4)
     before, *zoomed = axes.values()
-    parts = [part[SHOWN_OF_STEPS] for part in (study, fine) if part is not None]
+    parts = [part for part in (study, fine) if part is not None]
     data = xr.concat(parts, x, combine_attrs="override").sortby(x)
     _steps(before, data, x, APART)
     if slipping is not None:
         places = slipping[x].where(slipping["motion"] == "without_stick")
-        edge = before.get_xaxis_transform()
-        look: dict[str, Any] = {"color": BLUE, "transform": edge, "clip_on": False}
-        name = "a motion that never sticks exists beside"
-        before.plot(places, 0 * places + 1, "D", label=name, **look)
+        before.plot(
+            places,
+            0 * places + 1,
+            "D",
+            color=BLUE,
+            transform=before.get_xaxis_transform(),
+            clip_on=False,
+            label="a motion that never sticks exists beside",
+        )
     for ax, ends in zip(zoomed, zooms, strict=True):
         low, high = (placed(study[x], end) for end in ends)
         _steps(ax, data.sel({x: slice(low, high)}), x, APART * len(names))
@@ -345,19 +385,32 @@ def _steps(ax: Axes, data: xr.Dataset, x: str, apart: float) -> None:
     apart : least distance of numbers, share of the panel
     """
     heights = data["separations_per_release"]
-    look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 2.2, "mew": 0, "lw": 1.4}
-    look["doubtful"], look["doubt"] = data["motion"] == "undecided", "not shown to repeat"
-    name = "numbers: releases in a period"
-    lines(ax, heights, x, jump=SAME_HEIGHT, missing="", label=name, **look)
+    lines(
+        ax,
+        heights,
+        x,
+        doubtful=data["motion"] == "undecided",
+        doubt="not shown to repeat",
+        missing="",
+        jump=SAME_HEIGHT,
+        label="numbers: releases in a period",
+        color=BLACK,
+        marker="o",
+        ms=2.2,
+        mew=0,
+        lw=1.4,
+    )
     ax.margins(y=0.15)
     ax.xaxis.set_major_formatter("{x:.6g}")
     ax.locator_params(axis="x", nbins=5)
-    at, releases = data[x].values, data["period_releases"].values
+    at = data[x].values
+    releases = data["period_releases"].values
     begins = np.flatnonzero(np.diff(releases, prepend=0))
     middles = (at[begins] + at[np.append(begins[1:], at.size) - 1]) / 2
     taken: list[float] = []
     for i in np.argsort(at[begins] - middles, kind="stable"):
-        number, middle = releases[begins[i]], middles[i]
+        middle = middles[i]
+        number = releases[begins[i]]
         if number and all(abs(middle - other) > apart * np.ptp(at) for other in taken):
             taken.append(middle)
             place = (middle, heights[begins[i]])
@@ -372,9 +425,11 @@ def phase_map(study: xr.Dataset) -> Figure:
     whole, near = axes.values()
     own = study["release_phase"].dropna("release").values
     margin = 0.15 * np.ptp(own)
-    low, high = own.min() - margin, own.max() + margin
+    low = own.min() - margin
+    high = own.max() + margin
     for i, (number, part) in enumerate(study.groupby("map_separations")):
-        at, after = part["map_phase"].values, part["map_next_phase"].values
+        at = part["map_phase"].values
+        after = part["map_next_phase"].values
         for ax in (whole, near):
             ax.plot(at, after, ".", color=(BLACK, RED)[i % 2], ms=2, label="slider held once")
         inside = np.flatnonzero((low < np.minimum(at, after)) & (np.maximum(at, after) < high))
@@ -385,11 +440,18 @@ def phase_map(study: xr.Dataset) -> Figure:
             near.annotate(text, place, (6, 0), textcoords="offset points", va="center")
     for ax, start, end in ((whole, float(study["map_phase"].min()), 1.0), (near, low, high)):
         ax.axline((0, 0), slope=1, color=GREY, lw=0.6, zorder=0)
-        ax.set(xlim=(start, end), ylim=(start, end), aspect="equal")
-        ax.set(xlabel="Phase of a release", ylabel="Phase of the next one")
+        ax.set(
+            xlim=(start, end),
+            ylim=(start, end),
+            aspect="equal",
+            xlabel="Phase of a release",
+            ylabel="Phase of the next one",
+        )
     window = (low, low, high - low, high - low)
-    whole.indicate_inset(window, edgecolor=BLUE, alpha=1, linewidth=0.8)
+    whole.indicate_inset(window, edgecolor=BLUE, linewidth=0.8)
     period = study["period_releases"].item()
-    said = f"motion itself: repeats after {period} releases" if period else "motion itself"
+    said = "motion itself"
+    if period:
+        said += f": repeats after {period} releases"
     mark_points(near, own[:-1], own[1:], said, color=BLUE, marker="o", mfc="none")
     return figure

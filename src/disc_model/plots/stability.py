@@ -83,7 +83,8 @@ def _lines_of_modes(ax: Axes, modes: xr.Dataset, name: str) -> None:
     modes : `frequency`, `rate` and `diameters` of each, shape (x, mode)
     """
     y = modes[name].transpose(..., "mode")
-    along, text = y[str(y.dims[0])], "mode of steady sliding"
+    along = y[str(y.dims[0])]
+    text = "mode of steady sliding"
     for number in np.unique(modes["diameters"]):
         part = y.where(modes["diameters"] == number)
         grows = part.where(modes["rate"] > ROUNDING)
@@ -175,9 +176,19 @@ def _growth(ax: Axes, near: xr.DataArray, far: xr.DataArray) -> None:
     motion is far from it."""
     steps = np.abs(np.diff(np.arcsinh(near / LINEAR_RATE))) <= JOINED
     alone = near.notnull() & ~(np.append(False, steps) | np.append(steps, False))
-    look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 1.2, "lw": 0.8}
-    doubt = "another cycle, or too wide a step"
-    lines(ax, near, "Omega", doubtful=alone, doubt=doubt, missing="", jump=JOINED, **look)
+    lines(
+        ax,
+        near,
+        "Omega",
+        doubtful=alone,
+        doubt="another cycle, or too wide a step",
+        missing="",
+        jump=JOINED,
+        color=BLACK,
+        marker="o",
+        ms=1.2,
+        lw=0.8,
+    )
     if far.notnull().any():
         name = "the motion is not near this cycle"
         ax.plot(far["Omega"], far, "x", color=BLACK, ms=3.5, mew=0.7, label=name)
