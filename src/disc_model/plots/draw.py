@@ -88,9 +88,11 @@ def _size_of(ax: Axes, figure: Figure) -> tuple[float, float]:
     if spec is None:
         return float(width), float(height)
     grid = spec.get_gridspec()
-    columns = spec.colspan.stop - spec.colspan.start
-    rows = spec.rowspan.stop - spec.rowspan.start
-    return float(width * columns / grid.ncols), float(height * rows / grid.nrows)
+    columns, rows = np.ones(grid.ncols), np.ones(grid.nrows)
+    columns[:], rows[:] = grid.get_width_ratios(), grid.get_height_ratios()
+    across = columns[spec.colspan.start : spec.colspan.stop].sum() / columns.sum()
+    up = rows[spec.rowspan.start : spec.rowspan.stop].sum() / rows.sum()
+    return float(width * across), float(height * up)
 
 
 def _break_label(ax: Axes, height: float) -> None:
@@ -128,12 +130,16 @@ def each_value(data: Any, by: str) -> list[tuple[str, Any]]:
     return [(value_text(data[by][i]), data.isel({by: i})) for i in range(data.sizes[by])]
 
 
-def threshold(ax: Axes, places: Mapping[str, float]) -> None:
-    """Named lines at places across, such as cases of the paper."""
+def threshold(ax: Axes, places: Mapping[str, float], others: Sequence[Axes] = ()) -> None:
+    """Named lines at places across, such as cases of the paper.
+
+    others : panels that have the same lines, without names
+    """
     sides = {"right": -2, "left": 2}
     for i, (name, x) in enumerate(places.items()):
         side = [*sides][i % 2]
-        ax.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
+        for panel in (ax, *others):
+            panel.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
         at: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
         ax.annotate(name, (x, 0.02), (sides[side], 0), ha=side, fontsize=7, **at)
 
@@ -192,6 +198,29 @@ def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] | None = N
     for word, look in looks_of(np.unique(said[said != ""]).tolist()).items():
         cells(ax, flag, said == word, {word: look, **(looks or {})}[word])
     frame(ax, flag)
+
+
+def strip(ax: Axes, flag: xr.DataArray, low: float = 0.0) -> None:
+    """Paint words along the horizontal axis in a strip up to the top of a panel, and nothing where
+    they are "".
+
+    flag : words, shape (x,)
+    low : lower edge of the strip, share of the panel
+    """
+    said, sides = words(flag), edges(flag[str(flag.dims[0])])
+    for word, look in looks_of(np.unique(said[said != ""]).tolist()).items():
+        ax.fill_between(
+            np.repeat(sides, 2)[1:-1],
+            low,
+            1,
+            np.repeat(said == word, 2),
+            transform=ax.get_xaxis_transform(),
+            fc=look.face,
+            hatch=look.hatch,
+            ec=look.ink if look.hatch else "none",
+            label=look.label,
+            zorder=0,
+        )
 
 
 def number_map(
@@ -374,11 +403,14 @@ def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, along: str = "
     ax.plot(*places, transform=to_page, label=why, **look)
 
 
-def rate_axis(ax: Axes) -> None:
-    """The scale of growth rates, with a line at zero: linear up to 0.1/s, and logarithmic beyond if
-    some are larger than 0.3/s."""
-    if np.abs(ax.dataLim.intervaly).max() > LARGEST_RATE:
-        ax.set_yscale("symlog", linthresh=LINEAR_RATE, subs=range(2, 10))
+def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:
+    """The scale of growth rates, with a line at zero: linear up to some rate, and logarithmic beyond
+    if some are three times as large.
+
+    linear : 1/s
+    """
+    if np.abs(ax.dataLim.intervaly).max() > LARGEST_RATE / LINEAR_RATE * linear:
+        ax.set_yscale("symlog", linthresh=linear, subs=range(2, 10))
         ax.yaxis.set_major_formatter("{x:g}")
     ax.axhline(0, color=GREY, lw=0.5, zorder=0)
 
@@ -387,13 +419,16 @@ def rate_axis(ax: Axes) -> None:
 
 
 def shares(ax: Axes, x: xr.DataArray, fractions: xr.DataArray, classes: str) -> None:
-    """Stacked shares of classes, a bar at each value along a dimension.
+    """Stacked shares of classes in their order, a bar at each value along a dimension.
 
     fractions : shape (x, classes)
     classes : the dimension of words
     """
     sides, bottom = edges(x), np.zeros(x.size)
-    for word, look in looks_of(map(str, fractions[classes].values)).items():
+    names = [str(word) for word in fractions[classes].values]
+    looks = looks_of(names)
+    for word in names:
+        look = looks[word]
         share = fractions.sel({classes: word}).values
         if not (share > 0).any():
             continue
