@@ -68,7 +68,7 @@ def finish(figure: Figure, title: str = "") -> Figure:
     """Letter the panels of a figure, and explain below them whatever has a label."""
     axes = panels_of(figure)
     for ax, letter in zip(axes, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        text = ax.get_title(loc="left")
+        text = ax.get_title(loc="left").replace(" = ", "\u00a0=\u00a0")
         if len(axes) > 1:
             text = f"({letter}) {text}".strip()
         width, height = _size_of(ax, figure)

@@ -77,6 +77,6 @@ def looks_of(words: Iterable[str]) -> dict[str, Look]:
     further = zip(cycle(FURTHER_COLOURS), cycle(FURTHER_HATCHES), strict=False)
     places = {word: i for i, word in enumerate(LOOKS)}
     looks = {}
-    for word in sorted(set(words), key=lambda word: places.get(word, len(places))):
+    for word in sorted(set(words), key=lambda word: (places.get(word, len(places)), word)):
         looks[word] = LOOKS.get(word) or Look(word.replace("_", " "), *next(further))
     return looks

@@ -1,6 +1,7 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
 from collections.abc import Mapping
+from itertools import cycle
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -8,7 +9,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
-from pydantic import Field
 from scipy.ndimage import binary_dilation, binary_opening
 
 from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
@@ -37,23 +37,30 @@ from disc_model.plots.draw import (
 )
 from disc_model.plots.looks import BLACK, BLUE, GREEN, GREY, LOOKS, ORANGE, PAPER, RED, STABLE, Look
 from disc_model.plots.schema import NORM, Role, grid_figure
-from disc_model.plots.shown import label, placed, value_text, with_unit
+from disc_model.plots.shown import label, placed, value_text
 from disc_model.units import Finite, Positive, Strict
 
-SIGN_CHANGES = "growth rate changes its sign"
 Curves = Annotated[xr.Dataset | None, Role("stability_curves")]
 BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
 """What curves are, and their lines."""
 NOTHING: dict[str, Any] = {}
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
-MARKERS = "o^sD"
-DASHES = ("-", "--", "-.", ":")
+MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
+DASHES = ("-", "--", ":")
+CARRIED = 0.95  # share of height and force at one frequency, from which marks are filled
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
 NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 SHADE = "#e4e4e4"
 PALE = "#d8d8d8"  # dots on dark colours
-KEPT: dict[str, Any] = {"scalex": False, "scaley": False}  # limits of what is below a line
+
+
+def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
+    """A figure with a row of panels that have the same scales."""
+    width = COLUMN if count == 1 else PAGE
+    names = [str(i) for i in range(count)]
+    figure, axes = panels([names], width, height, sharex=True, sharey=True)
+    return figure, [*axes.values()]
 
 
 # ---- Any variable
@@ -65,14 +72,12 @@ def heat_map(
 ) -> Figure:
     """Any variable in colour over two dimensions, with a panel for each value of a third."""
     parts = each_value(study, by)
-    names = [str(i) for i in range(len(parts))]
-    width = PAGE if len(parts) > 1 else COLUMN
-    figure, axes = panels([names], width, 2.4, sharex=True, sharey=True)
+    figure, axes = row(len(parts), 2.4)
     shown = study[variable]
     has_classes = shown.dtype == object
     scale = {} if has_classes else colours_of(shown, log=log)
     paint = rate_map if is_rate(shown) else number_map
-    for ax, (title, part) in zip(axes.values(), parts, strict=True):
+    for ax, (title, part) in zip(axes, parts, strict=True):
         plane = part.transpose(y, x, ...)
         ax.set_title(title)
         if has_classes:
@@ -80,7 +85,7 @@ def heat_map(
         else:
             mesh = paint(ax, plane[variable], why_missing(plane, variable), **scale)
     if not has_classes:
-        bar_of(figure, [*axes.values()], mesh, shown)
+        bar_of(figure, axes, mesh, shown)
     return figure
 
 
@@ -103,7 +108,7 @@ def rate_map(
         stability = stability.where(rate.notnull(), why)
     unresolved(ax, stability)
     if contour:
-        sign_changes(ax, rate.where(~lone_cells(stability)), SIGN_CHANGES)
+        sign_changes(ax, rate.where(~lone_cells(stability)), "growth rate changes its sign")
     return mesh
 
 
@@ -113,11 +118,10 @@ def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = 
     figure, axes = panels([["a"]], COLUMN, 2.6)
     y = study[variable]
     of_cycle = variable == "growth_rate"  # which may be another one at the next value
-    sparse: dict[str, Any] = {}
-    if y.sizes[x] > 24 and bool(y.notnull().all()):
-        sparse["markevery"] = y.sizes[x] // 12
+    every = y.sizes[x] // 12 if bool(y.notnull().all()) else 1  # a point alone needs its mark
     jump = 1.0 if of_cycle else np.inf
-    lines(axes["a"], y, x, doubtful=in_doubt(study, variable), jump=jump, **sparse)
+    doubtful = in_doubt(study, variable)
+    lines(axes["a"], y, x, doubtful=doubtful, jump=jump, markevery=max(1, every))
     if of_cycle:
         rate_axis(axes["a"])
     elif is_rate(y):
@@ -152,15 +156,11 @@ def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
 
 
 class Mark(Strict):
-    """A case of the paper: where it lies, in SI units, and what the paper says of it.
-
-    assumed : whether the paper does not state where
-    """
+    """A case of the paper: where it lies, in SI units, and what the paper says of it."""
 
     x: Finite
     y: Finite
     paper_outcome: Literal["stick_slip", "growing", "separation"]
-    assumed: bool = False
 
 
 @grid_figure("regions")
@@ -210,11 +210,15 @@ def borders(ax: Axes, curves: xr.Dataset, rate: xr.DataArray) -> None:
     for i in range(curves.sizes["curve"]):
         curve = curves.isel(curve=i)
         name, style = BORDERS.get(curve["kind"].item(), ("", ""))
-        along = {curve[axis].attrs["parameter"]: curve[axis] for axis in "xy"}
-        up, across = (along[str(dim)] for dim in rate.dims)
-        shown = bounding(curve, up, across, rate)
-        if name and shown.any():
-            ax.plot(across.where(shown), up.where(shown), style, color=BLACK, label=name, **KEPT)
+        up, across = (along(curve)[str(dim)] for dim in rate.dims)
+        up = up.where(bounding(curve, up, across, rate))
+        if name and up.notnull().any():
+            ax.plot(across, up, style, color=BLACK, label=name, scalex=False, scaley=False)
+
+
+def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Places on curves by their parameters."""
+    return {curves[axis].attrs["parameter"]: curves[axis] for axis in "xy"}
 
 
 def bounding(
@@ -223,15 +227,15 @@ def bounding(
     """Where a curve passes between an area in which the cycle is stable and one beyond, both two
     cells wide or more: no curves of another cycle, and none finer than the cells."""
     unstable = rate > 0 if curve["kind"] == "neutral" else ~(rate < 0)
-    known = up.notnull() & (curve["adjoins_stable_cycle"] == "yes")
-    places = {str(dim): x[known.values] for dim, x in zip(rate.dims, (up, across), strict=True)}
-    near = known.values.copy()
+    near = up.notnull() & (curve["adjoins_stable_cycle"] == "yes")
+    known = near.values.copy()
+    places = dict(zip(rate.dims, (up[known], across[known]), strict=True))
     for area in (rate < 0, unstable):
         padded = np.pad(area, 1, mode="edge")
         wide = binary_opening(padded, np.ones((2, 2)))[1:-1, 1:-1]
         around = area.copy(data=binary_dilation(wide, np.ones((3, 3))))
         near[known] &= around.sel(places, method="nearest").values
-    return known.copy(data=near)
+    return near
 
 
 def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray) -> None:
@@ -248,9 +252,8 @@ def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray)
     above = height < 0.85 and (said == "separation" or height < 0.15)
     side, right = ("right", -6) if across > 0.7 else ("left", 6)
     end, up = ("bottom", 6) if above else ("top", -6)
-    text = f"{name}, place assumed" if mark.assumed else name
     behind = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-    ax.annotate(text, at, (right, up), ha=side, va=end, bbox=behind, zorder=20, **NOTE)
+    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=behind, zorder=20, **NOTE)
 
 
 FATES = {
@@ -288,9 +291,8 @@ def sliding_outcome(
             looks[word] = Look(f"{word}: {', '.join(shares)}", LOOKS[outcomes[0]].face, dots)
     looks["undecided"] = LOOKS["undecided"]._replace(label="undecided, or no steady sliding")
     parts = each_value(both, by)
-    names = [str(i) for i in range(len(parts))]
-    figure, axes = panels([names], PAGE, 2.6, sharex=True, sharey=True)
-    for ax, (title, part) in zip(axes.values(), parts, strict=True):
+    figure, axes = row(len(parts), 2.6)
+    for ax, (title, part) in zip(axes, parts, strict=True):
         ax.set_title(titled(title, study))
         class_map(ax, part.transpose(y, x), looks)
     return figure
@@ -326,42 +328,40 @@ def critical_speed(
     if "horizon" in study.dims:
         study = study.sel(horizon=study["horizon"].max())
     speeds, loads = study["scan_Omega"], study["N"]
-    names = ["start"] if hysteresis is None else ["start", "sweeps"]
-    width = COLUMN if hysteresis is None else PAGE
-    figure, axes = panels([names], width, 3.0, sharex=True, sharey=True)
+    figure, axes = row(1 if hysteresis is None else 2, 3.0)
     if cycle is not None:
         behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
-    for ax in axes.values():
+    for ax in axes:
         onsets(ax, study)
         mark_missing(ax, loads[(study["status"] != "ok").values], "failed", along="y")
         ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
         ax.label_outer()
-    axes["start"].set_title(f"from the static start, within {study['horizon']:g} s")
+    axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
     for load, speed in paper_points.values():
         at = (placed(speeds, speed), placed(loads, load))
-        axes["start"].plot(*at, "*", ms=9, zorder=5, **PAPER)
-        axes["start"].annotate("paper", at, (6, -4), **NOTE)
+        axes[0].plot(*at, "*", ms=9, zorder=5, **PAPER)
+        axes[0].annotate("paper", at, (6, -4), **NOTE)
     if hysteresis is not None:
         step = float(hysteresis["sweep_Omega"].diff("sweep_Omega")[0])
-        axes["sweeps"].set_title(f"sweeps in steps of {with_unit(f'{step:g}', speeds.units)}")
-        sweeps(axes["sweeps"], hysteresis)
+        axes[1].set_title(f"sweeps in steps of {step:g} {speeds.units}")
+        sweeps(axes[1], hysteresis)
     if basins is not None:
         load = stated_in(basins, "base")["N"]
-        coexistence(axes["sweeps"], basins, placed(loads, load))
+        coexistence(axes[-1], basins, placed(loads, load))
     return figure
 
 
-def behind(axes: Mapping[str, Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
+def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
     """Outcomes of a map and the borders of its cycle, and where this is stable."""
     plane = cycle.transpose("N", "Omega", ...)
     in_contact = plane["outcome"].isin(["other_cycle", "undecided"])
     others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
-    class_map(axes["start"], plane["outcome"].where(~in_contact, "growing"), {"growing": others})
+    class_map(axes[0], plane["outcome"].where(~in_contact, "growing"), {"growing": others})
     if curves is not None:
-        borders(axes["start"], curves, plane["growth_rate"])
-    if "sweeps" in axes:
-        stable = plane["growth_rate"] < 0
-        cells(axes["sweeps"], stable, stable.values, Look("cycle stable", LOOKS["stable"].face))
+        borders(axes[0], curves, plane["growth_rate"])
+    stable = plane["growth_rate"] < 0
+    for ax in axes[1:]:
+        cells(ax, stable, stable.values, Look("cycle stable", LOOKS["stable"].face))
 
 
 def onsets(ax: Axes, study: xr.Dataset) -> None:
@@ -381,7 +381,7 @@ def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
     kept = sweep["separation_rate"] == 0
     unsure = kept & (sweep["sweep_settled"] != "settled")
     last_kept = along.where(kept.sel(direction="down")).max("sweep_Omega")
-    name = "sweeps: begins ▲ going up, ends ▼ going down; hollow: not settled"
+    name = "sweeps: separation begins ▲ going up, ends ▼ going down; hollow: not settled"
     ends = down.fillna(along.min())  # without one, separation goes on at the lowest speed
     ax.hlines(sweep["N"], ends, up, color=BLACK, lw=0.8, label=name)
     for way, speeds, before, marker, colour in (
@@ -398,9 +398,9 @@ def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
     separating: the intervals of both shares exclude zero."""
     small = basins["basin_fraction_low"].sel(attractor_class="stick_slip") > 0
     both = basins["Omega"].where(small & (basins["separating_fraction_low"] > 0))
-    ends = [float(both.min()), float(both.max())]
-    ax.plot(ends, [load, load], color=ORANGE, lw=5, solid_capstyle="butt", zorder=1.5)
-    ax.annotate("random starts: both", (ends[0], load), (0, 5), **NOTE)
+    ax.plot(both, both * 0 + load, "-|", color=ORANGE, lw=2, ms=7, mew=1.5)
+    name = "random starts:\nsmall or separating"
+    ax.annotate(name, (float(both.min()), load), (-4, -6), ha="right", **NOTE)
 
 
 @grid_figure("ramps")
@@ -409,30 +409,29 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     the stable cycle ends, the limit of slow ramps."""
     figure, axes = panels([["a"]], COLUMN, 2.4)
     ax = axes["a"]
-    for name, way, marker, colour in (
-        ("onset_speed", "rising: separation begins", "^", RED),
-        ("offset_speed", "falling: separation ends", "v", BLUE),
+    for name, way, end, marker, colour in (
+        ("onset_speed", "rising", "begins", "^", RED),
+        ("offset_speed", "falling", "ends", "v", BLUE),
     ):
         speeds = study[name].assign_attrs(long_name="Speed Ω")
         missing = f"{way}: {speeds.attrs['missing']}"
-        lines(ax, speeds, "rate", label=way, missing=missing, marker=marker, color=colour, ms=4)
+        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4}
+        lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
     mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
     if curves is not None:
-        ends = fold_speeds(curves, placed(curves["y"], stated_in(study, "base")["N"]))
-        end = float(ends.where(ends <= study["onset_speed"].min()).max())
-        if np.isfinite(end):
-            ax.axhline(
-                end, color=BLACK, lw=0.8, ls="--", label=f"stable cycle ends (fold), {end:.2f}"
-            )
+        ends = fold_speeds(curves, stated_in(study, "base")["N"])
+        limit = float(ends.where(ends <= study["onset_speed"].min()).max())
+        if np.isfinite(limit):
+            name = f"stable cycle ends (fold), {limit:.2f}"
+            ax.axhline(limit, color=BLACK, lw=0.8, ls="--", label=name)
     return figure
 
 
 def fold_speeds(curves: xr.Dataset, load: float) -> xr.DataArray:
-    """Speeds at which folds of the stable cycle cross a preload, of curves over speed and preload; nan
-    between other points."""
+    """Speeds at which folds of the stable cycle cross a preload (N), nan between other points."""
     beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
-    speed = curves["x"].where(beside)
-    above = curves["y"] - load
+    speed, loads = along(curves)["Omega"].where(beside), along(curves)["N"]
+    above = loads - placed(loads, load)
     ahead = above.shift(curve_point=-1)
     crossing = speed + above / (above - ahead) * (speed.shift(curve_point=-1) - speed)
     return crossing.where(above * ahead <= 0)
@@ -452,11 +451,13 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
         shares = np.arange(times.size + 1) / known.size
-        look = {"color": LINE_COLOURS[i], "label": f"{title}: {counted(known.notnull())} starts"}
-        ax.stairs(shares, [0, *times, horizon], baseline=None, ls=DASHES[i], lw=1.4, **look)
+        colour, dashes = LINE_COLOURS[i % 4], DASHES[i % 3]
+        name = f"{title}: {counted(known.notnull())} starts"
+        steps = [0, *times, horizon]
+        ax.stairs(shares, steps, baseline=None, color=colour, ls=dashes, lw=1.4, label=name)
         middle, half = wilson(times.size, known.size)
-        look["label"] = "95 % confidence"
-        ax.vlines(horizon * (1.02 + 0.02 * i), middle - half, middle + half, lw=3, **look)
+        end = horizon * (1.02 + 0.02 * i)
+        ax.vlines(end, middle - half, middle + half, color=colour, lw=3, label="95 % confidence")
     ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
     ax.set_xlim(0, None)
     return figure
@@ -481,7 +482,7 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     lost = f"R, at which contact is lost; separating: {extent(apart / data['limit'])} R"
 
     figure, axes = panels([["late", "surface_speed"]], PAGE, 2.8, sharex=True)
-    for (title, part), colour in zip(each_value(data, "N"), LINE_COLOURS, strict=False):
+    for (title, part), colour in zip(each_value(data, "N"), cycle(LINE_COLOURS), strict=False):
         axes["late"].axhline(float(part["limit"]), color=colour, ls=":", label=lost)
         for contact, style, more in (
             ("unilateral", "-", ""),
@@ -520,41 +521,38 @@ def lost_contact(study: xr.Dataset) -> xr.DataArray:
 
 
 @grid_figure("range_law", takes=True)
-def range_law(
-    study: xr.Dataset,
-    share: Annotated[Positive, Field(le=1)] = 0.95,
-    set_apart: dict[str, Finite] = NOTHING,
-) -> Figure:
+def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
     """Excess of the range of motions with separation over the range R at which vibration at their
-    frequency loses contact, against R, and enlarged against the share of time apart.
+    frequency loses contact, against R, and enlarged against the share of time apart; hollow where no
+    frequency carries most of the motion.
 
-    share : of height and contact force that one frequency carries where marks are filled
     set_apart : value of a parameter whose motions have marks of their own
     """
     data = study.stack(motion=[*study["deviation"].dims], create_index=False)
     data = data.isel(motion=data["deviation"].notnull().values)
     excess, apart = data["deviation"], data["separation_fraction"]
-    single = ((data["vibration_share"] >= share) & (data["force_share"] >= share)).values
+    shares = np.minimum(data["vibration_share"].values, data["force_share"].values)
+    single = shares >= CARRIED
     groups = groups_of(data, set_apart)
     inside = (abs(excess) <= BAND).values
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
-    hollow = f"hollow: no frequency carries {percent(share)} of height and contact force"
+    hollow = "hollow: no frequency carries 95 % of height and contact force"
     places = {"all": (data["pinned_range"], excess), "apart": (apart, excess.clip(*ENLARGED))}
 
     figure, axes = panels([[*places]], PAGE, 2.6)
     for panel, (x, y) in places.items():
         ax = axes[panel]
-        for name, marker, colour in zip(np.unique(groups), MARKERS, LINE_COLOURS, strict=False):
-            look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 3, "ls": ""}
+        for name, (marker, colour) in zip(np.unique(groups), cycle(MARKS), strict=False):
+            look: dict[str, Any] = {"marker": marker, "color": colour, "ls": "", "ms": 3}
             here = groups == name
             ax.plot(x[here & single], y[here & single], label=name, **look)
             mark_points(ax, x[here & ~single], y[here & ~single], hollow, mew=0.6, **look)
         ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
         ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
         ax.set_ylabel("Excess of the range over R")
-    shares = np.linspace(0, float(apart.max()))
-    flights = [excess_of_flights(each) for each in shares.tolist()]
-    axes["apart"].plot(shares, flights, color=BLACK, label="by flights: (π · time apart)²/8")
+    times = np.linspace(0, float(apart.max()))
+    flights = [excess_of_flights(each) for each in times.tolist()]
+    axes["apart"].plot(times, flights, color=BLACK, label="by flights: (π · time apart)²/8")
     axes["apart"].set_xlabel("Share of time apart")
     axes["apart"].xaxis.set_major_formatter(PercentFormatter(1, 0))
     axes["all"].set(xscale="log", xlabel=f"R = 2N/|k − mω²| ({data['pinned_range'].units})")
@@ -587,27 +585,28 @@ def sensitivity(study: xr.Dataset) -> Figure:
     thirds = thirds.sortby(abs(thirds["share"][1] - thirds["share"][0]).max("case"))
 
     rows = np.arange(thirds.sizes["parameter"])
-    names = [str(i) for i in range(cases.sizes["case"])]
-    figure, axes = panels([names], PAGE, 0.8 + 0.2 * rows.size, sharex=True, sharey=True)
-    for i, ax in enumerate(axes.values()):
+    name = f"all {cases.sizes['sample']} samples"
+    figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
+    for i, ax in enumerate(axes):
         draw_thirds(ax, thirds.isel(case=i), rows)
         overall = float(cases["probability_unstable"][i])
-        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label="all of its values")
+        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label=name)
         along = [each[i] for each in cases.coords.values() if each.dims == ("case",)]
         ax.set_title(", ".join(map(value_text, along)))
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
     symbols = [presentation_of(name).symbol for name in thirds["parameter"].values]
-    axes["0"].set_yticks(rows, [typeset(symbol) for symbol in symbols])
+    axes[0].set_yticks(rows, [typeset(symbol) for symbol in symbols])
     failed = int((cases["cycle"] == "failed").sum())
     if failed:
-        axes["0"].plot([], [], " ", label=f"without {failed} failed samples")
+        axes[0].plot([], [], " ", label=f"without {failed} failed samples")
     return figure
 
 
 def thirds_of(cases: xr.Dataset) -> xr.Dataset:
     """Shares of unstable samples with a parameter in its lowest and in its highest third, and the ends of
     their intervals, shape (third, case, parameter)."""
-    values, known = cases["parameter_values"], cases["cycle"] != "failed"
+    values = cases["parameter_values"]
+    known = (cases["cycle"] != "failed") & (cases["status"] != "excluded")
     unstable = known & ~cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
     low, high = (values.quantile(end, "sample") for end in (1 / 3, 2 / 3))
     parts = []
