@@ -68,7 +68,7 @@ def finish(figure: Figure, title: str = "") -> Figure:
     """Letter the panels of a figure, and explain below them whatever has a label."""
     axes = panels_of(figure)
     for ax, letter in zip(axes, "abcdefghijklmnopqrstuvwxyz", strict=False):
-        text = ax.get_title(loc="left")
+        text = ax.get_title(loc="left").replace(" = ", "\u00a0=\u00a0")
         if len(axes) > 1:
             text = f"({letter}) {text}".strip()
         width, height = _size_of(ax, figure)
@@ -256,16 +256,21 @@ def missing_text(x: xr.DataArray) -> str:
     return f"no value: {why}" if why else "no value"
 
 
-def unresolved(ax: Axes, flag: xr.DataArray) -> None:
-    """Hatch single cells of a class between two of another one, along or across: it is narrower
-    than the cells."""
+def lone_cells(flag: xr.DataArray) -> NDArray[np.bool_]:
+    """Single cells of a class between two of another one, along or across: it is narrower than the
+    cells."""
     said = words(flag)
     alone = np.zeros(said.shape, dtype=bool)
     for axis in (0, 1):
         turned, marked = np.moveaxis(said, axis, 0), np.moveaxis(alone, axis, 0)
         before, here, after = turned[:-2], turned[1:-1], turned[2:]
         marked[1:-1] |= (before == after) & (here != before)
-    cells(ax, flag, alone & (said != "") & (said != "excluded"), UNRESOLVED)
+    return alone & (said != "") & (said != "excluded")
+
+
+def unresolved(ax: Axes, flag: xr.DataArray) -> None:
+    """Hatch cells of classes that are narrower than cells."""
+    cells(ax, flag, lone_cells(flag), UNRESOLVED)
 
 
 def growth_colours(*rates: xr.DataArray) -> dict[str, Any]:
@@ -311,8 +316,10 @@ def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
     bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), extend=extend, pad=0.01)
     if isinstance(mesh.norm, AsinhNorm):  # its own ticks meet at zero
         end = float(mesh.norm.vmax or 1)
-        ticks = [sign * end / 10**power for sign in (-1, 1) for power in (0, 0.5, 1)] + [0]
-        bar.set_ticks(ticks, labels=[f"{float(f'{tick:.1g}'):g}" for tick in ticks])
+        ticks = [sign * end / part for sign in (-1, 1) for part in (1, 3, 10)] + [0]
+        texts = [f"{float(f'{tick:.1g}'):g}".replace("-", "−") for tick in ticks]
+        bar.set_ticks(ticks, labels=texts)
+        bar.minorticks_off()
 
 
 def sign_changes(ax: Axes, rate: xr.DataArray, name: str) -> None:

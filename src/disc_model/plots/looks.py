@@ -3,7 +3,7 @@ in grey print."""
 
 from collections.abc import Iterable
 from itertools import cycle
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 BLACK = "#000000"
 GREY = "#8a8a8a"
@@ -16,7 +16,7 @@ SKY = "#56B4E9"
 OF_VARIABLE = {"P": "#4d4d4d", "w": BLUE, "w_point": BLUE, "psi": ORANGE, "u": ORANGE}
 """Colours of sampled variables, and of their velocities."""
 OF_PHASE = {"stick": GREEN, "slip": PURPLE, "separation": RED}
-PAPER = {"color": "#F0E442", "markeredgecolor": BLACK, "markeredgewidth": 0.8}
+PAPER: dict[str, Any] = {"color": "#F0E442", "markeredgecolor": BLACK, "markeredgewidth": 0.8}
 """The look of what the paper says."""
 
 
@@ -78,6 +78,6 @@ def looks_of(words: Iterable[str]) -> dict[str, Look]:
     further = zip(cycle(FURTHER_COLOURS), cycle(FURTHER_HATCHES), strict=False)
     places = {word: i for i, word in enumerate(LOOKS)}
     looks = {}
-    for word in sorted(set(words), key=lambda word: places.get(word, len(places))):
+    for word in sorted(set(words), key=lambda word: (places.get(word, len(places)), word)):
         looks[word] = LOOKS.get(word) or Look(word.replace("_", " "), *next(further))
     return looks

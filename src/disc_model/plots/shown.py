@@ -127,8 +127,10 @@ def value_text(x: xr.DataArray) -> str:
     coordinate, if that has it."""
     value = x.item()
     names: Mapping[str, str] = x.attrs.get("names", {})
-    if key_of(value) in names:
-        return names[key_of(value)]
+    factor = 1 if isinstance(value, str) else x.attrs.get("factor", 1.0)
+    stated = key_of(value if factor == 1 else value / factor)  # as a study file has it
+    if stated in names:
+        return names[stated]
     if isinstance(value, str):
         return IN_WORDS.get(value, value.replace("_", " "))
     known = parameter_of(x)
