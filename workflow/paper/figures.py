@@ -1,6 +1,7 @@
 """The paper's figures, from named cases, and one from maps: kinds such as ``paper.response``."""
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 from matplotlib.patheffects import withStroke
 from pydantic import Field
 
@@ -51,14 +53,18 @@ from workflow.paper.model import parameters_of
 Seconds = Annotated[Positive, Unit("s")]
 Span = tuple[float, float]
 HIGHEST = 1000.0  # frequency shown, Hz
+MODEL = Path(__file__).with_name("figures_model.png")
 
 
 # ---- Parts of figures
 
 
 def ranges_of(case: xr.DataTree, name: str, until: float | None = None) -> xr.Dataset:
-    """Ranges in a window, up to a time in s."""
-    return window_of(case, name).sel(time=slice(None, until))
+    """Ranges in a window, up to a time in s; raises `Missing` without two."""
+    shown = window_of(case, name).sel(time=slice(None, until))
+    if shown.sizes["time"] < 2:
+        raise Missing(f"has no ranges in {name} up to {until:g} s")
+    return shown
 
 
 def after(samples: xr.Dataset, start: float) -> xr.Dataset:
@@ -109,11 +115,13 @@ def draw_displacements(ax: Axes, case: xr.DataTree, samples: xr.Dataset) -> None
 
 
 def mark_thickness(ax: Axes, case: xr.DataTree, w: xr.DataArray) -> None:
-    """Draw a bar as long as the disc is thick beside an axis of its displacement: plate theory is
-    linear for less only."""
+    """Draw a bar as long as the disc is thick beside an axis of its displacement, if it finds room:
+    plate theory is linear for less only."""
     h = case["h"]
     thickness = placed(w, float(h) / h.attrs["factor"])
-    low, _ = ax.get_ylim()
+    low, high = ax.get_ylim()
+    if not thickness < 0.8 * (high - low):
+        return
     look: dict[str, Any] = {"color": BLACK, "lw": 2.5, "solid_capstyle": "butt", "clip_on": False}
     text = f"thickness of the disc, {thickness:g} {w.attrs['units']}"
     beside = ax.get_yaxis_transform()
@@ -122,9 +130,11 @@ def mark_thickness(ax: Axes, case: xr.DataTree, w: xr.DataArray) -> None:
 
 def mark_printed(ax: Axes, time: float | None) -> None:
     """Mark a time that the paper prints at the lower edge of a panel."""
-    if time is not None:
-        look: dict[str, Any] = {"ls": "", "marker": "^", "ms": 6, "clip_on": False, **PAPER}
-        ax.plot(time, 0, transform=ax.get_xaxis_transform(), label=f"paper: {time:g} s", **look)
+    low, high = ax.get_xlim()
+    if time is None or not low <= time <= high:
+        return
+    look: dict[str, Any] = {"ls": "", "marker": "^", "ms": 6, "clip_on": False, **PAPER}
+    ax.plot(time, 0, transform=ax.get_xaxis_transform(), label=f"paper: {time:g} s", **look)
 
 
 # ---- Contact force and displacements
@@ -246,13 +256,16 @@ def composite(
     until: Seconds,
     history: Ranges = "history",
 ) -> Figure:
-    """(a) The disc's vibration with separation and, in the case `ignored`, without, (b) the contact
-    force in 40 ms.
+    """(a) The model, (b) the disc's vibration with separation and, in the case `ignored`, without,
+    (c) the contact force in 40 ms.
 
     force : window of the contact force, and the time at which the stretch shown begins, s
-    until : end of the part of the runs that (a) shows
+    until : end of the part of the runs that (b) shows
     """
-    figure, axes = panels([["growth", "force"]], PAGE, 2.5)
+    layout = [["model", "growth", "force"]]
+    figure, axes = panels(layout, PAGE, 2.5, width_ratios=(1, 1.15, 1.3))
+    axes["model"].imshow(imread(MODEL))
+    axes["model"].set_axis_off()
     draw_both(axes["growth"], case, ignored, history, until)
     draw_look(axes["force"], case, force, 0.04, "P")
     axes["force"].set_ylim(bottom=0)
