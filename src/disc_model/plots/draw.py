@@ -21,6 +21,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator
+from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
 
 from disc_model.plots.looks import BLACK, GREY, LOOKS, UNRESOLVED, Look, looks_of
@@ -34,6 +35,7 @@ LETTERS_PER_INCH = 17.0  # of a legend
 LINE_HEIGHT = 0.15  # of a legend, inch
 LARGEST_RATE = 0.3  # growth rate at which colours end, 1/s, unless most are larger
 COMMON = 0.98  # share of rates within the colours then: a few large ones would pale the others
+SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 
 
@@ -142,6 +144,18 @@ def threshold(ax: Axes, places: Mapping[str, float], others: Sequence[Axes] = ()
             panel.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
         at: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
         ax.annotate(name, (x, 0.02), (sides[side], 0), ha=side, fontsize=7, **at)
+
+
+def compare(axes: Sequence[Axes]) -> None:
+    """Give panels the same limits, but for those that would be small by them: these say how much
+    they are enlarged."""
+    whole = Bbox.union([ax.viewLim for ax in axes])
+    for ax in axes:
+        width = ax.viewLim.width / whole.width
+        if max(width, ax.viewLim.height / whole.height) >= SMALL:
+            ax.set(xlim=whole.intervalx, ylim=whole.intervaly)
+        else:
+            ax.set_title(f"enlarged {1 / width:.0f} times, {ax.get_title(loc='left')}")
 
 
 # ---- Maps
@@ -339,7 +353,7 @@ def frame(ax: Axes, plane: xr.DataArray) -> None:
         if is_geometric(along.values):
             ax.set(**{f"{letter}scale": "log"})
             plain_numbers(getattr(ax, f"{letter}axis"))
-    if ax.get_subplotspec() is not None:
+    if len(ax.get_shared_y_axes().get_siblings(ax)) > 1:
         ax.label_outer()
 
 

@@ -363,8 +363,8 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
             roles[key] = role
         elif isinstance(role, CaseRole):
             further.append(key)
-            several = (tuple[str, ...], given and ())
-            fields[key] = several if role.several else (str, given and "")
+            several = (tuple[str, ...], given or ())
+            fields[key] = several if role.several else (str, given or "")
         else:
             fields[key] = (hint, given)
             rules.update((key, mark) for mark in marks if inspect.isfunction(mark))
