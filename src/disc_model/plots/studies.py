@@ -82,6 +82,7 @@ def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Where a motion of which a variable says something has not been shown to settle."""
     for name, good in (("settled", "settled"), ("converged", "yes")):
         if name in data and name != variable and set(data[name].dims) <= set(data[variable].dims):
-            unsure: Any = data[name] != good
+            is_truth = data[name].dtype.kind in "bf"  # of sweeps in Python
+            unsure: Any = data[name] != (True if is_truth else good)
             return unsure.broadcast_like(data[variable])  # type: ignore[no-any-return]
     return None
