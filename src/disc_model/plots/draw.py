@@ -4,7 +4,7 @@ shares; and the figures around them.
 What they draw is `shown`. Each artist has its name as its label, and a legend is what has a label.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path as File
 from textwrap import fill
@@ -121,9 +121,9 @@ def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH
     figure.set_figheight(figure.get_figheight() + LINE_HEIGHT * rows)
     texts = [*handles]
     legend = figure.legend([*handles.values()], texts, loc="outside lower center", ncols=columns)
-    for handle in legend.legend_handles:
-        if isinstance(handle, Patch) and not handle.get_hatch():
-            handle.set(edgecolor=GREY, linewidth=0.4)  # or white areas would not be seen
+    for sample in legend.legend_handles:
+        if isinstance(sample, Patch) and not sample.get_hatch():
+            sample.set(edgecolor=GREY, linewidth=0.4)  # or white areas would not be seen
 
 
 def each_value(data: Any, by: str) -> list[tuple[str, Any]]:
@@ -140,7 +140,7 @@ def threshold(ax: Axes, places: Mapping[str, float]) -> None:
     for i, (name, x) in enumerate(places.items()):
         side = [*sides][i % 2]
         ax.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
-        at = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+        at: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
         ax.annotate(name, (x, 0.02), (sides[side], 0), ha=side, fontsize=7, **at)
 
 
@@ -287,7 +287,7 @@ def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
     extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[low, high]
     bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), extend=extend, pad=0.01)
     if isinstance(mesh.norm, AsinhNorm):  # its own ticks meet at zero
-        end = mesh.norm.vmax
+        end = float(mesh.norm.vmax or 1)
         ticks = [sign * end / 10**power for sign in (-1, 1) for power in (0, 0.5, 1)] + [0]
         bar.set_ticks(ticks, labels=[f"{float(f'{tick:.1g}'):g}" for tick in ticks])
 
@@ -334,7 +334,7 @@ def wished(look: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
     return {**usual, **normalize_kwargs(look, Line2D)}
 
 
-def lines(  # noqa: PLR0913
+def lines(
     ax: Axes,
     y: xr.DataArray,
     x: str,
@@ -421,7 +421,8 @@ def shares(ax: Axes, x: xr.DataArray, fractions: xr.DataArray, classes: str) -> 
         share = fractions.sel({classes: word}).values
         if not (share > 0).any():
             continue
-        paint = {"fc": look.face, "hatch": look.hatch, "ec": look.ink if look.hatch else GREY}
+        ink = look.ink if look.hatch else GREY
+        paint: dict[str, Any] = {"fc": look.face, "hatch": look.hatch, "ec": ink}
         wide = np.diff(sides)
         ax.bar(sides[:-1], share, wide, bottom, align="edge", label=look.label, lw=0.4, **paint)
         bottom = bottom + share

@@ -9,17 +9,15 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from disc_model.data.dataset import Missing
+from disc_model.data.variables import stated_in
 from disc_model.errors import Fault, ParameterError, suggestion
+from disc_model.parameters import Parameters
 from disc_model.plots import runs, stability, studies
 from disc_model.plots.draw import COLUMN, PAGE, finish, panels, styled
 from disc_model.plots.schema import NORM, CasePlot, Kind, Plot, kinds_in
 from disc_model.plots.shown import key_of, shown, shown_case
 
-KINDS: dict[str, type[Kind]] = {
-    **kinds_in(runs),
-    **kinds_in(stability),
-    **kinds_in(studies),
-}
+KINDS: dict[str, type[Kind]] = {**kinds_in(runs), **kinds_in(stability), **kinds_in(studies)}
 """Kinds of this package."""
 WIDTHS = {"column": COLUMN, "page": PAGE}
 
@@ -76,11 +74,20 @@ def _of_cases(plot: CasePlot, inputs: Mapping[str, xr.DataTree]) -> Figure:
 
 def _of_studies(plot: Any, inputs: Mapping[str, xr.DataTree]) -> Figure:
     """Draw a study, the first input, and further ones by their roles."""
-    assert isinstance(plot, Plot)
-    datasets = [_prepared(plot, tree.to_dataset()) for tree in inputs.values()]
-    overlays = dict(zip([*inputs][1:], datasets[1:], strict=True))
-    figure: Figure = type(plot).function(datasets[0], **plot.options, **overlays)
+    study, *others = (_prepared(plot, tree.to_dataset()) for tree in inputs.values())
+    overlays = {}
+    for role, other in zip([*inputs][1:], others, strict=True):
+        alike = NORM in other.dims and NORM not in study.dims
+        overlays[role] = other.sel({NORM: normalization_of(study)}) if alike else other
+    figure: Figure = type(plot).function(study, **plot.options, **overlays)
     return figure
+
+
+def normalization_of(study: xr.Dataset) -> str:
+    """The normalization of the modes of a study that has one."""
+    if NORM in study.coords:
+        return str(study[NORM].item())
+    return str(stated_in(study, "base").get(NORM, Parameters.model_fields[NORM].default))
 
 
 def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
@@ -90,10 +97,10 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
         if name in data.dims:
             keys = [key_of(each) for each in data[name].values]
             data = data.isel({name: keys.index(key_of(value))})
-    kept = plot.axes().values()
+    kept = plot.axes.values()
     single = [name for name, size in data.sizes.items() if size == 1 and name not in kept]
     data = shown(data.squeeze(single), plot.units)
-    by = plot.axes().get("by", NORM)
+    by = plot.axes.get("by", NORM)
     if plot.names and by in data.coords:
         data[by].attrs["names"] = plot.names
     return data

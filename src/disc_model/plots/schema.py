@@ -7,12 +7,12 @@ the keys of a figure in a study file.
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, Self, get_args, get_type_hints
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_args, get_type_hints
 
-from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
+from pydantic import AfterValidator, BeforeValidator, Field, create_model
 
 from disc_model.data.variables import SHOWN
-from disc_model.errors import Fault, as_text, raise_faults, require, suggestion
+from disc_model.errors import Fault, as_text, raise_faults, suggestion
 from disc_model.plots.shown import key_of, si_unit
 from disc_model.simulation.case import Poincare, Window
 from disc_model.units import UNITS, Finite, Strict, Unit, in_si
@@ -195,40 +195,38 @@ class Plot(Kind):
     at: Annotated[dict[str, Finite | str], Unit(UNITS)] = Field({})
     names: Annotated[dict[str, str], BeforeValidator(_by_key)] = Field({})
 
+    @property
     def axes(self) -> dict[str, str]:
         """Dimensions by the keys that name them."""
         chosen = {key: getattr(self, key, None) for key in ("x", "y", "by", "starts")}
         return {key: name for key, name in chosen.items() if name}
 
     def faults(
-        self,
-        values: Values,
-        variables: Mapping[str, Sequence[str]],
-        classes: Sequence[str] = (),
+        self, dims: Values, variables: Mapping[str, Values], classes: Sequence[str] = ()
     ) -> Iterator[Fault]:
         """What keeps it from showing a study.
 
-        values : along each dimension of the study
-        variables : dimensions of each variable
+        dims : values along the dimensions of the study
+        variables : the same of each of its variables, with the dimensions of its own
         classes : variables that are words
         """
-        own = values
+        own = dims
         variable = getattr(self, "variable", None)
         if variable is not None:
             if variable not in variables:
                 rule = f"unknown variable{suggestion(variable, variables)}"
                 yield Fault.of(("variable",), variable, rule)
                 return
-            own = {name: values[name] for name in variables[variable] if name in values}
+            own = variables[variable]
             if variable in classes and getattr(self, "log", False):
                 yield Fault.of(("log",), True, f"is for numbers: {variable} has classes")
-        wrong = [*self._wrong_axes(own, values)]
+        wrong = [*self._wrong_axes(own)]
         yield from wrong or self._wrong_rest(own)
         yield from self._wrong_overlays()
 
-    def _wrong_axes(self, own: Values, known: Values) -> Iterator[Fault]:
+    def _wrong_axes(self, own: Values) -> Iterator[Fault]:
         """Dimensions that the study lacks, or that cannot be axes."""
-        axes = self.axes()
+        axes = self.axes
         for name in self.shows.needs:
             if name not in own:
                 yield Fault.of(("kind",), self.kind, f"needs the dimension {name}")
@@ -245,20 +243,20 @@ class Plot(Kind):
             elif key == "by" and len(own[name]) > MOST_VALUES:
                 rule = f"has {len(own[name])} values, and there is room for {MOST_VALUES}"
                 yield Fault.of((key,), name, rule)
-        along = known.get(axes.get("by", ""), ())
-        known_names = {key_of(value) for value in along}
+        along = [str(value) for value in own.get(axes.get("by", ""), ())]
         for value in self.names if along else ():
-            if value not in known_names:
-                told = suggestion(value, [str(x) for x in along])
-                yield Fault.of(("names",), value, f"is no value of {axes['by']}{told}")
+            if value not in map(key_of, along):
+                rule = f"is no value of {axes['by']}{suggestion(value, along)}"
+                yield Fault.of(("names",), value, rule)
 
     def _wrong_rest(self, own: Values) -> Iterator[Fault]:
         """Dimensions that are left over must have one value, or be chosen by `at` or `by`."""
-        shown = {*self.axes().values(), *self.shows.needs}
+        shown = {*self.axes.values(), *self.shows.needs}
         free = {name: along for name, along in own.items() if name not in shown}
         for name, value in self.at.items():
             if name not in free:
-                yield Fault.of(("at", name), value, f"is no dimension that remains{suggestion(name, free)}")
+                rule = f"is no dimension that remains{suggestion(name, free)}"
+                yield Fault.of(("at", name), value, rule)
             elif free[name] and key_of(value) not in {key_of(x) for x in free[name]}:
                 yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
         if self.shows.takes:
@@ -335,8 +333,9 @@ class CasePlot(Kind):
                 rule = f"is not recorded by case {need.case}{suggestion(need.name, recorded)}"
                 yield Fault.of((need.key,), need.name, rule)
             elif need.rule is not None:
-                is_window = isinstance(window, Window)
-                wrong = need.rule(window) if is_window else "must be a window, not the section"
+                wrong = "must be a window, not the section"
+                if isinstance(window, Window):
+                    wrong = need.rule(window)
                 if wrong:
                     yield Fault.of((need.key,), need.name, wrong)
 
@@ -347,33 +346,32 @@ class CasePlot(Kind):
 def kind_of_function(function: Function, name: str) -> type[Kind]:
     """The model of the figures that a marked function draws."""
     hints = get_type_hints(function, include_extras=True)
-    parameters = [*inspect.signature(function).parameters.values()]
+    first, *parameters = inspect.signature(function).parameters.values()
     fields: dict[str, Any] = {"kind": (Literal[name], name)}
-    roles, further, rules = {}, [], {}
-    for parameter in parameters[1:]:
-        hint, default = hints[parameter.name], parameter.default
+    roles: dict[str, Role] = {}
+    further: list[str] = []
+    rules: dict[str, Any] = {}
+    for parameter in parameters:
+        key, hint, default = parameter.name, hints[parameter.name], parameter.default
+        given: Any = ... if default is inspect.Parameter.empty else default
         marks = get_args(hint)[1:] if hasattr(hint, "__metadata__") else ()
         role = next((mark for mark in marks if isinstance(mark, Role | CaseRole)), None)
-        required = default is inspect.Parameter.empty
         if isinstance(role, Role):
-            roles[parameter.name] = role
+            roles[key] = role
         elif isinstance(role, CaseRole):
-            further.append(parameter.name)
-            kind: Any = tuple[str, ...] if role.several else str
-            fields[parameter.name] = (kind, ... if required else ((), "")[kind is str])
+            further.append(key)
+            several = (tuple[str, ...], given and ())
+            fields[key] = several if role.several else (str, given and "")
         else:
-            fields[parameter.name] = (hint, ... if required else default)
-            rules.update((parameter.name, mark) for mark in marks if inspect.isfunction(mark))
-    is_grid = parameters[0].name == "study"
+            fields[key] = (hint, given)
+            rules.update((key, mark) for mark in marks if inspect.isfunction(mark))
+    base: Any = Plot if first.name == "study" else CasePlot
     doc = inspect.getdoc(function)
-    base = Plot if is_grid else CasePlot
-    model: Any = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
-    model.function, model.shows = staticmethod(function), function.shows  # type: ignore[attr-defined]
-    if is_grid:
-        model.roles = roles
-    else:
-        model.further, model.rules = tuple(further), rules
-    return model  # type: ignore[no-any-return]
+    created = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
+    model = cast(Any, created)
+    model.function, model.shows = staticmethod(function), vars(function)["shows"]
+    model.roles, model.further, model.rules = roles, tuple(further), rules
+    return cast(type[Kind], model)
 
 
 def kinds_in(module: Any, part: str = "") -> dict[str, type[Kind]]:

@@ -33,7 +33,7 @@ def shown(data: xr.Dataset, units: Mapping[str, str] | None = None) -> xr.Datase
     Each variable has the attributes `long_name` and `units` of its label, and `factor`, which turns a
     value in SI units into what is shown. Flags are words.
     """
-    wishes = units or {}
+    wishes = factors_of(units or {})
     changed = {name: _shown(data[name], wishes).variable for name in data.variables}
     coordinates = {name: changed.pop(name) for name in list(changed) if name in data.coords}
     return data.assign(changed).assign_coords(coordinates)
@@ -47,7 +47,12 @@ def shown_case(case: xr.DataTree, units: Mapping[str, str] | None = None) -> xr.
     return tree
 
 
-def _shown(x: xr.DataArray, units: Mapping[str, str]) -> xr.DataArray:
+def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
+    """A reader's units, with the factors from SI to them."""
+    return {name: (unit, 1 / size_of_unit(unit, si_unit(name))) for name, unit in units.items()}
+
+
+def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataArray:
     """A variable with values, name and unit for readers."""
     attributes = {**x.attrs, "long_name": name_of(x), "units": "", "factor": 1.0}
     if "flag_meanings" in x.attrs:
@@ -62,8 +67,7 @@ def _shown(x: xr.DataArray, units: Mapping[str, str]) -> xr.DataArray:
         unit, factor = SHOWN[known].unit, SHOWN[known].factor
     elif str(x.name).endswith(("range", "period")) and unit in THOUSANDTHS:
         unit, factor = THOUSANDTHS[unit], 1e3
-    if known in units:
-        unit, factor = units[known], 1 / size_of_unit(units[known], si_unit(known))
+    unit, factor = units.get(known, (unit, factor))
     attributes.update(units=unit, factor=factor)
     values = x.values if factor == 1.0 else x.values * factor
     plain = xr.DataArray(values, dims=x.dims, name=x.name)

@@ -19,7 +19,6 @@ from disc_model.plots.draw import (
     panels,
     rate_axis,
     sign_changes,
-    unresolved,
 )
 from disc_model.plots.schema import NORM, grid_figure
 
