@@ -309,7 +309,7 @@ def frame(ax: Axes, plane: xr.DataArray) -> None:
         if is_geometric(along.values):
             ax.set(**{f"{letter}scale": "log"})
             plain_numbers(getattr(ax, f"{letter}axis"))
-    if len(ax.get_shared_x_axes().get_siblings(ax)) > 1:
+    if len(ax.get_shared_y_axes().get_siblings(ax)) > 1:
         ax.label_outer()
 
 
