@@ -76,7 +76,7 @@ def finish(figure: Figure, title: str = "") -> Figure:
             text = f"({letter}) {text}".strip()
         width, height = _size_of(ax, figure)
         ax.set_title(fill(text, max(12, int(LETTERS_PER_INCH * 0.85 * width))))
-        _break_label(ax, height)
+        break_label(ax, height)
     explain(figure, axes)
     if title:
         figure.suptitle(fill(title, int(LETTERS_PER_INCH * figure.get_figwidth())))
@@ -96,7 +96,7 @@ def _size_of(ax: Axes, figure: Figure) -> tuple[float, float]:
     return float(width * columns / grid.ncols), float(height * rows / grid.nrows)
 
 
-def _break_label(ax: Axes, height: float) -> None:
+def break_label(ax: Axes, height: float) -> None:
     """Break the label of a vertical axis that is longer than its panel, but not within its unit."""
     name, has_unit, unit = ax.get_ylabel().partition(" (")
     kept = f" ({unit.replace(' ', chr(0xA0))}" if has_unit else ""

@@ -13,6 +13,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
 
 from disc_model.data.dataset import Missing
@@ -23,6 +24,7 @@ from disc_model.parameters import Parameters, foreign_case
 from disc_model.plots import runs, stability
 from disc_model.plots.draw import (
     bar_of,
+    break_label,
     cells,
     class_map,
     colours_of,
@@ -63,6 +65,7 @@ USUAL = (
 """Variables of sweeps that are drawn unless another one is asked for: the first that there is."""
 CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
 OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
+ROW = 1.4  # height of a row of histories, inch
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
 IN_DOUBT = Look("circles: not settled", "none", "oo")
 
@@ -152,7 +155,8 @@ def modes(case: Any, most: Any) -> Any:
     columns = min(count, 5)
     rows = -(-count // columns)
     size = (2 * columns, 2.2 * rows)
-    _, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", squeeze=False)
+    options: Any = {"squeeze": False, "subplot_kw": {"projection": "polar"}}
+    _, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
     for spare in axes.flat[count:]:
         spare.set_axis_off()
     stability.draw_modes(axes.flat[:count], case)
@@ -195,7 +199,7 @@ def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: An
     case = shown_case(case, units_of(units))
     samples = [window_of(case, name, "windows") for name in given.windows]
     shape = (len(given.variables), len(samples))
-    size = (1.4 + 3.4 * shape[1], 0.9 + 1.4 * shape[0])
+    size = (1.4 + 3.4 * shape[1], 0.9 + ROW * shape[0])
     options: Any = {"sharex": "col", "sharey": "row", "squeeze": False}
     figure, axes = plt.subplots(*shape, figsize=size, layout="constrained", **options)
     with refused("variables", variables):
@@ -204,6 +208,8 @@ def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: An
     runs.mark_first_separation(axes.flat, case)
     for ax in axes.flat:
         ax.label_outer()
+        break_label(ax, ROW)
+    figure.align_ylabels()
     explain(figure, [*axes.flat], LETTERS)
     return axes.squeeze()[()]
 
@@ -228,26 +234,31 @@ def spectrum(
     """Draw the amplitude of a variable of a run over the frequency."""
     samples = window_of(shown_case(case, units_of(units)), name, variable=variable)
     ax = axes_for(ax)
-    before = len(ax.lines)
+    before, limits = len(ax.lines), ax.viewLim.frozen()
     with refused("window", name):
         runs.draw_spectrum(ax, samples, variable, Wishes(highest=highest).highest)
     for line in ax.lines[before:]:
         line.set(**wished(look, color=f"C{before}"))
+    if before:
+        whole = Bbox.union([limits, ax.viewLim])
+        ax.set(xlim=whole.intervalx, ylim=whole.intervaly)
     return explained(ax)
 
 
 def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
     """Draw the Poincaré sections of slider and disc."""
     figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
+    case = shown_case(case, units_of(units))
     with refused("window", name):
-        runs.draw_sections(axes, shown_case(case, units_of(units)), name)
+        runs.draw_sections(axes, case, name)
+    figure.suptitle(", ".join(runs.fate_of(case)))
     explain(figure, axes, LETTERS)
     return axes
 
 
-def film(p: Parameters, states: Any, case: xr.DataTree, name: str, path: Any, fps: float) -> Any:
+def film(p: Parameters, states: Any, case: xr.DataTree, name: str) -> Any:
     """Make a film of states of a run beside the contact force in a window."""
-    return runs.animate(p, states, window_of(shown_case(case), name), path, fps)
+    return runs.animate(p, states, window_of(shown_case(case), name))
 
 
 # ---- Sweeps: what is drawn of them

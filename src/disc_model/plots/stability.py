@@ -7,15 +7,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from cmcrameri import cm
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
 from disc_model.data.variables import attributes_of_number, typeset, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.parameters import Parameters
-from disc_model.plots import runs
 from disc_model.plots.draw import (
     BELOW_ANY,
     lines,
@@ -211,8 +210,9 @@ def _name_curve(ax: Axes, x: xr.DataArray, y: xr.DataArray, name: str) -> None:
         ax.annotate(name, middle, (4, 2), textcoords="offset points", fontsize="small")
 
 
-def draw_modes(axes: Iterable[Axes], case: Parameters) -> None:
-    """Draw the shapes of modes from above, by ascending frequency, with nodal lines and the slider."""
+def draw_modes(axes: Iterable[Any], case: Parameters) -> None:
+    """Draw the shapes of modes from above on polar axes, by ascending frequency, with nodal lines and
+    the slider."""
     modes = mode_arrays(case)
     inner, outer = radial_range(case)
     r = np.linspace(inner + EDGE * (outer - inner), outer, 25)
@@ -221,8 +221,10 @@ def draw_modes(axes: Iterable[Axes], case: Parameters) -> None:
     for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
         w = np.outer(shapes[i], np.cos(modes.diameters[i] * theta))
         end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
-        plane = xr.DataArray(w, {"r": r, "theta": theta}, ("r", "theta"))
-        runs.draw_disc(ax, plane, Normalize(-end, end), [0])
-        ax.plot(1e3 * case.r_0, 0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)
+        colours: dict[str, Any] = {"cmap": cm.vik, "vmin": -end, "vmax": end}
+        ax.pcolormesh(theta, r, w, shading="gouraud", rasterized=True, **colours)
+        ax.contour(theta, r, w, [0], colors=BLACK, linewidths=1)
+        ax.plot(0, case.r_0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)
+        ax.set(ylim=(0, outer), xticks=[], yticks=[])
         frequency = modes.omega[i] / (2 * np.pi)
         ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {frequency:.0f} Hz")

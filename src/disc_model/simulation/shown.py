@@ -177,4 +177,8 @@ def film(run: Result, path: str | Path | None, window: str | None, frames: int, 
     case, name = shown_window(run, window, "end")
     time = pictures.window_of(case, name)["time"]
     states = states_between(run, float(time[0]), float(time[-1]), frames)
-    return pictures.film(run.parameters, states, case, name, path, fps)
+    made = pictures.film(run.parameters, states, case, name)
+    if path is not None:
+        writer = "pillow" if file.suffix == ".gif" else "ffmpeg"
+        made.save(path, writer=writer, fps=fps, dpi=100)
+    return made
