@@ -176,7 +176,7 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     if found.kind != "sliding" and sliding.notnull().any():
         name = once(ax, "steady sliding, where there is no cycle")
         ax.plot(x, sliding, "--", label=name, **same)
-    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", **same)
+    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", same["color"])
     for ends in placed(x, found.unstable):
         ax.axvspan(*ends, alpha=0.2, lw=0, label=once(ax, "shaded: unstable"), **same)
     rate_axis(ax)
