@@ -96,7 +96,8 @@ def axes_for(ax: Any) -> Axes:
 
 
 def explained(ax: Axes) -> Axes:
-    """Axes with a legend of what has a label."""
+    """Axes with a legend of what has a label, and a long label in lines."""
+    break_label(ax, 3)
     if ax.get_legend_handles_labels()[1]:
         ax.legend()
     return ax

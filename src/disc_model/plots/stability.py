@@ -163,7 +163,7 @@ def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
     bars = {"fmt": "none", "capsize": 3, "ecolor": ax.lines[-1].get_color()}
     ax.errorbar(number, finite, found.errors, **bars)
     ax.axhline(0, color=GREY, lw=0.6, zorder=0)
-    ax.set_xticks(number)
+    ax.xaxis.get_major_locator().set_params(integer=True)
 
 
 def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
@@ -193,12 +193,13 @@ def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
         outside = ((curve.values < low) | (curve.values > high)).any(axis=1)
         values = np.where(outside[:, None], np.nan, curve.values).T
         x, y = (column(name, each) for name, each in zip(curves.bounds, values, strict=True))
-        dashes, name = "-", "_nolegend_"
-        if curve.kind == "fold":
-            dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
-        ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
+        thin, thick, name = "-", "-", "_nolegend_"
+        if curve.kind == "fold":  # dashes of equal lengths, as these grow with the width
+            thin, thick = (0, (12, 6)), (0, (12 * THIN / THICK, 6 * THIN / THICK))
+            name = once(ax, "dashed: the cycle ends in a fold")
+        ax.plot(x, y, color=colour, lw=THIN, ls=thin, label=name)
         stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
-        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
+        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=thick)
         _name_curve(ax, x[~outside], y[~outside], typeset(curve.resonance.label))
     ax.set(xlabel=label(x), ylabel=label(y))
 
