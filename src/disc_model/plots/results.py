@@ -305,7 +305,7 @@ def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
     numbers = [name for name in columns if study[name].dtype.kind in "fiu"]
     for name in (x, *numbers):
         dim = columns.get(name, name)
-        if dim != name and (name == x or dim not in study.coords):
+        if dim in study.dims and dim != name and (name == x or dim not in study.coords):
             study = study.swap_dims({dim: name})
     if {"exponents_index", "converged_index"} <= {*study.dims}:  # of `lyapunov_exponents`
         along = study["converged"].rename(converged_index="exponents_index")
