@@ -32,6 +32,8 @@ from disc_model.plots.draw import (
     explain,
     is_rate,
     lines,
+    mark_missing,
+    missing_text,
     number_map,
     rate_axis,
     shares,
@@ -67,7 +69,6 @@ CLASSES = "attractor_class"  # dimension along which shares of starts add up to 
 OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
 ROW = 1.4  # height of a row of histories, inch
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
-IN_DOUBT = Look("circles: not settled", "none", "oo")
 
 
 # ---- Arguments and axes
@@ -316,7 +317,8 @@ def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
 def chosen(study: xr.Dataset, variable: str, x: str) -> str:
     """The name of the variable that is drawn; raises `ParameterError`."""
     known = [str(name) for name in study.data_vars]
-    numbers = [name for name in known if study[name].dtype.kind in "fiu"]
+    plain = [name for name in known if "flag_meanings" not in study[name].attrs]
+    numbers = [name for name in plain if study[name].dtype.kind in "fiu"]
     varying = [name for name in (*USUAL, *numbers, *known) if name in known and study[name].ndim]
     name = variable or [*varying, ""][0]
     require((name in known, "variable", name, f"unknown variable{suggestion(name, known)}"))
@@ -371,7 +373,8 @@ def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
     mesh = number_map(ax, plane, why_missing(study, name), **{**colours, **look})
     bar_of(ax.figure, ax, mesh, plane)
     if doubt is not None:
-        cells(ax, plane, doubt.transpose(*plane.dims).values, IN_DOUBT)
+        why = f"circles: {doubt.attrs['long_name']}"
+        cells(ax, plane, doubt.values, Look(why, "none", "oo"))
     if is_rate(plane):
         cells(ax, plane, plane.values < 0, STABLE)
         sign_changes(ax, plane, SIGN_CHANGES)
@@ -399,6 +402,8 @@ def draw_lines(
     if not by:
         usual["label"] = selected_values(array)
     options: dict[str, Any] = {}
+    if doubt is not None:
+        options["doubt"] = doubt.attrs["long_name"]
     if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
         array = flattened(array, across)
         doubt = None if doubt is None else flattened(doubt, across)
@@ -432,6 +437,8 @@ def draw_words(ax: Axes, array: xr.DataArray, across: str, **look: Any) -> None:
     """Draw marks over words, or of words."""
     by = next((str(dim) for dim in array.dims if dim != across), "")
     for name, part in each_value(array, by):
-        x, y = (words(each) if is_words(each) else each for each in (part[across], part))
-        ax.plot(x, y, **{"marker": "o", "linestyle": "", "label": name, **look})
+        x, y = (words(each) if is_words(each) else each.values for each in (part[across], part))
+        [line] = ax.plot(x, y, **{"marker": "o", "linestyle": "", "label": name, **look})
+        gone = ax.convert_xunits(x[part.isnull().values])
+        mark_missing(ax, gone, missing_text(part), line.get_color())
     ax.set(xlabel=label(array[across]), ylabel=label(array))
