@@ -46,7 +46,7 @@ def plot_sweep(
     ax : axes to draw on; a second line there has the next colour. In a new figure without them
     units : by the names of parameters or sampled variables, such as ``{"Omega": "rpm", "P": "kN"}``
     look : options of matplotlib for lines (``label="soft spring"``), or for colours of numbers (``cmap="viridis"``,
-        ``vmax=2``)
+        ``norm=plt.Normalize(0, 2)``)
 
     Returns
     -------

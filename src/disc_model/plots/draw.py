@@ -331,7 +331,7 @@ def once(ax: Axes, text: str) -> str:
 def wished(look: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
     """Options of a line: usual ones, and in their place a reader's, by any name that matplotlib has
     for them."""
-    return {**usual, **normalize_kwargs(look, Line2D)}
+    return {**usual, **normalize_kwargs(dict(look), Line2D)}
 
 
 def lines(

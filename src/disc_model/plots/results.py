@@ -77,17 +77,14 @@ LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
 class Wishes(Strict):
     """What a reader may ask of pictures, checked."""
 
-    units: Annotated[dict[str, str], AfterValidator(known_units)] = Field({})
+    units: Annotated[dict[str, str], AfterValidator(known_units)] | None = None
     highest: Annotated[Positive, Unit("Hz")] | None = None
     multiples: tuple[Positive, ...] = ()
     most: Annotated[Count, Field(ge=1)] = 1
     variables: Annotated[tuple[str, ...], Field(min_length=1)] = ("P",)
     windows: Annotated[tuple[str, ...], Field(min_length=1)] = ("",)
-
-
-def units_of(units: Any) -> dict[str, str]:
-    """A reader's units by the names of parameters and variables; raises `ParameterError`."""
-    return Wishes(units={} if units is None else units).units
+    variable: str = ""
+    x: str = ""
 
 
 def axes_for(ax: Any) -> Axes:
@@ -126,24 +123,21 @@ curves = on_axes(stability.draw_curves)
 
 def branch(ax: Any, found: Any, y: str, units: Any, **look: Any) -> Axes:
     """Draw a branch, as `Branch.plot` describes."""
-    return on_axes(stability.draw_branch)(ax, found, y, units_of(units), **look)
+    return on_axes(stability.draw_branch)(ax, found, y, Wishes(units=units).units, **look)
 
 
 def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
     """Draw a Campbell diagram, as `disc_model.plot_campbell` describes."""
-    needed = {"sliding_frequency", "growth_rate", "crossing_Omega"}
-    is_study = isinstance(study, xr.Dataset) and needed <= {*study.variables}
+    is_study = isinstance(study, xr.Dataset) and "crossing_Omega" in study
     require((is_study, "study", study, "must be a study of the quantity campbell"))
-    data = study.squeeze()
-    further = [str(dim) for dim in data.dims if dim not in ("Omega", "mode", "crossing")]
-    rule = f"must vary along Omega alone: choose a value, as by {selection(data, further)}"
-    require((not further, "study", ", ".join(further), rule))
-    given = Wishes(highest=highest, multiples=multiples)
-    data = shown(data, units_of(units))
-    top = given.highest or 1.02 * float(data["sliding_frequency"].max())
-    options: Any = {"sharex": True, "gridspec_kw": {"height_ratios": [3, 2]}}
+    given = Wishes(highest=highest, multiples=multiples, units=units)
+    data = shown(study.squeeze(), given.units)
+    further = [dim for dim in data.dims if dim not in ("Omega", "mode", "crossing")]
+    rule = f"must vary along Omega alone: choose a value, as by {selection(further)}"
+    require((not further, "study", ", ".join(map(str, further)), rule))
+    options: Any = {"sharex": True, "height_ratios": [3, 2]}
     figure, axes = plt.subplots(2, figsize=(6.4, 6.4), layout="constrained", **options)
-    stability.draw_campbell(axes, data, top, given.multiples)
+    stability.draw_campbell(axes, data, given.highest, given.multiples)
     explain(figure, axes, LETTERS)
     return axes
 
@@ -188,17 +182,16 @@ def window_of(case: xr.DataTree, name: Any, which: str = "window", **variables: 
     require((isinstance(name, str) and name in known, which, name, rule))
     with refused(which, name):
         samples = runs.window_of(case, name)
-    held = [str(each) for each in samples if each != "phase"]
     for argument, variable in variables.items():
-        rule = f"is not in the window {name}{suggestion(variable, held)}"
-        require((isinstance(variable, str) and variable in held, argument, variable, rule))
+        held = isinstance(variable, str) and variable in samples
+        require((held, argument, variable, f"is not among the samples of the window {name}"))
     return samples
 
 
 def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: Any) -> Any:
     """Draw variables of a run, a row each, in windows, a column each."""
-    given = Wishes(windows=windows, variables=variables)
-    case = shown_case(case, units_of(units))
+    given = Wishes(windows=windows, variables=variables, units=units)
+    case = shown_case(case, given.units)
     samples = [window_of(case, name, "windows") for name in given.windows]
     shape = (len(given.variables), len(samples))
     size = (1.4 + 3.4 * shape[1], 0.9 + ROW * shape[0])
@@ -220,7 +213,7 @@ def portrait(
     case: xr.DataTree, name: Any, x: str, y: str, ax: Any, units: Any, **look: Any
 ) -> Axes:
     """Draw one variable of a run over another, coloured by phase, or in one colour beside others."""
-    samples = window_of(shown_case(case, units_of(units)), name, x=x, y=y)
+    samples = window_of(shown_case(case, Wishes(units=units).units), name, x=x, y=y)
     ax = axes_for(ax)
     if look or ax.lines:
         ax.plot(samples[x], samples[y], **look)
@@ -234,11 +227,12 @@ def spectrum(
     case: xr.DataTree, name: Any, variable: str, highest: Any, ax: Any, units: Any, **look: Any
 ) -> Axes:
     """Draw the amplitude of a variable of a run over the frequency."""
-    samples = window_of(shown_case(case, units_of(units)), name, variable=variable)
+    given = Wishes(highest=highest, units=units)
+    samples = window_of(shown_case(case, given.units), name, variable=variable)
     ax = axes_for(ax)
     before, limits = len(ax.lines), ax.viewLim.frozen()
     with refused("window", name):
-        runs.draw_spectrum(ax, samples, variable, Wishes(highest=highest).highest)
+        runs.draw_spectrum(ax, samples, variable, given.highest)
     for line in ax.lines[before:]:
         line.set(**wished(look, color=f"C{before}"))
     if before:
@@ -249,8 +243,8 @@ def spectrum(
 
 def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
     """Draw the Poincaré sections of slider and disc."""
+    case = shown_case(case, Wishes(units=units).units)
     figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
-    case = shown_case(case, units_of(units))
     with refused("window", name):
         runs.draw_sections(axes, case, name)
     figure.suptitle(", ".join(runs.fate_of(case)))
@@ -269,11 +263,8 @@ def film(p: Parameters, states: Any, case: xr.DataTree, name: str) -> Any:
 def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -> Axes:
     """Draw a variable of a sweep, as `disc_model.plot_sweep` describes."""
     is_study = isinstance(study, xr.Dataset | xr.DataTree)
-    require(
-        (is_study, "study", study, "must be an xarray.Dataset"),
-        (isinstance(variable, str), "variable", variable, "must be the name of one variable"),
-        (isinstance(x, str), "x", x, "must be the name of a dimension"),
-    )
+    require((is_study, "study", study, "must be an xarray.Dataset"))
+    units = Wishes(variable=variable, x=x, units=units).units
     data = study.to_dataset() if isinstance(study, xr.DataTree) else study
     if is_of_sweep(data):
         each = f"disc_model.Branch.from_dataset({selected_text(data, 'study')})"
@@ -281,13 +272,14 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     data = swapped(data.squeeze().compute(), x)
     name = chosen(data, variable, x)
     numbers = number_axes(data, name)
-    data = shown(data.sortby(numbers), units_of(units))
+    data = shown(data.sortby(numbers), units)
     named = [str(dim) for dim in data[name].dims if dim in data.coords and dim != CLASSES]
-    across = x or [*numbers, *named, *data[name].dims][0]
+    across = str(x or [*numbers, *named, *data[name].dims][0])
     own = ax is None
     ax = axes_for(ax)
-    if CLASSES in data[name].dims:
-        draw_shares(ax, data[name], across, **look)
+    if across != CLASSES in data[name].dims:
+        shares(ax, data[across], data[name], CLASSES)
+        ax.set_ylabel(label(data[name]))
     elif x or len(numbers) < 2:
         draw_lines(ax, data, name, across, joined=across in study.dims, **look)
         return explained(ax)
@@ -323,24 +315,22 @@ def chosen(study: xr.Dataset, variable: str, x: str) -> str:
     name = variable or [*varying, ""][0]
     require((name in known, "variable", name, f"unknown variable{suggestion(name, known)}"))
     dims = [str(dim) for dim in study[name].dims]
-    kept = [dim for dim in (x, CLASSES) if dim in dims]
-    others = [dim for dim in dims if dim not in kept][2 - len(kept) :]
+    others = [dim for dim in dims if dim != x][2 - (x in dims) :]
     rule = f"varies along {', '.join(dims) or 'nothing'}, but must vary along one or two dimensions"
     if others:
-        rule += f": choose values of others, as by {selection(study, others)}"
-    is_complex = study[name].dtype.kind == "c"
+        rule += f": choose values of others, as by {selection(others)}"
+    real = study[name].dtype.kind != "c"
     require(
-        (not is_complex, "variable", name, "is complex: draw a part of it, such as abs(...)"),
+        (real, "variable", name, "is complex: draw a part of it, such as abs(...)"),
         (dims and not others, "variable", name, rule),
         (not x or x in dims, "x", x, f"must be one of its dimensions{suggestion(x, dims)}"),
     )
     return name
 
 
-def selection(study: xr.Dataset, dims: Iterable[str]) -> str:
-    """How the first values along dimensions are chosen."""
-    values = [f"{dim}={study[dim].values[0].item()!r}" for dim in dims]
-    return f"study.sel({', '.join(values)})"
+def selection(dims: Iterable[Any]) -> str:
+    """How values along dimensions are chosen."""
+    return f"study.sel({', '.join(f'{dim}=...' for dim in dims)})"
 
 
 def number_axes(study: xr.Dataset, name: str) -> list[str]:
@@ -367,10 +357,8 @@ def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
         class_map(ax, plane)
         unresolved(ax, plane)
         return
-    colours = colours_of(plane)
-    if {"vmin", "vmax", "norm"} & look.keys():
-        del colours["norm"]
-    mesh = number_map(ax, plane, why_missing(study, name), **{**colours, **look})
+    colours = {**colours_of(plane), **look}
+    mesh = number_map(ax, plane, why_missing(study, name), **colours)
     bar_of(ax.figure, ax, mesh, plane)
     if doubt is not None:
         why = f"circles: {doubt.attrs['long_name']}"
@@ -378,15 +366,6 @@ def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
     if is_rate(plane):
         cells(ax, plane, plane.values < 0, STABLE)
         sign_changes(ax, plane, SIGN_CHANGES)
-
-
-def draw_shares(ax: Axes, fractions: xr.DataArray, across: str, **look: Any) -> None:
-    """Draw shares of classes: stacked along a dimension, or as marks."""
-    if across == CLASSES:
-        draw_words(ax, fractions, across, **look)
-    else:
-        shares(ax, fractions[across], fractions, CLASSES)
-        ax.set_ylabel(label(fractions))
 
 
 def draw_lines(
@@ -401,21 +380,20 @@ def draw_lines(
     usual: dict[str, Any] = {"markersize": 3}
     if not by:
         usual["label"] = selected_values(array)
-    options: dict[str, Any] = {}
-    if doubt is not None:
-        options["doubt"] = doubt.attrs["long_name"]
-    if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
-        array = flattened(array, across)
-        doubt = None if doubt is None else flattened(doubt, across)
-        usual["marker"], joined, options["missing"] = ".", False, ""
-    if not joined:
-        usual["linestyle"] = ""
     if is_words(array) or is_words(array[across]):
         draw_words(ax, array, across, **wished(look, **usual))
         return
+    if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
+        array = flattened(array, across)
+        doubt = None if doubt is None else flattened(doubt, across)
+        usual |= {"marker": ".", "linestyle": "", "missing": ""}
+    if not joined:
+        usual["linestyle"] = ""
+    if doubt is not None:
+        usual["doubt"] = doubt.attrs["long_name"]
     if name in OF_CYCLES and study.attrs.get("function") != "steady_sliding":
-        options["jump"] = 1.0
-    lines(ax, array, across, doubtful=doubt, **options, **wished(look, **usual))
+        usual["jump"] = 1.0
+    lines(ax, array, across, doubtful=doubt, **wished(look, **usual))
     if is_rate(array):
         rate_axis(ax)
 
@@ -429,8 +407,8 @@ def flattened(array: xr.DataArray, across: str) -> xr.DataArray:
 
 def selected_values(array: xr.DataArray) -> str:
     """The numbers of the case at which a variable has been selected, as a name of its line."""
-    single = [x for x in array.coords.values() if x.ndim == 0 and x.dtype.kind in "fiu"]
-    return ", ".join(value_text(x) for x in single if parameter_of(x))
+    single = [x for x in array.coords.values() if x.ndim == 0 and parameter_of(x)]
+    return ", ".join(map(value_text, single))
 
 
 def draw_words(ax: Axes, array: xr.DataArray, across: str, **look: Any) -> None:

@@ -1,7 +1,7 @@
 """Pictures of stability: branches, multipliers, eigenvalues, exponents, curves, modes, and Campbell
 diagrams."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from textwrap import fill
 from typing import Any
 
@@ -10,6 +10,7 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from disc_model.data.variables import attributes_of_number, typeset, values_text
@@ -52,19 +53,14 @@ def case_text(case: Parameters | None, *varied: str) -> str:
     return fill(values_text(values), 40)
 
 
-def column(
-    name: str,
-    values: Any,
-    attributes: Mapping[str, Any] | None = None,
-    units: Mapping[str, str] | None = None,
-) -> xr.DataArray:
+def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> xr.DataArray:
     """Values of a number of a case, or of what has these attributes, SI units, as readers see them,
     shape (point,)."""
     held = xr.Dataset({name: ("point", values, attributes or attributes_of_number(name))})
     return shown(held, units)[name]
 
 
-def draw_branch(ax: Axes, branch: Any, y: str, units: Mapping[str, str], **look: Any) -> None:
+def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
     """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
     the first: thick where they are stable, with the special points."""
     first, *second = branch.parameters
@@ -86,8 +82,6 @@ def draw_branch(ax: Axes, branch: Any, y: str, units: Mapping[str, str], **look:
         found = [point for point in branch.special if point.kind == kind]
         places = [placed(x, point.values[0]) for point in found]
         heights = [placed(up, point.values[1] if second else getattr(point, y)) for point in found]
-        if len(found) == 1:
-            name = f"{name} at {places[0]:.5g} {x.attrs['units']}".rstrip()
         marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
         mark_points(ax, places, heights, name, color=colour, **marks)
     ax.set(xlabel=label(x), ylabel=label(up))
@@ -129,18 +123,15 @@ def draw_eigenvalues(ax: Axes, sliding: Any, **look: Any) -> None:
     """Draw frequencies over growth rates of the modes of steady sliding, with rings around those that
     grow, and their frequencies."""
     upper = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
-    upper, growing, neutral = (
-        each.real + 1j * each.imag / (2 * np.pi)
-        for each in (upper, sliding.growing, sliding.neutral)
-    )
+    grows, rests = (np.isin(upper, each) for each in (sliding.growing, sliding.neutral))
+    places = upper.real + 1j * upper.imag / (2 * np.pi)
     ax.axvline(0, color=BLACK, lw=0.6)
     own = {"marker": "o", "linestyle": "", "label": case_text(sliding.parameters)}
-    ax.plot(upper.real, upper.imag, **wished(look, **own))
-    _ring(ax, growing, "grows")
-    _ring(ax, neutral, "neutral", GREY)
-    for value in growing:
-        place = (value.real, value.imag)
-        ax.annotate(f"{value.imag:.0f} Hz", place, (6, 3), textcoords="offset points")
+    ax.plot(places.real, places.imag, **wished(look, **own))
+    _ring(ax, places[grows], "grows")
+    _ring(ax, places[rests], "neutral", GREY)
+    for x, y in zip(places[grows].real, places[grows].imag, strict=True):
+        ax.annotate(f"{y:.0f} Hz", (x, y), (6, 3), textcoords="offset points")
     ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
 
 
@@ -152,18 +143,17 @@ def _ring(ax: Axes, places: NDArray[np.complex128], name: str, colour: str = RED
 
 def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
     """Draw Lyapunov exponents with their errors, hollow where they have not converged."""
-    number = np.arange(1, len(found.exponents) + 1)
     attributes = {"long_name": "Lyapunov exponent", "units": "1/s"}
-    x = xr.DataArray(number, dims="number", attrs={"long_name": "Number"})
-    values = xr.DataArray(found.exponents, {"number": x}, attrs=attributes)
+    number = {"Number": np.arange(1, len(found.exponents) + 1)}
+    values = xr.DataArray(found.exponents, number, attrs=attributes)
     own = wished(look, linestyle="", label=case_text(found.parameters))
     unsure = values.copy(data=~found.converged)
-    lines(ax, values, "number", doubtful=unsure, doubt="not converged", **own)
-    finite = values.where(np.isfinite(values))
-    bars = {"fmt": "none", "capsize": 3, "ecolor": ax.lines[-1].get_color()}
-    ax.errorbar(number, finite, found.errors, **bars)
+    lines(ax, values, "Number", doubtful=unsure, doubt="not converged", **own)
+    x, finite = values["Number"], values.where(np.isfinite(values))
+    colour = ax.lines[-1].get_color()
+    ax.errorbar(x, finite, found.errors, fmt="none", capsize=3, ecolor=colour)
     ax.axhline(0, color=GREY, lw=0.6, zorder=0)
-    ax.xaxis.get_major_locator().set_params(integer=True)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
 
 
 def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
@@ -172,13 +162,14 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
     x, rate, sliding = data[found.name], data["growth_rate"], data["sliding_growth_rate"]
     own = wished(look, label=case_text(found.parameters, found.name), marker=".")
     lines(ax, rate, found.name, missing="", **own)
-    same = {"color": ax.lines[-1].get_color()}
+    colour = ax.lines[-1].get_color()
     if found.kind != "sliding" and sliding.notnull().any():
         name = once(ax, "steady sliding, where there is no cycle")
-        ax.plot(x, sliding, "--", label=name, **same)
-    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", same["color"])
-    for ends in placed(x, found.unstable):
-        ax.axvspan(*ends, alpha=0.2, lw=0, label=once(ax, "shaded: unstable"), **same)
+        ax.plot(x, sliding, "--", label=name, color=colour)
+    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)
+    for low, high in found.unstable:
+        name = once(ax, "shaded: unstable")
+        ax.axvspan(placed(x, low), placed(x, high), alpha=0.2, lw=0, color=colour, label=name)
     rate_axis(ax)
     ax.set_ylabel("Growth rate (1/s)")
 
@@ -193,13 +184,12 @@ def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
         outside = ((curve.values < low) | (curve.values > high)).any(axis=1)
         values = np.where(outside[:, None], np.nan, curve.values).T
         x, y = (column(name, each) for name, each in zip(curves.bounds, values, strict=True))
-        thin, thick, name = "-", "-", "_nolegend_"
-        if curve.kind == "fold":  # dashes of equal lengths, as these grow with the width
-            thin, thick = (0, (12, 6)), (0, (12 * THIN / THICK, 6 * THIN / THICK))
-            name = once(ax, "dashed: the cycle ends in a fold")
-        ax.plot(x, y, color=colour, lw=THIN, ls=thin, label=name)
+        dashes, name = "-", "_nolegend_"
+        if curve.kind == "fold":
+            dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
+        ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
         stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
-        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=thick)
+        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
         _name_curve(ax, x[~outside], y[~outside], typeset(curve.resonance.label))
     ax.set(xlabel=label(x), ylabel=label(y))
 

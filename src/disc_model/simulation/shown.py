@@ -165,13 +165,15 @@ def film(run: Result, path: str | Path | None, window: str | None, frames: int, 
     """Make a film of a window, see `Result.animate`."""
     pictures = drawings()
     # what cannot be written is refused before anything is computed
-    is_path = isinstance(path, str | Path)
-    file = Path(path) if is_path else Path("film.gif")
+    file = Path("film.gif")
+    if isinstance(path, str | Path):
+        file = Path(path)
+    known = path is None or isinstance(path, str | Path)
     suffix = "must end in .gif or .mp4; a window is given by window="
     require(
         (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"),
         (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
-        ((is_path or path is None) and file.suffix in (".gif", ".mp4"), "path", str(path), suffix),
+        (known and file.suffix in (".gif", ".mp4"), "path", str(path), suffix),
         (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
     )
     case, name = shown_window(run, window, "end")
