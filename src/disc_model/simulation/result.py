@@ -405,8 +405,9 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.simulation.shown import shown_windows
 
+        pictures = drawings()
         case, names = shown_windows(self, windows)
-        return drawings().history(case, names, variables, units)
+        return pictures.history(case, names, variables, units)
 
     def plot_phase_portrait(
         self,
@@ -432,8 +433,9 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.simulation.shown import shown_window
 
+        pictures = drawings()
         case, name = shown_window(self, window, "end")
-        return drawings().portrait(case, name, x, y, ax, units, **look)
+        return pictures.portrait(case, name, x, y, ax, units, **look)
 
     def plot_spectrum(
         self,
@@ -485,8 +487,9 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.simulation.shown import shown_section
 
+        pictures = drawings()
         case, name = shown_section(self, window)
-        return drawings().poincare(case, name, units)
+        return pictures.poincare(case, name, units)
 
     def animate(
         self,

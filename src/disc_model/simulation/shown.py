@@ -151,9 +151,10 @@ def draw_spectrum(
     run: Result, window: str | None, variable: str, highest: Any, **options: Any
 ) -> Any:
     """Draw the spectrum of a window, see `Result.plot_spectrum`."""
+    pictures = drawings()
     case, name = shown_window(run, window, "late")
     try:
-        return drawings().spectrum(case, name, variable, highest, **options)
+        return pictures.spectrum(case, name, variable, highest, **options)
     except ParameterError as error:
         for fault in error.faults:
             if window is None and fault.path == ("window",):
