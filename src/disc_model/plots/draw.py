@@ -359,18 +359,21 @@ def lines(
     hollow = each_value(none if doubtful is None else doubtful.transpose(*y.dims), by)
     markers = ["o", "s", "^", "D", "v", "<", ">", "p", "h"] * 9
     why = missing_text(y) if missing is None else missing
+    drawn = []
     for (name, part), (_, unsure), marker in zip(each_value(y, by), hollow, markers, strict=False):
         along, values = part[x].values.astype(float), part.values.astype(float)
         finite = np.where(np.isfinite(values), values, np.nan)
         breaks = np.flatnonzero(np.abs(np.diff(np.arcsinh(finite / 0.1))) > jump) + 1
         own = wished(look, marker=marker, label=name)
         [line] = ax.plot(np.insert(along, breaks, np.nan), np.insert(finite, breaks, np.nan), **own)
+        drawn.append((line, along, values, unsure.values))
+    for line, along, values, unsure in drawn:
         same = {"color": line.get_color(), "marker": line.get_marker()}
-        mark_points(ax, along[unsure.values], finite[unsure.values], f"hollow: {doubt}", **same)
+        mark_points(ax, along[unsure], values[unsure], f"hollow: {doubt}", **same)
         lowest = np.isneginf(values)
         mark_missing(ax, along[lowest], BELOW_ANY, line.get_color(), marker="v")
         if why:
-            mark_missing(ax, along[np.isnan(finite) & ~lowest], why, line.get_color())
+            mark_missing(ax, along[~np.isfinite(values) & ~lowest], why, line.get_color())
     ax.set(xlabel=label(y[x]), ylabel=label(y))
     if is_geometric(y[x].values):
         ax.set_xscale("log")
