@@ -16,8 +16,10 @@ import numpy as np
 import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
+from matplotlib.cbook import normalize_kwargs
 from matplotlib.colors import AsinhNorm, LogNorm, Normalize
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 from matplotlib.patches import Patch, PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator
@@ -37,6 +39,7 @@ LARGEST_RATE = 0.3  # growth rate at which colours end, 1/s, unless most are lar
 COMMON = 0.98  # share of rates within the colours then: a few large ones would pale the others
 SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
+BELOW_ANY = "−∞, below any number"
 
 
 def styled() -> AbstractContextManager[None]:
@@ -75,8 +78,8 @@ def finish(figure: Figure, title: str = "") -> Figure:
             text = f"({letter}) {text}".strip()
         width, height = _size_of(ax, figure)
         ax.set_title(fill(text, max(12, int(LETTERS_PER_INCH * 0.85 * width))))
-        _break_label(ax, height)
-    _explain(figure, axes)
+        break_label(ax, height)
+    explain(figure, axes)
     if title:
         figure.suptitle(fill(title, int(LETTERS_PER_INCH * figure.get_figwidth())))
     figure.align_ylabels()
@@ -97,15 +100,18 @@ def _size_of(ax: Axes, figure: Figure) -> tuple[float, float]:
     return float(width * across), float(height * up)
 
 
-def _break_label(ax: Axes, height: float) -> None:
+def break_label(ax: Axes, height: float) -> None:
     """Break the label of a vertical axis that is longer than its panel, but not within its unit."""
     name, has_unit, unit = ax.get_ylabel().partition(" (")
     kept = f" ({unit.replace(' ', chr(0xA0))}" if has_unit else ""
     ax.set_ylabel(fill(name + kept, max(12, int(13 * height))))
 
 
-def _explain(figure: Figure, axes: Sequence[Axes]) -> None:
-    """A legend below the panels, with an entry for each label, and room for it."""
+def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH) -> None:
+    """A legend below the panels, with an entry for each label, and room for it.
+
+    letters : of the legend in an inch
+    """
     handles: dict[str, Any] = {}
     for ax in axes:
         for handle, text in zip(*ax.get_legend_handles_labels(), strict=True):
@@ -113,7 +119,7 @@ def _explain(figure: Figure, axes: Sequence[Axes]) -> None:
     if not handles:
         return
     lines = [line for text in handles for line in text.split("\n")]
-    room = LETTERS_PER_INCH * figure.get_figwidth()
+    room = letters * figure.get_figwidth()
     columns = max(1, min(4, len(handles), int(room // (6 + max(map(len, lines))))))
     rows = -(-len(lines) // columns)
     figure.set_figheight(figure.get_figheight() + LINE_HEIGHT * rows)
@@ -367,6 +373,17 @@ def plain_numbers(axis: Any) -> None:
 # ---- Lines and points
 
 
+def once(ax: Axes, text: str) -> str:
+    """A label, or none if something on the axes has it already."""
+    return "_nolegend_" if text in ax.get_legend_handles_labels()[1] else text
+
+
+def wished(look: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
+    """Options of a line: usual ones, and in their place a reader's, by any name that matplotlib has
+    for them."""
+    return {**usual, **normalize_kwargs(dict(look), Line2D)}
+
+
 def lines(
     ax: Axes,
     y: xr.DataArray,
@@ -379,7 +396,8 @@ def lines(
     **look: Any,
 ) -> None:
     """A line along a dimension, for each value of the other one if there is one: hollow marks where
-    a value is in doubt, crosses along the lower edge where there is none.
+    a value is in doubt, and along the lower edge crosses where there is none, and triangles where it
+    is below any number.
 
     doubtful : of the dimensions of `y`
     missing : what the legend says of crosses; "" for no crosses
@@ -391,15 +409,21 @@ def lines(
     hollow = each_value(none if doubtful is None else doubtful.transpose(*y.dims), by)
     markers = ["o", "s", "^", "D", "v", "<", ">", "p", "h"] * 9
     why = missing_text(y) if missing is None else missing
+    drawn = []
     for (name, part), (_, unsure), marker in zip(each_value(y, by), hollow, markers, strict=False):
         along, values = part[x].values.astype(float), part.values.astype(float)
-        breaks = np.flatnonzero(np.abs(np.diff(np.arcsinh(values / 0.1))) > jump) + 1
-        own = {"marker": marker, "label": name, **look}
-        [line] = ax.plot(np.insert(along, breaks, np.nan), np.insert(values, breaks, np.nan), **own)
+        finite = np.where(np.isfinite(values), values, np.nan)
+        breaks = np.flatnonzero(np.abs(np.diff(np.arcsinh(finite / 0.1))) > jump) + 1
+        own = wished(look, marker=marker, label=name)
+        [line] = ax.plot(np.insert(along, breaks, np.nan), np.insert(finite, breaks, np.nan), **own)
+        drawn.append((line, along, values, unsure.values))
+    for line, along, values, unsure in drawn:
         same = {"color": line.get_color(), "marker": line.get_marker()}
-        mark_points(ax, along[unsure.values], values[unsure.values], f"hollow: {doubt}", **same)
+        mark_points(ax, along[unsure], values[unsure], f"hollow: {doubt}", **same)
+        lowest = np.isneginf(values)
+        mark_missing(ax, along[lowest], BELOW_ANY, line.get_color(), marker="v")
         if why:
-            mark_missing(ax, along[~np.isfinite(values)], why, line.get_color())
+            mark_missing(ax, along[~np.isfinite(values) & ~lowest], why, line.get_color())
     ax.set(xlabel=label(y[x]), ylabel=label(y))
     if is_geometric(y[x].values):
         ax.set_xscale("log")
@@ -409,10 +433,13 @@ def lines(
 def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
     """Hollow marks at points, which no line joins; nothing without a point."""
     if np.isfinite(np.asarray(y, dtype=float)).any():
-        ax.plot(x, y, **{"ls": "", "mfc": "white", "zorder": 3, "label": name, **look})
+        own = {"label": once(ax, name), "linestyle": "", "markerfacecolor": "white", "zorder": 3}
+        ax.plot(x, y, **wished(look, **own))
 
 
-def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, along: str = "x") -> None:
+def mark_missing(
+    ax: Axes, x: Any, why: str, colour: Any = BLACK, along: str = "x", marker: str = "x"
+) -> None:
     """Crosses along the lower, or the left, edge of a panel at points without a value."""
     if not np.size(x):
         return
@@ -420,8 +447,8 @@ def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, along: str = "
     to_page = ax.get_xaxis_transform() if along == "x" else ax.get_yaxis_transform()
     if along == "y":
         places.reverse()
-    look = {"ls": "", "marker": "x", "ms": 3.5, "mew": 0.7, "color": colour, "clip_on": False}
-    ax.plot(*places, transform=to_page, label=why, **look)
+    look = {"ls": "", "marker": marker, "ms": 3.5, "mew": 0.7, "color": colour, "clip_on": False}
+    ax.plot(*places, transform=to_page, label=once(ax, why), **look)
 
 
 def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:

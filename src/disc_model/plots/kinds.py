@@ -12,12 +12,12 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.errors import Fault, ParameterError, suggestion
 from disc_model.parameters import Parameters
-from disc_model.plots import motions, runs, stability, studies
+from disc_model.plots import modes, motions, runs, studies
 from disc_model.plots.draw import COLUMN, PAGE, finish, panels, styled
 from disc_model.plots.schema import NORM, CasePlot, Kind, Plot, kinds_in
 from disc_model.plots.shown import key_of, shown, shown_case
 
-MODULES = (motions, runs, stability, studies)
+MODULES = (modes, motions, runs, studies)
 KINDS = {name: kind for module in MODULES for name, kind in kinds_in(module).items()}
 """Kinds of this package."""
 WIDTHS = {"column": COLUMN, "page": PAGE}

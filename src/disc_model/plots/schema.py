@@ -131,7 +131,7 @@ InTime = Annotated[str, as_spectrum]
 # ---- Figures
 
 
-def _known_units(units: dict[str, str]) -> dict[str, str]:
+def known_units(units: dict[str, str]) -> dict[str, str]:
     """The units, if each is one of its parameter or variable; raises `ParameterError`."""
     faults: list[Fault] = []
     known = [name for name in SHOWN if si_unit(name) not in ("", "1")]
@@ -170,7 +170,7 @@ class Kind(Strict):
     title: str = ""
     caption: Annotated[str, BeforeValidator(_joined, json_schema_input_type=str | list[str])] = ""
     section: str = ""
-    units: Annotated[dict[str, str], AfterValidator(_known_units)] = Field({})
+    units: Annotated[dict[str, str], AfterValidator(known_units)] = Field({})
     width: Literal["column", "page"] | None = None
 
     @property

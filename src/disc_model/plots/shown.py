@@ -9,6 +9,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset
+from disc_model.data.variables import attributes as attributes_in_files
 from disc_model.parameters import Parameters
 from disc_model.units import size_of_unit
 
@@ -61,7 +62,8 @@ def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataAr
         return x.assign_attrs(attributes)
     known = parameter_of(x)
     unit, factor = readable(x.attrs.get("units", "")), 1.0
-    if known in SHOWN:
+    if known:
+        attributes["parameter"] = known
         unit, factor = SHOWN[known].unit, SHOWN[known].factor
     elif str(x.name).endswith(("range", "period")) and unit in THOUSANDTHS:
         unit, factor = THOUSANDTHS[unit], 1e3
@@ -74,13 +76,17 @@ def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataAr
 
 
 def parameter_of(x: xr.DataArray) -> str:
-    """The parameter or sampled variable that an array has values of, "" if it has a meaning of its
-    own."""
-    own = str(x.name).removeprefix("scan_").removeprefix("sweep_")
-    for name in (x.attrs.get("parameter", ""), own, ranged_variable(own)):
-        if name in SHOWN:
-            return str(name)
-    return ""
+    """The parameter or sampled variable that an array has values of, "" if it has a meaning or a unit
+    of its own."""
+    stated = x.attrs.get("parameter", "")
+    if stated in SHOWN:
+        return str(stated)
+    own = ranged_variable(str(x.name).removeprefix("scan_").removeprefix("sweep_"))
+    if own not in SHOWN:
+        return ""
+    usual = attributes_in_files(own)["units"]
+    has_another = readable(x.attrs.get("units", usual)) != readable(usual)
+    return "" if has_another else own
 
 
 def si_unit(name: str) -> str:
@@ -133,8 +139,12 @@ def value_text(x: xr.DataArray) -> str:
         return names[stated]
     if isinstance(value, str):
         return IN_WORDS.get(value, value.replace("_", " "))
+    if not isinstance(value, int | float):
+        return str(value)
     known = parameter_of(x)
-    symbol = SHOWN[known].symbol or SHOWN[known].name if known else str(x.attrs["long_name"])
+    symbol = str(x.attrs.get("long_name", x.name))
+    if known:
+        symbol = SHOWN[known].symbol or SHOWN[known].name
     return f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
 
 

@@ -1,227 +1,221 @@
-"""Pictures of stability: branches, multipliers, eigenvalues, exponents, curves, modes, and Campbell
-diagrams."""
+"""Pictures of stability: branches, multipliers, eigenvalues, exponents, critical values, neutral
+curves, and shapes of modes."""
 
-from collections.abc import Sequence
-from typing import Annotated, Any
+from collections.abc import Iterable
+from textwrap import fill
+from typing import Any
 
 import numpy as np
 import xarray as xr
+from cmcrameri import cm
 from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from scipy.signal import find_peaks
+from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
 
+from disc_model.data.variables import attributes_of_number, typeset, values_text
+from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
+from disc_model.parameters import Parameters
 from disc_model.plots.draw import (
-    LINEAR_RATE,
-    PAGE,
+    BELOW_ANY,
     lines,
+    mark_missing,
     mark_points,
-    panels,
+    once,
     rate_axis,
-    strip,
-    threshold,
+    wished,
 )
-from disc_model.plots.looks import BLACK, GREY, RED
-from disc_model.plots.schema import grid_figure
-from disc_model.plots.shown import label
-from disc_model.units import Positive, Unit
+from disc_model.plots.looks import BLACK, GREY, ORANGE, RED
+from disc_model.plots.shown import label, placed, shown
 
-# ---- Modes of steady sliding
+# ---- Results of one case: what their methods `plot` draw on axes. The first line has the next
+# ---- colour and a reader's look; what belongs to it has its colour
 
-ROUNDING = 1e-9  # growth rate up to which a mode does not grow, 1/s
-IN_PLANE, AT_ZERO = -1, -2  # in place of nodal diameters: the slider, and growth at 0 Hz
-NAMES_APART = 0.05  # share of a panel's height within which modes share a name
-ROOM = 1.06  # end of an axis over the highest frequency
-LINEAR_GROWTH = 0.5  # growth rate up to which the axis of modes is linear at least, 1/s
-Frequency = Annotated[Positive | None, Unit("Hz")]
+THIN = 0.8  # width of lines, points
+THICK = 2.4  # where they are stable
+EDGE = 0.02  # share of a ring's width beside its clamped edge, which is no nodal line
+SPECIAL = {
+    "fold": ("s", "fold"),
+    "period_doubling": ("D", "period doubling"),
+    "neimark_sacker": ("o", "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", "branch point"),
+    "grazing": ("X", "grazing"),
+    "hopf": ("^", "Hopf point"),
+    "max_points": ("P", "continued no further: max_points"),
+    "lost": ("p", "continued no further: no step succeeds"),
+}
+"""Marks and names of special points of branches."""
 
 
-@grid_figure("sliding")
-def sliding_modes(study: xr.Dataset, highest: Frequency = None) -> Figure:
-    """Frequencies and growth rates of the modes of steady sliding along a parameter.
+def case_text(case: Parameters | None, *varied: str) -> str:
+    """N, Omega and what differs from the paper's case, without what varies in a picture."""
+    values = {name: x for name, x in dict(case or {}).items() if name not in varied}
+    return fill(values_text(values), 40)
 
-    highest : upper end of the axis of frequencies, Hz
+
+def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> xr.DataArray:
+    """Values of a number of a case, or of what has these attributes, SI units, as readers see them,
+    shape (point,)."""
+    held = xr.Dataset({name: ("point", values, attributes or attributes_of_number(name))})
+    return shown(held, units)[name]
+
+
+def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
+    """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
+    the first: thick where they are stable, with the special points."""
+    first, *second = branch.parameters
+    values = branch.refined("values")
+    x = column(first, values[:, 0], units=units)
+    if second:
+        up = column(second[0], values[:, 1], units=units)
+    else:
+        known = branch.variables[y].attributes
+        up = column(y, branch.refined(y), known, units)
+        up.attrs["long_name"] = known["long_name"].capitalize()
+    own = {"linewidth": THIN, "label": case_text(branch.case, *branch.parameters)}
+    [line] = ax.plot(x, up.where(np.isfinite(up)), **wished(look, **own))
+    colour = line.get_color()
+    stable = stable_between(branch.refined_growth_rate())
+    thicken(ax, x, up, stable, "thick: stable", color=colour)
+    mark_missing(ax, x[np.isneginf(up)], BELOW_ANY, colour, marker="v")
+    for kind, (marker, name) in SPECIAL.items():
+        found = [point for point in branch.special if point.kind == kind]
+        places = [placed(x, point.values[0]) for point in found]
+        heights = [placed(up, point.values[1] if second else getattr(point, y)) for point in found]
+        marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
+        mark_points(ax, places, heights, name, color=colour, **marks)
+    ax.set(xlabel=label(x), ylabel=label(up))
+    if y == "growth_rate" and not second:
+        rate_axis(ax)
+
+
+def stable_between(growth: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether a branch is stable between each point and the next one, shape (n - 1,), from growth
+    rates at n points, which are 0 where stability changes."""
+    stable = np.maximum(growth[:-1], growth[1:]) <= 0
+    for i in np.flatnonzero((growth[:-1] == 0) & (growth[1:] == 0)):
+        stable[i] = i > 0 and not stable[i - 1]
+    return stable
+
+
+def thicken(ax: Axes, x: Any, y: Any, between: Any, why: str, **look: Any) -> None:
+    """Draw a line once more, thick, between some of its n points and the next ones.
+
+    between : bool, shape (n - 1,)
     """
-    figure, axes = panels([["frequency"], ["rate"]], PAGE, 2.6, sharex=True)
-    draw_sliding_modes([*axes.values()], study, highest)
-    return figure
+    if np.any(between):
+        cut = np.flatnonzero(~between) + 1
+        points = [np.insert(np.asarray(each, dtype=float), cut, np.nan) for each in (x, y)]
+        ax.plot(*points, lw=THICK, solid_capstyle="butt", label=once(ax, why), **look)
 
 
-def draw_sliding_modes(
-    axes: Sequence[Axes], data: xr.Dataset, highest: float | None = None
-) -> None:
-    """Draw frequencies above growth rates, on two axes, from a study at one point."""
-    above, below = axes
-    modes = data[["frequency", "mode_growth_rate", "diameters"]]
-    modes = modes.rename(mode_growth_rate="rate")
-    largest = data["largest_growth_rate"]
-    if data["n_modes"] <= data.sizes["mode"]:  # else it may be that of a mode without room
-        rest = largest.where(largest > modes["rate"].max("mode").clip(0) + ROUNDING)
-        at_zero = xr.Dataset({"frequency": 0 * rest, "rate": rest, "diameters": AT_ZERO})
-        modes = xr.concat([modes, at_zero.assign_coords(mode=0)], "mode")
-    _frequencies(above, modes, highest)
-    _lines_of_modes(below, modes, "rate")
-    rate_axis(below, max(LINEAR_GROWTH, float(largest.max())))
-    _name_ends(below, modes.where(abs(modes["rate"]) > ROUNDING), "rate")
-    below.set(xlabel=label(data["value"]), ylabel=label(data["mode_growth_rate"]))
+def draw_multipliers(ax: Axes, cycle: Any, **look: Any) -> None:
+    """Draw Floquet multipliers in the complex plane, with rings around those that grow."""
+    ax.add_patch(Circle((0, 0), 1, fill=False, ec=GREY, lw=THIN))
+    values = cycle.multipliers
+    own = {"marker": "o", "linestyle": "", "label": case_text(cycle.parameters)}
+    ax.plot(values.real, values.imag, **wished(look, **own))
+    _ring(ax, values[np.abs(values) > 1], "grows")
+    ax.set(xlabel="Re κ", ylabel="Im κ", aspect="equal")
 
 
-def _frequencies(ax: Axes, modes: xr.Dataset, highest: float | None) -> None:
-    """Frequencies of modes up to the highest shown, with their names, and how many have higher
-    ones."""
-    _lines_of_modes(ax, modes, "frequency")
-    end = highest or ROOM * float(modes["frequency"].max())
-    ax.set_ylim(0, end)
-    _name_ends(ax, modes, "frequency")
-    above = (modes["frequency"] > end).groupby("mode").any(...).sum().item()
-    if above:
-        ax.set_title(f"{above} modes have parts above {end:g} Hz")
+def draw_eigenvalues(ax: Axes, sliding: Any, **look: Any) -> None:
+    """Draw frequencies over growth rates of the modes of steady sliding, with rings around those that
+    grow, and their frequencies."""
+    upper = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
+    grows, rests = (np.isin(upper, each) for each in (sliding.growing, sliding.neutral))
+    places = upper.real + 1j * upper.imag / (2 * np.pi)
+    ax.axvline(0, color=BLACK, lw=0.6)
+    own = {"marker": "o", "linestyle": "", "label": case_text(sliding.parameters)}
+    ax.plot(places.real, places.imag, **wished(look, **own))
+    _ring(ax, places[grows], "grows")
+    _ring(ax, places[rests], "neutral", GREY)
+    for x, y in zip(places[grows].real, places[grows].imag, strict=True):
+        ax.annotate(f"{y:.0f} Hz", (x, y), (6, 3), textcoords="offset points")
+    ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
 
 
-def _lines_of_modes(ax: Axes, modes: xr.Dataset, name: str) -> None:
-    """Lines of modes, as long as their nodal diameters stay, and thick where they grow.
-
-    modes : `frequency`, `rate` and `diameters` of each, shape (x, mode)
-    """
-    y = modes[name].transpose(..., "mode")
-    along = y[str(y.dims[0])]
-    text = "mode of steady sliding"
-    for number in np.unique(modes["diameters"]):
-        part = y.where(modes["diameters"] == number)
-        grows = part.where(modes["rate"] > ROUNDING)
-        ax.plot(along, part, ".-", color=BLACK, lw=0.8, ms=0.8, mew=0, label=text)
-        if grows.notnull().any():
-            ax.plot(along, grows, ".-", color=RED, lw=2.4, ms=2.4, mew=0, label="growing mode")
-    ax.set(xlim=along.values[[0, -1]], ylabel=label(y))
+def _ring(ax: Axes, places: NDArray[np.complex128], name: str, colour: str = RED) -> None:
+    """Rings around points of the complex plane."""
+    look = {"marker": "o", "markersize": 9, "color": colour, "markerfacecolor": "none"}
+    mark_points(ax, places.real, places.imag, name, **look)
 
 
-def _name_ends(ax: Axes, modes: xr.Dataset, name: str) -> None:
-    """Names of modes at the right end of a panel whose limits are set; one for those near each
-    other."""
-    last = modes.transpose(..., "mode").isel({str(modes[name].dims[0]): -1})
-    places = np.column_stack([np.full(last.sizes["mode"], ax.get_xlim()[1]), last[name]])
-    heights = (ax.transData + ax.transAxes.inverted()).transform(places)[:, 1]
-    inside = [i for i in np.argsort(heights) if 0 <= heights[i] <= 1]
-    steps = np.flatnonzero(np.diff(heights[inside]) > NAMES_APART) + 1
-    for group in np.split(inside, steps) if inside else ():
-        place = (1.01, heights[group].mean())
-        said = name_of(last["diameters"].values[group])
-        ax.annotate(said, place, xycoords="axes fraction", va="center", fontsize=7)
+def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
+    """Draw Lyapunov exponents with their errors, hollow where they have not converged."""
+    attributes = {"long_name": "Lyapunov exponent", "units": "1/s"}
+    number = {"Number": np.arange(1, len(found.exponents) + 1)}
+    values = xr.DataArray(found.exponents, number, attrs=attributes)
+    own = wished(look, linestyle="", label=case_text(found.parameters))
+    unsure = values.copy(data=~found.converged)
+    lines(ax, values, "Number", doubtful=unsure, doubt="not converged", **own)
+    x, finite = values["Number"], values.where(np.isfinite(values))
+    colour = ax.lines[-1].get_color()
+    ax.errorbar(x, finite, found.errors, fmt="none", capsize=3, ecolor=colour)
+    ax.axhline(0, color=GREY, lw=0.6, zorder=0)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
 
 
-def name_of(numbers: Any) -> str:
-    """Name of modes by their nodal diameters, or `IN_PLANE`."""
-    of_disc = ", ".join(f"{number:g}" for number in np.unique(numbers) if number >= 0)
-    names = ["in plane"] * (IN_PLANE in numbers) + [f"l = {of_disc}"] * bool(of_disc)
-    return ", ".join(names)
-
-
-# ---- Campbell diagrams
-
-NEAR = 0.01  # share of the speeds shown within which a crossing belongs to a peak
-PROMINENT = 0.2  # least fall from a peak on both sides, of asinh(10 growth rate)
-JOINED = 0.75  # greatest step of asinh(10 growth rate) along one cycle
-
-
-@grid_figure("campbell", needs=["Omega"])
-def campbell(
-    study: xr.Dataset, highest: Frequency = None, multiples: tuple[Positive, ...] = ()
-) -> Figure:
-    """Frequencies of steady sliding and growth rates of the stick-slip cycle against the speed, and
-    the multiples of the stick-slip frequency that meet modes at peaks of growth.
-
-    highest : upper end of the axis of frequencies, Hz
-    multiples : of the stick-slip frequency, that are drawn over all speeds
-    """
-    rows = [["frequency"], ["rate"]]
-    figure, axes = panels(rows, PAGE, 2.4, sharex=True, height_ratios=[3, 2])
-    draw_campbell([*axes.values()], study, highest, multiples)
-    return figure
-
-
-def draw_campbell(
-    axes: Sequence[Axes],
-    data: xr.Dataset,
-    highest: float | None = None,
-    multiples: Sequence[float] = (),
-) -> None:
-    """Draw frequencies above growth rates, on two axes, from a study along the speed alone."""
-    above, below = axes
-    numbers = data["diameters"].where(data["mode_kind"] == "disc", IN_PLANE)
-    modes = data.rename(sliding_frequency="frequency", sliding_growth_rate="rate")
-    modes = modes[["frequency", "rate"]].assign(diameters=numbers)
-    _frequencies(above, modes, highest)
-    rate = data["growth_rate"]
-    far = rate.notnull() & (data.get("near_motion", 1) == 0)
-    _growth(below, rate.where(~far), rate.where(far))
-    strip(below, data["status"].where(rate.isnull(), ""))
-    slips = data["stick_slip_frequency"].where(~far)
-    for multiple in multiples:
-        _multiple(above, slips, multiple, f"{multiple:g} $f_s$")
-    places = {}
-    for i in _peaks(rate.where(~far)):
-        at = _crossing_at(data, i)
-        if at is None:
-            continue
-        where = at["crossing_Omega"], at["crossing_frequency"]
-        mark_points(above, *where, "crossing at a peak of growth", color=BLACK, marker="D")
-        multiple = at["crossing_multiple"].item()
-        _multiple(above, slips, multiple)
-        mode = numbers[i].sel(mode=at["crossing_mode"]).item()
-        places[f"{multiple:g} $f_s$: {name_of([mode])}"] = data["Omega"][i].item()
-    threshold(above, places, [below])
-
-
-def _growth(ax: Axes, near: xr.DataArray, far: xr.DataArray) -> None:
-    """Growth rates of the cycle, hollow where its line joins a point to none, and crosses where the
-    motion is far from it."""
-    steps = np.abs(np.diff(np.arcsinh(near / LINEAR_RATE))) <= JOINED
-    alone = near.notnull() & ~(np.append(False, steps) | np.append(steps, False))
-    lines(
-        ax,
-        near,
-        "Omega",
-        doubtful=alone,
-        doubt="another cycle, or too wide a step",
-        missing="",
-        jump=JOINED,
-        color=BLACK,
-        marker="o",
-        ms=1.2,
-        lw=0.8,
-    )
-    if far.notnull().any():
-        name = "the motion is not near this cycle"
-        ax.plot(far["Omega"], far, "x", color=BLACK, ms=3.5, mew=0.7, label=name)
+def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
+    """Draw the growth rate of a motion over a parameter, shaded where it is unstable."""
+    data = shown(found.to_dataset())
+    x, rate, sliding = data[found.name], data["growth_rate"], data["sliding_growth_rate"]
+    own = wished(look, label=case_text(found.parameters, found.name), marker=".")
+    lines(ax, rate, found.name, missing="", **own)
+    colour = ax.lines[-1].get_color()
+    if found.kind != "sliding" and sliding.notnull().any():
+        name = once(ax, "steady sliding, where there is no cycle")
+        ax.plot(x, sliding, "--", label=name, color=colour)
+    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)
+    for low, high in found.unstable:
+        name = once(ax, "shaded: unstable")
+        ax.axvspan(placed(x, low), placed(x, high), alpha=0.2, lw=0, color=colour, label=name)
     rate_axis(ax)
+    ax.set_ylabel("Growth rate (1/s)")
 
 
-def _multiple(ax: Axes, slips: xr.DataArray, multiple: float, name: str = "") -> None:
-    """A multiple of the stick-slip frequency over the speed, with its name at the left end."""
-    line = multiple * slips
-    dashes = (0, (4, 2))
-    ax.plot(line["Omega"], line, ls=dashes, color=GREY, lw=0.8, label="multiple of $f_s$")
-    start = line.dropna("Omega")[:1]
-    box = {"fc": "white", "lw": 0, "pad": 0.3}
-    for place in zip(start["Omega"], start, strict=True):
-        ax.annotate(name, place, (2, 0), textcoords="offset points", va="center", bbox=box)
+def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
+    """Draw neutral curves and folds within their bounds, with their resonances: thick beside a stable
+    cycle, folds dashed."""
+    low, high = np.transpose([*curves.bounds.values()])
+    [named] = ax.plot([], [], **wished(look, label=case_text(curves.parameters, *curves.bounds)))
+    colour = named.get_color()
+    for curve in curves:
+        outside = ((curve.values < low) | (curve.values > high)).any(axis=1)
+        values = np.where(outside[:, None], np.nan, curve.values).T
+        x, y = (column(name, each) for name, each in zip(curves.bounds, values, strict=True))
+        dashes, name = "-", "_nolegend_"
+        if curve.kind == "fold":
+            dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
+        ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
+        stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
+        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
+        _name_curve(ax, x[~outside], y[~outside], typeset(curve.resonance.label))
+    ax.set(xlabel=label(x), ylabel=label(y))
 
 
-def _peaks(rate: xr.DataArray) -> list[int]:
-    """Places of the peaks of a growth rate above 0.1/s, which falls on both sides of each; there is
-    none beside a speed without a rate."""
-    heights = np.arcsinh(rate.fillna(np.inf).clip(max=1e9) / LINEAR_RATE)
-    places, _ = find_peaks(heights, height=np.arcsinh(1), prominence=PROMINENT)
-    return [int(i) for i in places if np.isfinite(rate[i])]
+def _name_curve(ax: Axes, x: xr.DataArray, y: xr.DataArray, name: str) -> None:
+    """Write a name beside the middle of a curve, unless the axes have it already."""
+    if x.size and name not in [text.get_text() for text in ax.texts]:
+        middle = (x[x.size // 2], y[x.size // 2])
+        ax.annotate(name, middle, (4, 2), textcoords="offset points", fontsize="small")
 
 
-def _crossing_at(data: xr.Dataset, place: int) -> xr.Dataset | None:
-    """The crossing of a multiple of the stick-slip frequency that is nearest to a peak, of the
-    leading mode if possible; None if none is near."""
-    speeds = data["Omega"].values
-    leading = data["mode"][int(data["cycle_growth_rate"][place].argmax("mode"))]
-    apart = abs(data["crossing_Omega"] - speeds[place]) / np.ptp(speeds)
-    order = apart + (data["crossing_mode"] != leading)
-    order = order.where((apart <= NEAR) & (data["crossing_line"] == "stick_slip"))
-    if order.isnull().all():
-        return None
-    return data.isel(crossing=int(order.argmin("crossing")))
+def draw_modes(axes: Iterable[Any], case: Parameters) -> None:
+    """Draw the shapes of modes from above on polar axes, by ascending frequency, with nodal lines and
+    the slider."""
+    modes = mode_arrays(case)
+    inner, outer = radial_range(case)
+    r = np.linspace(inner + EDGE * (outer - inner), outer, 25)
+    theta = np.linspace(0, 2 * np.pi, 181)
+    shapes = mode_shapes(case, r)
+    for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
+        w = np.outer(shapes[i], np.cos(modes.diameters[i] * theta))
+        end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
+        colours: dict[str, Any] = {"cmap": cm.vik, "vmin": -end, "vmax": end}
+        ax.pcolormesh(theta, r, w, shading="gouraud", rasterized=True, **colours)
+        ax.contour(theta, r, w, [0], colors=BLACK, linewidths=1)
+        ax.plot(0, case.r_0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)
+        ax.set(ylim=(0, outer), xticks=[], yticks=[])
+        frequency = modes.omega[i] / (2 * np.pi)
+        ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {frequency:.0f} Hz")

@@ -143,12 +143,31 @@ def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
     return None
 
 
+DOUBTS = {
+    "settled": ("settled", "not settled"),
+    "sweep_settled": ("settled", "not settled"),
+    "converged": ("yes", "not converged"),
+}
+"""Variables that say whether others are sure, with the word for yes, and what is said otherwise."""
+LATE = ("_min", "_max", "_fraction", "_rate", "surface_speed")
+"""Ends of names of what `outcome` says of the late motion."""
+
+
 def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
-    """Where a motion of which a variable says something has not been shown to settle."""
-    for name, good in (("settled", "settled"), ("converged", "yes")):
-        if name in data and name != variable and set(data[name].dims) <= set(data[variable].dims):
-            unsure: Any = data[name] != good
-            return unsure.broadcast_like(data[variable])  # type: ignore[no-any-return]
+    """Where a value is not known to be final, with the reason as `long_name`."""
+    x, found = data[variable], dict[str, Any]()
+    for name, (good, why) in DOUBTS.items():
+        if name in data and name != variable:
+            is_truth = data[name].dtype.kind in "bf"  # of sweeps in Python
+            found[why] = data[name] != (True if is_truth else good)
+    if "at_lower_bound" in data and variable in ("value", "critical_speed"):
+        found["at the lower bound, or below"] = data["at_lower_bound"] == 1
+    if {"outcome", "u_max"} <= {*data} and variable.endswith(LATE):
+        found["still growing, or undecided"] = data["outcome"].isin(["growing", "undecided"])
+    for why, unsure in found.items():
+        if {*unsure.dims} <= {*x.dims}:
+            whole: xr.DataArray = unsure.broadcast_like(x).transpose(*x.dims)
+            return whole.assign_attrs(long_name=why)
     return None
 
 
