@@ -12,7 +12,7 @@ from benchmarks.figures.maps import answer_maps, failure_maps
 from benchmarks.figures.replies import answers, prices
 from benchmarks.figures.speed import overview, scaling
 from benchmarks.figures.truncation import contact_truncation
-from disc_model.plots.draw import styled
+from disc_model.figures.draw import styled
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "overview": overview,

@@ -9,8 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 
-from disc_model.plots import looks
-from disc_model.plots.draw import PAGE
+from disc_model.figures import looks
+from disc_model.figures.draw import PAGE
 
 Look = dict[str, Any]
 """Arguments of matplotlib on how something looks."""

@@ -13,7 +13,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 from benchmarks.figures.looks import SETTINGS, TEXTS, Look, letter, row_panels
-from disc_model.plots.looks import BLACK, GREY
+from disc_model.figures.looks import BLACK, GREY
 
 
 def failure_maps(*maps: xr.Dataset) -> Figure:

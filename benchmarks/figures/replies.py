@@ -25,8 +25,8 @@ from benchmarks.figures.looks import (
     panels,
     row_panels,
 )
-from disc_model.plots.draw import PAGE
-from disc_model.plots.looks import BLACK
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import BLACK
 
 ANSWERS: dict[str, str] = TEXTS["answers"]
 HEADS: dict[str, str] = TEXTS["heads"]

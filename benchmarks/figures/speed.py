@@ -10,8 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from benchmarks.figures.looks import LINES, TEXTS, Look, letter, panels, row_panels, say
-from disc_model.plots.draw import PAGE
-from disc_model.plots.looks import GREY
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import GREY
 
 # ---- Speed against accuracy
 

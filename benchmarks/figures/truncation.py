@@ -14,8 +14,8 @@ from matplotlib.ticker import NullFormatter
 
 from benchmarks.figures.looks import TEXTS, Look, letter, panels
 from disc_model.data.variables import values_text
-from disc_model.plots.draw import PAGE
-from disc_model.plots.looks import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE
 
 _CASES: list[Look] = [
     {"color": BLUE, "marker": "o"},

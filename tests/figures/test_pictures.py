@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model.plots.kinds import KINDS, kind_of, render, save
+from disc_model.figures.kinds import KINDS, kind_of, render, save
 from tests.figures.examples import EXAMPLES, Example, simulated
 from tests.figures.measured import assert_shows
 

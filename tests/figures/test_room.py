@@ -7,7 +7,7 @@ import pytest
 
 import disc_model
 
-ROOM = Path(disc_model.__file__).parent / "plots"
+ROOM = Path(disc_model.__file__).parent / "figures"
 FORBIDDEN = {
     "a registry by weak keys": r"weakref|Weak\w+Dictionary",
     "a private name of matplotlib": r"\b(?:ax|axes|axis|figure|legend|line|mesh|bar|spec)\._[a-z]",

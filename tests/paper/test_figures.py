@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 
 from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.data.variables import PHASES
-from disc_model.plots.kinds import render
-from disc_model.plots.schema import CasePlot, Plot
-from disc_model.plots.shown import shown, shown_case
+from disc_model.figures.kinds import render
+from disc_model.figures.schema import CasePlot, Plot
+from disc_model.figures.shown import shown, shown_case
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.paper import evidence

@@ -17,10 +17,9 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.disc.modes import plate_modes
 from disc_model.disc.plate import mode_shapes, modes_at_point
-from disc_model.parameters import Parameters
-from disc_model.plots.draw import COLUMN, PAGE, bar_of, class_map, compare, panels
-from disc_model.plots.looks import BLACK, BLUE, GREY, ORANGE, PAPER, RED, SKY, Look
-from disc_model.plots.runs import (
+from disc_model.figures.draw import COLUMN, PAGE, bar_of, class_map, compare, panels
+from disc_model.figures.looks import BLACK, BLUE, GREY, ORANGE, PAPER, RED, SKY, Look
+from disc_model.figures.runs import (
     draw_disc,
     draw_history,
     draw_range,
@@ -32,7 +31,7 @@ from disc_model.plots.runs import (
     shade_phases,
     window_of,
 )
-from disc_model.plots.schema import (
+from disc_model.figures.schema import (
     Case,
     Cases,
     InTime,
@@ -45,7 +44,8 @@ from disc_model.plots.schema import (
     case_figure,
     grid_figure,
 )
-from disc_model.plots.shown import label, placed, value_text, words
+from disc_model.figures.shown import label, placed, value_text, words
+from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
 from workflow.paper import section2
 from workflow.paper.model import parameters_of
