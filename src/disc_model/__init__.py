@@ -33,7 +33,7 @@ _NAMES = {
     "fit": "fit",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
-    "plots": "plot_campbell plot_modes plot_sweep",
+    "figures": "plot_campbell plot_modes plot_sweep",
     "simulation.api": "simulate snapshots Execution",
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
@@ -85,10 +85,10 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
+    from disc_model.figures import plot_campbell, plot_modes, plot_sweep
     from disc_model.fit import fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters
-    from disc_model.plots import plot_campbell, plot_modes, plot_sweep
     from disc_model.simulation.api import Execution, simulate, snapshots
     from disc_model.simulation.case import Poincare, Ramp, Window
     from disc_model.simulation.result import Result

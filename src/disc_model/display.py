@@ -68,10 +68,10 @@ def brought(module: str, extra: str) -> Any:
 
 
 def drawings() -> ModuleType:
-    """Return `disc_model.plots.results`, the pictures of results, imported when something is drawn;
+    """Return `disc_model.figures.results`, the pictures of results, imported when something is drawn;
     raises `ModuleNotFoundError`, with the command to install it, without matplotlib."""
     brought("matplotlib", "plot")
-    from disc_model.plots import results
+    from disc_model.figures import results
 
     return results
 
