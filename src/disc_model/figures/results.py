@@ -34,15 +34,14 @@ from disc_model.figures.draw import (
     number_map,
     rate_axis,
     shares,
-    sign_changes,
     unresolved,
     wished,
 )
-from disc_model.figures.looks import STABLE, Look
+from disc_model.figures.looks import Look
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import MOST_VALUES, known_units
 from disc_model.figures.shown import label, parameter_of, shown, shown_case, value_text
-from disc_model.figures.studies import in_doubt, why_missing
+from disc_model.figures.studies import in_doubt, rate_map, why_missing
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
 
@@ -348,14 +347,12 @@ def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
         unresolved(ax, plane)
         return
     colours = {**colours_of(plane), **look}
-    mesh = number_map(ax, plane, why_missing(study, name), **colours)
+    paint = rate_map if is_rate(plane) else number_map
+    mesh = paint(ax, plane, why_missing(study, name), **colours)
     bar_of(ax.figure, ax, mesh, plane)
     if doubt is not None:
         why = f"circles: {doubt.attrs['long_name']}"
         cells(ax, plane, doubt.values, Look(why, "none", "oo"))
-    if is_rate(plane):
-        cells(ax, plane, plane.values < 0, STABLE)
-        sign_changes(ax, plane, "growth rate changes its sign")
 
 
 def draw_lines(
