@@ -287,8 +287,9 @@ def sliding_outcome(
         ):
             word = f"sliding {stability}, {fate}"
             both = both.where(~(here & mask), word)
-            shares = [percent((part == word).mean()) for _, part in each_value(both, by)]
-            looks[word] = Look(f"{word}: {', '.join(shares)}", LOOKS[outcomes[0]].face, dots)
+            shares = [float((part == word).mean()) for _, part in each_value(both, by)]
+            said = ", ".join(f"{100 * share:.0f} %" for share in shares)
+            looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
     looks["undecided"] = LOOKS["undecided"]._replace(label="undecided, or no steady sliding")
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
@@ -296,11 +297,6 @@ def sliding_outcome(
         ax.set_title(titled(title, study))
         class_map(ax, part.transpose(y, x), looks)
     return figure
-
-
-def percent(share: Any) -> str:
-    """A share in whole percent."""
-    return f"{100 * float(share):.0f} %"
 
 
 def counted(chosen: Any) -> str:
@@ -333,7 +329,7 @@ def critical_speed(
         behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
     for ax in axes:
         onsets(ax, study)
-        mark_missing(ax, loads[(study["status"] != "ok").values], "failed", along="y")
+        mark_missing(ax, loads[study["critical_speed"].isnull().values], "_", along="y")
         ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
         ax.label_outer()
     axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
@@ -371,7 +367,13 @@ def onsets(ax: Axes, study: xr.Dataset) -> None:
     found = xr.concat([first, further], "crossing_number")
     at, loads = xr.broadcast(found, study["N"])
     look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 3, "mew": 0.6}
-    mark_points(ax, at.values.ravel(), loads.values.ravel(), "separation begins", **look)
+    mark_points(
+        ax,
+        at.values.ravel(),
+        loads.values.ravel(),
+        "separation begins; × at edge: none found",
+        **look,
+    )
 
 
 def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
@@ -586,6 +588,9 @@ def sensitivity(study: xr.Dataset) -> Figure:
 
     rows = np.arange(thirds.sizes["parameter"])
     name = f"all {cases.sizes['sample']} samples"
+    failed = int((cases["cycle"] == "failed").sum())
+    if failed:
+        name += f"; {failed} in all panels failed, and do not count"
     figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
     for i, ax in enumerate(axes):
         draw_thirds(ax, thirds.isel(case=i), rows)
@@ -596,9 +601,6 @@ def sensitivity(study: xr.Dataset) -> Figure:
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
     symbols = [presentation_of(name).symbol for name in thirds["parameter"].values]
     axes[0].set_yticks(rows, [typeset(symbol) for symbol in symbols])
-    failed = int((cases["cycle"] == "failed").sum())
-    if failed:
-        axes[0].plot([], [], " ", label=f"without {failed} failed samples")
     return figure
 
 
