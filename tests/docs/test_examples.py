@@ -25,8 +25,13 @@ BLOCK = re.compile(r"^```python\n(.*?)^```$", re.M | re.S)
 WITH_EXAMPLES = [page for page in PAGES if ">>>" in page.read_text(encoding="utf-8")]
 OPTIONS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
-RETURNED = ["mode_choice.ModeChoice", "stability.continuation.Branch", "display.Drawn"]
-"""Classes of what functions return, and the base of those whose methods draw."""
+RETURNED = [
+    "mode_choice.ModeChoice",
+    "stability.continuation.Branch",
+    "stability.cycle.FloquetResult",
+    "stability.sliding.SteadySliding",
+]
+"""Classes of what functions return."""
 
 
 def page_name(page: Path) -> str:

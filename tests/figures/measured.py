@@ -14,10 +14,8 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from numpy.typing import ArrayLike
 
-from disc_model.figures.symbols import without_font
-
 UREG = pint.UnitRegistry()
-PLAIN = {"²": "**2", "³": "**3", "μ": "u", "µ": "u", "10⁻⁵ ": "1e-5 * "}
+PLAIN = {"²": "**2", "³": "**3", "μ": "u", "µ": "u", "10⁻⁵ ": "1e-5 * ", "\xa0": " "}
 """Signs of labels in the notation of pint, but for products."""
 WORDS = {"events", "thicknesses", "dB re strongest line"}
 """What stands in the brackets of a label, and is no unit."""
@@ -76,7 +74,7 @@ def assert_shows(figure: Figure, expected: Shown) -> None:
 
 def parts_of(label: str) -> tuple[str, str]:
     """Words of a label, and its unit, "" without one; wherever its lines are broken."""
-    text = re.sub(r"\$|\\,", "", " ".join(without_font(label).split()))
+    text = " ".join(label.replace("$", "").split())
     found = re.fullmatch(r"(.*) \(([^()]+)\)", text)
     if found is None or found[2] in WORDS:
         return text, ""

@@ -7,7 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
-from disc_model.plots.kinds import KINDS
+from disc_model.figures.kinds import KINDS
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.study import Study
 

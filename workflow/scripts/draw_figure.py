@@ -5,7 +5,7 @@ import json
 
 from disc_model.data.dataset import load_result
 from disc_model.errors import script
-from disc_model.plots.kinds import kind_of, render, save
+from disc_model.figures.kinds import kind_of, render, save
 
 
 @script

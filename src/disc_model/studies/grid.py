@@ -17,9 +17,9 @@ from pydantic import Field, Tag, WithJsonSchema, create_model
 
 from disc_model.data.variables import PERTURBATIONS, attributes, values_text
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
+from disc_model.figures.schema import Kind, Plot
+from disc_model.figures.shown import factors_of
 from disc_model.parameters import NUMBER_OR_WORD, PLATE, RATIOS, RELATED, Parameters, case_of
-from disc_model.plots.schema import Kind, Plot
-from disc_model.plots.shown import factors_of
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
 from disc_model.studies.quantity import Blocks, Quantity, Range, Value, compiled_rule, holds

@@ -25,8 +25,8 @@ from pydantic import (
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
+from disc_model.figures.schema import NORM, CasePlot, Kind, Plot, Role
 from disc_model.parameters import RATIOS, Disc, Parameters
-from disc_model.plots.schema import NORM, CasePlot, Kind, Plot, Role
 from disc_model.simulation.case import (
     CaseSpec,
     Poincare,
@@ -232,7 +232,7 @@ def _with_ratios_of(p: Parameters, start: Start) -> Start:
 def _figure(raw: Any) -> Kind:
     if isinstance(raw, Kind):
         return raw
-    from disc_model.plots.kinds import kind_of  # brings in matplotlib
+    from disc_model.figures.kinds import kind_of  # brings in matplotlib
 
     return kind_of(_mapping(raw).get("kind")).model_validate(raw)
 

@@ -1,0 +1,195 @@
+"""Every kind of figure names the quantities on its axes and their units, and shows the values of its
+data in these units."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures.kinds import KINDS, kind_of, render, save
+from tests.figures.examples import EXAMPLES, Example, simulated
+from tests.figures.measured import assert_shows
+
+OF_GRIDS = [name for name in EXAMPLES if "case" not in EXAMPLES[name]().phrase]
+MARGIN = 0.05  # inch
+
+
+def drawn(kind: str, example: Example, change: Callable[..., Any] | None = None) -> Figure:
+    """A figure of an example, of which each study is changed."""
+    inputs = {}
+    for name, given in example.inputs.items():
+        data = given if change is None or isinstance(given, xr.DataTree) else change(given)
+        inputs[name] = data if isinstance(data, xr.DataTree) else xr.DataTree(data)
+    return render(kind_of(kind).model_validate({"kind": kind, **example.phrase}), inputs)
+
+
+def said(figure: Figure) -> list[str]:
+    """What the legend of a figure says."""
+    return [text.get_text().replace("\n", " ") for each in figure.legends for text in each.texts]
+
+
+def test_each_kind_has_an_example() -> None:
+    assert {*KINDS} == {*EXAMPLES}
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_labels_units_and_values_are_those_of_the_data(kind: str) -> None:
+    """Microseconds for milliseconds, metres for millimetres and 1/min for 1/s were not noticed."""
+    example = EXAMPLES[kind]()
+    figure = drawn(kind, example)
+    assert example.shown
+    for expected in example.shown:
+        assert_shows(figure, expected)
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_nothing_lies_outside_the_page(kind: str) -> None:
+    figure = drawn(kind, EXAMPLES[kind]())
+    figure.draw_without_rendering()
+    width, height = figure.get_size_inches()
+    page = figure.get_tightbbox()
+    assert min(page.x0, page.y0, width - page.x1, height - page.y1) > -MARGIN
+
+
+def without_numbers(study: xr.Dataset) -> xr.Dataset:
+    """A study of whose variables none has a number, as where each point has failed."""
+    changed = {name: x.where(False) for name, x in study.data_vars.items() if x.dtype.kind == "f"}
+    if "status" in study and "failed" in study["status"].attrs.get("flag_meanings", ""):
+        failed = study["status"].attrs["flag_meanings"].split().index("failed")
+        changed["status"] = xr.full_like(study["status"], failed)
+    return study.assign(changed)
+
+
+@pytest.mark.parametrize("kind", OF_GRIDS)
+@pytest.mark.filterwarnings("error")
+def test_a_study_without_any_number_is_drawn(kind: str) -> None:
+    drawn(kind, EXAMPLES[kind](), without_numbers).draw_without_rendering()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in OF_GRIDS if kind != "sensitivity"])
+def test_a_study_of_one_point_is_drawn(kind: str) -> None:
+    grid = ("Omega", "N", "c_p", "k_p", "value")
+
+    def first(study: xr.Dataset) -> xr.Dataset:
+        return study.isel({name: slice(1) for name in grid if name in study.dims})
+
+    drawn(kind, EXAMPLES[kind](), first).draw_without_rendering()
+
+
+BY = [kind for kind in OF_GRIDS if "by" in KINDS[kind].model_fields and kind != "basins"]
+
+
+@pytest.mark.parametrize("kind", [kind for kind in BY if kind not in ("late_range", "escape")])
+def test_models_stand_beside_each_other_and_titles_say_what_differs(kind: str) -> None:
+    """Two models of one thing are panels or lines of one figure, with names of the file's own."""
+
+    def models(given: xr.Dataset) -> xr.Dataset:
+        study = given.drop_dims("k", errors="ignore")
+        if "normalization" in study.dims:
+            study = study.squeeze("normalization")
+        study = study.drop_vars("normalization", errors="ignore")
+        both = xr.concat([study.assign_coords(k=value) for value in (2e4, 6e4)], "k")
+        base = {"normalization": "as_published", **json.loads(given.attrs["base"])}
+        return both.assign_attrs(given.attrs | {"base": json.dumps(base)})
+
+    example = EXAMPLES[kind]()
+    for names, expected in (
+        ({"20000.0": "soft", "60000.0": "stiff"}, ["soft", "stiff"]),
+        ({}, ["k = 20 kN/m", "k = 60 kN/m"]),
+    ):
+        phrase = {**example.phrase, "by": "k", "names": names}
+        if kind == "curve":
+            continue
+        figure = drawn(kind, example._replace(phrase=phrase), models)
+        titles = " ".join(ax.get_title(loc="left") for ax in figure.axes).replace("\n", " ")
+        assert all(text in titles or text in " ".join(said(figure)) for text in expected)
+
+
+# ---- Doubts, gaps, and units of the reader
+
+
+def curve_of(values: Any, **columns: Any) -> tuple[Example, xr.Dataset]:
+    """A line of growth rates over three speeds."""
+    study = xr.Dataset(
+        {"growth_rate": ("Omega", values, {"units": "s-1", "long_name": "growth rate"}), **columns},
+        {"Omega": ("Omega", [10.0, 11.0, 12.0], {"units": "rad s-1"})},
+    )
+    study["growth_rate"].attrs["missing"] = "there is no cycle"
+    return Example({"variable": "growth_rate", "x": "Omega"}, {"study": study}, ()), study
+
+
+def test_a_point_without_a_value_is_a_cross_that_says_why() -> None:
+    example, _ = curve_of([0.01, np.nan, 0.02])
+    figure = drawn("curve", example)
+    assert "no value: there is no cycle" in said(figure)
+    crosses = [line for line in figure.axes[0].lines if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in crosses] == [[11.0]]
+
+
+def test_a_value_in_doubt_is_hollow() -> None:
+    settled = ("Omega", np.array([1, 0, 1], np.int8), {"flag_meanings": "undecided settled"})
+    example, _ = curve_of([0.01, 0.02, 0.03], settled=settled)
+    figure = drawn("curve", example)
+    [hollow] = [line for line in figure.axes[0].lines if line.get_markerfacecolor() == "white"]
+    assert hollow.get_xdata().tolist() == [11.0]
+    assert any("hollow" in text for text in said(figure))
+
+
+def test_a_line_of_growth_rates_is_open_where_another_cycle_may_follow() -> None:
+    example, _ = curve_of([0.01, 5.0, 5.1])
+    [line] = [line for line in drawn("curve", example).axes[0].lines if len(line.get_xdata()) == 4]
+    assert np.flatnonzero(np.isnan(line.get_ydata())).tolist() == [1]
+
+
+def test_values_are_drawn_in_the_units_of_the_reader() -> None:
+    example, study = curve_of([0.01, 0.02, 0.03])
+    figure = drawn("curve", example._replace(phrase={**example.phrase, "units": {"Omega": "rpm"}}))
+    ax = figure.axes[0]
+    assert ax.get_xlabel() == "Speed Ω (rpm)"
+    expected = study["Omega"].values * 30 / np.pi
+    np.testing.assert_allclose(ax.lines[0].get_xdata(), expected, rtol=1e-12)  # of one product
+
+
+def test_a_product_has_its_power_of_ten_once() -> None:
+    study = xr.Dataset(
+        {"period": (("D_star", "Omega"), [[0.01, 0.02], [0.03, 0.04]], {"units": "s"})},
+        {
+            "D_star": ("D_star", [1e-5, 2e-5], {"units": "N m s"}),
+            "Omega": ("Omega", [10.0, 11.0], {"units": "rad s-1"}),
+        },
+    )
+    phrase = {"variable": "period", "x": "Omega", "by": "D_star"}
+    assert "D* = 1·10⁻⁵ N m s" in said(drawn("curve", Example(phrase, {"study": study}, ())))
+
+
+# ---- Files
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png"])
+def test_equal_figures_give_equal_bytes_whatever_the_users_settings(
+    suffix: str, tmp_path: Path
+) -> None:
+    example = Example({"case": "A", "window": "history"}, {"A": simulated(True)}, ())
+    save(drawn("history", example), tmp_path / f"a.{suffix}")
+    before = dict(mpl.rcParams)
+    with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
+        save(drawn("history", example), tmp_path / f"b.{suffix}")
+    assert dict(mpl.rcParams) == before
+    content = (tmp_path / f"a.{suffix}").read_bytes()
+    assert content == (tmp_path / f"b.{suffix}").read_bytes()
+    assert b"CreationDate" not in content
+    assert b"/Type3" not in content, "fonts are embedded as TrueType"
+
+
+def test_a_case_without_what_is_shown_says_so() -> None:
+    tree = simulated(True).copy()
+    del tree["zoom"]
+    example = Example({"case": "A", "window": "zoom"}, {"A": tree}, ())
+    figure = drawn("history", example)
+    assert figure.axes[0].texts[0].get_text() == "not shown: the case did not record zoom"
