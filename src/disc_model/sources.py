@@ -13,12 +13,19 @@ import json
 import os
 import platform
 import subprocess
+import tomllib
 from pathlib import Path
+from typing import Any
 
 import platformdirs
 
 PACKAGE = Path(__file__).resolve().parent
 
+TABLE = "data/variables.toml"
+"""The table of variables, of which only flags, dimensions and types count as a part on its own: what they
+are called is attached when results are merged or read."""
+TEXTS = ("units", "long_name", "comment", "missing", "shown", "parameters", "arguments")
+"""Keys of the table that change no number."""
 PHYSICS = (
     "analysis",
     "arrays.py",
@@ -27,7 +34,7 @@ PHYSICS = (
     "data/files.py",
     "data/tables.py",
     "data/variables.py",
-    "data/variables.toml",
+    TABLE,
     "disc",
     "engine",
     "errors.py",
@@ -69,16 +76,33 @@ def source_hash(*parts: str | Path) -> str:
     """Return a hash of parts of the package, 16 hexadecimal digits.
 
     Parts are files and folders, relative to the package; a script is given by its path. Of Python
-    files only what they do counts, and not comments, docstrings and layout.
+    files only what they do counts, and not comments, docstrings and layout, and of `TABLE` no words.
     """
     digest = hashlib.sha256()
     for part in parts:
+        if part == TABLE:
+            digest.update(_structure().encode())
+            continue
         for path in _files(PACKAGE / part):
             # a script counts by its bare name, wherever it is installed
             inside = path.is_relative_to(PACKAGE)
             name = path.relative_to(PACKAGE).as_posix() if inside else path.name
             digest.update(f"{name}\0{code_hash(path)}\0".encode())
     return digest.hexdigest()[:16]
+
+
+def _structure() -> str:
+    """The table of variables without what it only says of them, as JSON."""
+
+    def without_texts(table: dict[str, Any]) -> dict[str, Any]:
+        kept = {}
+        for name, entry in table.items():
+            if name not in TEXTS:
+                kept[name] = without_texts(entry) if isinstance(entry, dict) else entry
+        return kept
+
+    tables = tomllib.loads((PACKAGE / TABLE).read_text(encoding="utf-8"))
+    return json.dumps(without_texts(tables), sort_keys=True)
 
 
 def quantity_file(name: str) -> str:

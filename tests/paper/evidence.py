@@ -138,7 +138,7 @@ def kept_events(rows: Iterable[tuple[Any, ...]], start: float, stop: float) -> x
 WORDS = (
     "ok",
     "failed",
-    "quiet",
+    "stick_slip",
     "growing",
     "separation",
     "no_cycle",

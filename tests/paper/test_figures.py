@@ -164,7 +164,8 @@ def test_the_figure_on_both_scales_counts_what_vanishes(lost: int) -> None:
     inputs = {"study": maps["map_N"], **{name: maps[name] for name in plot.overlays}}
     figure = render(plot, {name: xr.DataTree(each) for name, each in inputs.items()})
     amplitudes, regions, times = figure.axes
-    assert amplitudes.get_title(loc="left") == "(a) ratio 14 at l = 1"
+    title = " ".join(amplitudes.get_title(loc="left").split())
+    assert title == "(a) ratio 14 at l = 1"
     assert (regions.get_xlabel(), regions.get_ylabel()) == ("Speed Ω (rad/s)", "Preload N (N)")
     counts = {str(line.get_label()) for line in times.lines if "horizon" in str(line.get_label())}
     assert counts == {f"none by Eq. (17) up to the horizon, {lost} of 9"} if lost else not counts

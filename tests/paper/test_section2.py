@@ -198,7 +198,7 @@ def test_separating_cases_are_counted_with_both_sets_of_modes(
 ) -> None:
     """Of four, one separates with normalised modes, one grows, and two are quiet."""
     norms = ["as_published", "orthonormal"]
-    later = ["separation", "growing", "quiet", "quiet"]
+    later = ["separation", "growing", "stick_slip", "stick_slip"]
     points = {}
     for number, word in enumerate(later):
         words = ["separation", word]
@@ -207,7 +207,7 @@ def test_separating_cases_are_counted_with_both_sets_of_modes(
     speeds = np.array([10.0, 2000.0])
     planes = []
     for speed in lowest:
-        planes.append([["separation" if each >= speed else "quiet"] for each in speeds])
+        planes.append([["separation" if each >= speed else "stick_slip"] for each in speeds])
     axes = {"normalization": norms, "Omega": speeds, "N": [300.0]}
     plane = grid(axes, outcome=planes).assign_attrs(study="map_N")
     found = survive(plane, share=0.5)

@@ -109,7 +109,7 @@ def basins(share: float, undecided: int = 0) -> xr.Dataset:
         "energy": [0.5, 1.0, 2.0],
         "start": np.arange(10),
     }
-    kinds = ["undecided"] * undecided + ["quiet"] * (30 - undecided)
+    kinds = ["undecided"] * undecided + ["stick_slip"] * (30 - undecided)
     both_speeds = np.reshape(2 * kinds, (1, 2, 3, 10))
     return grid(axes, separating_fraction=[[0.9, share]], kind=both_speeds)
 
@@ -364,11 +364,15 @@ def test_a_case_separates_far_below_the_speed_of_a_moving_load() -> None:
 @pytest.mark.parametrize(
     ("rates", "words", "verdict"),
     [
-        ([0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], TRUE),
-        ([-0.1, -0.1, 0.2], ["separation", "quiet", "quiet"], FALSE),  # grows at high speed only
-        ([0.1, -0.1, 0.2], ["quiet", "quiet", "separation"], FALSE),
-        ([0.1, NAN, 0.2], ["quiet", "separation", "quiet"], TRUE),
-        ([0.1, NAN, 0.2], ["separation", "quiet", "quiet"], TRUE),
+        ([0.1, -0.1, 0.2], ["separation", "stick_slip", "stick_slip"], TRUE),
+        (
+            [-0.1, -0.1, 0.2],
+            ["separation", "stick_slip", "stick_slip"],
+            FALSE,
+        ),  # grows at high speed only
+        ([0.1, -0.1, 0.2], ["stick_slip", "stick_slip", "separation"], FALSE),
+        ([0.1, NAN, 0.2], ["stick_slip", "separation", "stick_slip"], TRUE),
+        ([0.1, NAN, 0.2], ["separation", "stick_slip", "stick_slip"], TRUE),
     ],
 )
 def test_growth_and_separation_are_both_found_at_low_speed(

@@ -226,8 +226,8 @@ def plane_of(words: list[list[str]], **changes: Any) -> xr.Dataset:
 
 
 def test_a_map_is_in_the_order_of_its_parameters() -> None:
-    words = [["quiet", "separation", "quiet"]] + [["quiet"] * 3] * 2
-    words.append(["separation", "quiet", "quiet"])
+    words = [["stick_slip", "separation", "stick_slip"]] + [["stick_slip"] * 3] * 2
+    words.append(["separation", "stick_slip", "stick_slip"])
     found = plane(plane_of(words), "N", "c_p")
     assert found.first.tolist() == [100, 200, 300, 400]
     assert found.second.tolist() == [0, 0.1, 0.5]
@@ -253,7 +253,9 @@ def test_a_map_is_in_the_order_of_its_parameters() -> None:
 def test_damping_brings_separation_where_there_was_none(
     letters: str, verdict: str, newly: list[float], never: list[float]
 ) -> None:
-    words = [["separation" if one == "s" else "quiet" for one in row] for row in letters.split()]
+    words = [
+        ["separation" if one == "s" else "stick_slip" for one in row] for row in letters.split()
+    ]
     found = damping_at_large_preloads(plane_of(words), c_p=0.1)
     assert found.verdict == verdict
     assert found.values["newly"] == newly
@@ -307,7 +309,7 @@ def test_springs_are_told_in_kilonewtons_and_separate_again_in_groups() -> None:
         "k": [1e4, 2e4, 3e4],
     }
     letters = ("sqq", "qqs", "qsq", "sss", "qqs")
-    words = [["separation" if one == "s" else "quiet" for one in row] for row in letters]
+    words = [["separation" if one == "s" else "stick_slip" for one in row] for row in letters]
     study = grid(axes, outcome=[words], growth_rate=[np.zeros((5, 3))])
     cases = [known({"k": 1e4, "first_separation": 5.0}), known({"k": 5e4, "first_separation": 9.0})]
     found = softer_separates_sooner(*cases, study)
@@ -515,7 +517,7 @@ def test_in_plane_damping_makes_a_quiet_case_separate(
     """At one of four preloads of the map it does at 0.1 N s/m, and at one more at 0.5."""
     letters = "sqs qqs qqq sss"
     rows = letters.split()
-    words = [["separation" if one == "s" else "quiet" for one in row] for row in rows]
+    words = [["separation" if one == "s" else "stick_slip" for one in row] for row in rows]
     before, after = separates
     without = known(separates=before, fate="before")
     case = known({"c_p": 0.1}, separates=after, fate="after")

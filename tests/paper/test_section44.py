@@ -364,7 +364,7 @@ def test_growth_without_friction_is_the_largest_of_all_cases(
     assert both.verdict == TRUE
 
 
-QUIET = "quiet"
+QUIET = "stick_slip"
 APART = "separation"
 
 
@@ -477,8 +477,8 @@ def test_errors_without_separation_are_counted_on_both_sides_and_on_both_discs(
     }
     tops = [[1.0, 1.0, 1.0, 1.0], [2.0, 0.5, 2.0, 9.0]]
     words = [
-        ["separation", "separation", "separation", "quiet"],
-        ["growing", "quiet", "growing", "growing"],
+        ["separation", "separation", "separation", "stick_slip"],
+        ["growing", "stick_slip", "growing", "growing"],
     ]
     study = grid(
         axes, {"after_separation": 5.0}, u_max=[tops], u_min=np.zeros((1, 2, 4)), outcome=[words]

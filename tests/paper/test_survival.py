@@ -46,7 +46,7 @@ def growth(*rates: float) -> xr.Dataset:
 
 def outcome(letters: str) -> xr.Dataset:
     """Return outcomes at `POINTS` by letters: s separates, q is quiet, g grows, x failed."""
-    words = {"s": "separation", "q": "quiet", "g": "growing", "x": "failed"}
+    words = {"s": "separation", "q": "stick_slip", "g": "growing", "x": "failed"}
     found = [words[letter] for letter in letters]
     return grid(POINTS, outcome=np.reshape(found, (2, 3)))
 

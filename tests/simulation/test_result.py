@@ -4,6 +4,7 @@ another time."""
 import copy
 import dataclasses
 import json
+import math
 import pickle
 from collections.abc import Iterator
 from pathlib import Path
@@ -229,13 +230,18 @@ def test_what_is_no_result_is_an_unreadable_file_whatever_it_is(
 Columns = dict[str, dict[str, Any]]
 
 
+STATE = ("a", "b", "alpha", "beta")
+NEEDED = {"events": ("kind", "phase"), "final_state": STATE, "initial_state": STATE}
+"""Columns beside the time without which a table is none of a result."""
+
+
 def _wrong_columns(tables: Columns) -> Iterator[Columns]:
     """Tables that are not those of a result."""
     for name, table in tables.items():
         yield {**tables, name: {}}
         for key, column in table.items():
             yield {**tables, name: {**table, key: np.append(column, 0.0)}}
-            if key != "mode_amplitudes":  # a state that was made by hand has none
+            if key == "time" or key in NEEDED.get(name, ()):
                 yield {**tables, name: {x: y for x, y in table.items() if x != key}}
         yield {**tables, name: {**table, "other": np.zeros(len(next(iter(table.values()))))}}
     yield {**tables, "more": tables["late"]}
@@ -256,6 +262,27 @@ def test_so_is_one_with_other_columns(tmp_path: Path, monkeypatch: pytest.Monkey
     save_tables(tables | {"late": {"time": np.array(["a", "b"])}}, text, path, xr.DataTree())
     with pytest.raises(UnreadableFile, match="cannot be read: "):
         Result.load(path)
+
+
+def test_a_run_that_was_saved_before_a_column_was_known_is_read(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """All runs saved before had been unreadable files."""
+    path = tmp_path / "r.nc"
+    RECORDED.save(path)
+    text, tables = load_tables(path)
+    header = json.loads(text)
+    del header["statistics"]["surface_speed"]
+    older = {name: dict(table) for name, table in tables.items()}
+    for name, column in (("late", "psi_velocity"), ("turns", "w"), ("events", "u_velocity")):
+        del older[name][column]
+    monkeypatch.setattr("disc_model.data.tables.load_tables", lambda _: (json.dumps(header), older))
+    run = Result.load(path)
+    assert np.isnan(run.events["u_velocity"]).all()
+    assert np.array_equal(run.events["P"], RECORDED.events["P"])
+    assert "psi_velocity" not in run["late"]
+    assert run["late"]["P"].equals(RECORDED["late"]["P"])
+    assert math.isnan(run.statistics["surface_speed"])
 
 
 def test_a_state_that_cannot_be_is_an_unreadable_file(

@@ -133,7 +133,7 @@ def test_shortcuts_agree_with_brute_force() -> None:
             simulated += found.simulated
             if math.isfinite(whole.first_separation) != (found.outcome is Outcome.SEPARATION):
                 disagree.append((at, found, whole.first_separation))
-            if found.outcome is Outcome.QUIET and found.simulated == 0.0:
+            if found.outcome is Outcome.STICK_SLIP and found.simulated == 0.0:
                 assert not growing(whole.changes), at
     assert len(disagree) <= MOST_WRONG * points, disagree
     assert simulated < 0.5 * points * horizon
@@ -185,7 +185,7 @@ def test_a_periodic_attractor_is_known_by_its_fixed_point() -> None:
     in_a_period = separating.period * separating.segment.separation_rate
     assert in_a_period == pytest.approx(1, abs=1 / (5 * 135))
     assert separating.growth_rate < 0
-    assert quiet.kind == Outcome.QUIET
+    assert quiet.kind == Outcome.STICK_SLIP
     assert quiet.segment.separation_rate == 0
     assert quiet.growth_rate == pytest.approx(-0.0674, rel=1e-2)
     assert quiet.points is not None
@@ -305,7 +305,7 @@ def test_a_motion_is_steady_if_its_segments_neither_differ_nor_drift(
 APART_20 = Attractor(Outcome.SEPARATING, ranged(0.02)[0])
 APART_30 = Attractor(Outcome.SEPARATING, ranged(0.03)[0])
 APART_24 = Attractor(Outcome.SEPARATING, ranged(0.024)[0])
-CALM_20 = Attractor(Outcome.QUIET, ranged(0.02)[0])
+CALM_20 = Attractor(Outcome.STICK_SLIP, ranged(0.02)[0])
 
 
 @pytest.mark.parametrize(

@@ -77,12 +77,13 @@ def test_critical_values_of_a_mode_are_saved(tmp_path: Path) -> None:
     swept = dm.sweep(
         dm.critical, case, "omega_2_0", (2900, 3100), N=[385], points=2, kind="sliding"
     )
-    meaning = "natural frequency of the mode of 2 nodal diameters and 0 circles"
+    meaning = "natural frequency of the mode (2, 0)"
     for units in (data["omega_2_0"].units, data["value"].units, swept["value"].units):
         assert units == "rad s-1"
     assert data["omega_2_0"].long_name == meaning
-    assert meaning in swept["border"].long_name
-    assert meaning in data["border"].long_name
+    assert data["omega_2_0"].comment == "the mode of 2 nodal diameters and 0 circles"
+    assert meaning in swept["border"].comment
+    assert meaning in data["border"].comment
 
 
 def test_a_sweep_of_critical_values_keeps_its_variables() -> None:

@@ -83,7 +83,7 @@ def test_a_cycle_near_a_later_release_has_the_time_of_that_release() -> None:
     assert near is not None
     assert near.follows_cycle
     assert near.time >= release.time
-    assert near.kind is Outcome.QUIET
+    assert near.kind is Outcome.STICK_SLIP
 
 
 def test_a_release_in_contact_is_no_release_after_a_loss_of_contact() -> None:

@@ -41,7 +41,7 @@ def test_a_kick_that_ends_in_steady_sliding_does_not_separate_for_good() -> None
         ((Outcome.STEADY_SLIDING, LOSES), (Outcome.STEADY_SLIDING, SLIDES), True),
         ((Outcome.AT_REST, LOSES), (Outcome.AT_REST, SLIDES), True),
         ((Outcome.AT_REST, SLIDES), (Outcome.STEADY_SLIDING, SLIDES), False),
-        ((Outcome.STEADY_SLIDING, SLIDES), (Outcome.QUIET, SLIDES), False),
+        ((Outcome.STEADY_SLIDING, SLIDES), (Outcome.STICK_SLIP, SLIDES), False),
         ((Outcome.UNDECIDED, SLIDES), (Outcome.STEADY_SLIDING, SLIDES), True),
         ((Outcome.UNDECIDED, LOSES), (Outcome.STEADY_SLIDING, SLIDES), False),
     ],

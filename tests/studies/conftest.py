@@ -11,13 +11,14 @@ import pytest
 import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
+from disc_model.data.variables import POINT_STATUSES
 from disc_model.errors import Status
 from disc_model.stability import attractors
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.stability.segments import Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
-from disc_model.studies.quantity import STATUSES, tried
+from disc_model.studies.quantity import tried
 from disc_model.studies.run import run_batch
 from tests.stability.continuation.toy_maps import fold_at, fold_map, outside
 from tests.studies.refused import parse_grid
@@ -169,13 +170,13 @@ def growth_over(N, Omega) -> xr.Dataset:
 def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
     """The study with one point that failed; numbers that it has are not to be believed."""
     study = study.copy(deep=True)
-    study["status"].loc[place] = STATUSES.index("failed")
+    study["status"].loc[place] = POINT_STATUSES.index("failed")
     return study
 
 
 def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
     """Samples and exponents over three loads, for base values with this normalization."""
-    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(STATUSES)})
+    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(POINT_STATUSES)})
     axes = {"N": ("N", [1.0, 2, 3], {"units": "N"})}
     attrs = {
         "base": json.dumps({"normalization": normalization}),

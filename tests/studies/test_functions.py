@@ -176,7 +176,7 @@ def test_every_argument_of_a_function_reaches_the_option_of_its_name(
 ) -> None:
     handed: list[Any] = []
     # a message that says what went wrong is left as it is
-    found = xr.Dataset({"kind": ((), "quiet")}, attrs={"message": "failed"})
+    found = xr.Dataset({"kind": ((), "stick_slip")}, attrs={"message": "failed"})
     found["critical_speed"] = ("horizon", [5.0])
     found["horizon"] = [7.0]
     found["scan_Omega"] = [5.0, 6.0]

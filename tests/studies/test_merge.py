@@ -121,12 +121,19 @@ def test_a_damping_that_a_ratio_replaces_is_no_value_of_the_base() -> None:
         assert "D_star" not in json.loads(study.attrs["base"])
 
 
-def test_samples_at_events_are_called_events() -> None:
-    """They were called turns after the transient."""
-    for section, word in (("stroboscopic", "turn"), ("event", "event")):
-        options = {"section": section, "transient": 1, "max_transient": 1, "samples": 2}
-        made = coordinates_of(Bifurcation.COORDINATES, Bifurcation(**options))
-        assert made["sample"].attrs["long_name"] == f"number of the {word} after the transient"
+def test_words_are_those_of_the_table_whatever_the_batches_say(batches: list[xr.Dataset]) -> None:
+    """A word that was changed cost all computations."""
+    study = parse_grid(STILL)
+    assert all(
+        "long_name" not in batch[name].attrs for batch in batches for name in batch.data_vars
+    )
+    older = [batch.copy() for batch in batches]
+    for batch in older:
+        batch["period"].attrs = {"units": "s", "long_name": "a period, nan if there is none"}
+    merged, again = (merge_batches(each, study.grid, {"study": "x"}) for each in (batches, older))
+    assert again.identical(merged)
+    assert merged["period"].attrs["long_name"] == "period of the cycle"
+    assert merged["period"].attrs["missing"] == "there is no cycle"
 
 
 def test_merging_refuses_what_does_not_fit(batches: list[xr.Dataset]) -> None:

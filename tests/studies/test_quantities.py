@@ -11,21 +11,19 @@ import numpy as np
 import pytest
 
 from disc_model import floquet
-from disc_model.data.variables import Variable, flag_names
+from disc_model.data.described import known_of
+from disc_model.data.variables import (
+    COMMON,
+    POINT_STATUSES,
+    Variable,
+    attributes_of_number,
+    flag_names,
+)
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
 from disc_model.studies.grid import VARIED
-from disc_model.studies.quantity import (
-    STATUS,
-    STATUSES,
-    Point,
-    Quantity,
-    Range,
-    holds,
-    units_of,
-    with_ends,
-)
+from disc_model.studies.quantity import Point, Quantity, Range, holds, with_ends
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from tests.refusals import refusal
@@ -104,11 +102,11 @@ def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
 
 
 def unexplained(study: Any) -> list[str]:
-    """Numbers that are nan somewhere, and whose long names do not say why."""
+    """Numbers that are nan somewhere, and whose attributes do not say why."""
     found = []
     for name, variable in study.data_vars.items():
         missing = variable.dtype.kind in "fc" and np.isnan(variable.values).any()
-        if missing and "nan" not in variable.attrs["long_name"]:
+        if missing and "missing" not in variable.attrs:
             found.append(str(name))
     return found
 
@@ -144,7 +142,7 @@ P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
 
 def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
     """A quantity of one number."""
-    columns = {"status": STATUS, "value": Variable("1", "a number")}
+    columns = {"status": COMMON["status"], "value": Variable("1", "a number")}
     return SimpleNamespace(COLUMNS=columns, COORDINATES={}, compute_point=compute_point)
 
 
@@ -152,13 +150,15 @@ def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
 def test_all_that_a_quantity_gives_has_a_name_and_a_unit_or_classes(name: str) -> None:
     quantity = quantity_of(name)
     columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
+    made = quantity.model_validate(OPTIONS[name]).model_dump()
     for key, column in columns.items():
-        attributes = column.attributes
+        attributes = column.texts(made)
         assert attributes.get("long_name"), key
-        by_row = "SI units" in attributes["long_name"]  # of another parameter in each row
-        assert attributes.get("units") or column.flags or by_row, key
-    for key, dimension in {**quantity.COORDINATES, **quantity.SUMMARY_COORDINATES}.items():
-        assert dimension.long_name, key
+        # the values are of another parameter in each row
+        assert attributes.get("units") or key == "parameter_values", key
+    known = known_of(name)
+    for key in {**quantity.COORDINATES, **quantity.SUMMARY_COORDINATES}:
+        assert known[key].texts(made)["long_name"], key
 
 
 @pytest.mark.parametrize("name", [*VARIED, "sample"])
@@ -174,7 +174,7 @@ def test_a_numerical_failure_is_the_status_of_its_point() -> None:
         return {"status": "ok", "value": np.linalg.solve([[N]], [N**2])[0]}, ""
 
     table = compute(made_up_quantity(compute_point), [P, Q, P])
-    assert [STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
+    assert [POINT_STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
     assert table.messages == ["", "LinAlgError: Singular matrix", ""]
 
@@ -270,7 +270,7 @@ def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.Monk
 )
 def test_numbers_of_modes_have_units_in_datasets_too(parameter: str, units: str) -> None:
     """They had none."""
-    assert units_of(parameter) == units
+    assert attributes_of_number(parameter)["units"] == units
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from disc_model.stability.cycle import find_cycle
 from disc_model.stability.linear_motion import NearCycle
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
-from disc_model.studies.quantities.regions import CYCLES
+from disc_model.studies.quantities.regions import Regions
 from disc_model.studies.refinement import Tile, TileOptions
 
 Index = tuple[int, int]
@@ -73,7 +73,7 @@ class MadeUp:
 
 
 def quiet() -> OutcomeResult:
-    return OutcomeResult(Outcome.QUIET, 1.0)
+    return OutcomeResult(Outcome.STICK_SLIP, 1.0)
 
 
 def separation() -> OutcomeResult:
@@ -104,7 +104,7 @@ def test_multipliers_decide_where_the_start_stays_near_its_cycle(plane: MadeUp) 
     tile = plane.tile(1, 2, 1)
     assert plane.computed == []
     rows = [row_at(tile, (0, j)) for j in (0, 1)]
-    assert [row["outcome"] for row in rows] == [Outcome.QUIET, Outcome.GROWING]
+    assert [row["outcome"] for row in rows] == [Outcome.STICK_SLIP, Outcome.GROWING]
     assert {row["method"] for row in rows} == {"multipliers"}
 
 
@@ -174,7 +174,7 @@ def test_a_quiet_point_inside_a_cell_that_separates_is_shown_as_quiet(plane: Mad
     plane.starts = {(1, 2): near(stable=True)}
     plane.outcome = lambda index: separation()
     tile = plane.tile(5, 5, 4)
-    assert row_at(tile, (1, 2))["outcome"] == Outcome.QUIET
+    assert row_at(tile, (1, 2))["outcome"] == Outcome.STICK_SLIP
     assert (1, 1) in plane.computed
 
 
@@ -278,8 +278,9 @@ def test_unstable_sliding_is_no_search_that_failed() -> None:
     for outcome in (Outcome.SEPARATION, Outcome.GROWING):
         point = refinement.TilePoint(case, search, "", OutcomeResult(outcome, 1.0))
         assert refinement._word_without_cycle(point) == search.motion
-        assert LOOKS[CYCLES[5]].label == "unstable steady sliding"
-    assert CYCLES[:5] == ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
+    classes = Regions.COLUMNS["cycle"].flags
+    assert LOOKS[classes[5]].label == "unstable steady sliding"
+    assert classes[:5] == ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest")
 
 
 def test_the_cycle_that_a_motion_comes_to_later_is_shown_unless_it_followed_one_before() -> None:
@@ -288,7 +289,7 @@ def test_the_cycle_that_a_motion_comes_to_later_is_shown_unless_it_followed_one_
     reached = OutcomeResult(Outcome.SEPARATION, 1.0, near=later)
     point = refinement.TilePoint(Parameters(N=1, Omega=1), own, "", reached)
     assert point.followed is own, "it grew away from that"
-    point.result = OutcomeResult(Outcome.QUIET, 1.0, near=later)
+    point.result = OutcomeResult(Outcome.STICK_SLIP, 1.0, near=later)
     assert point.followed is later
     point.start = NO_CYCLE
     point.result = reached

@@ -397,10 +397,7 @@ def four_stretches(
             axes[name].set_ylim(limits)
             mark_first_separation([axes[name]], each)
         axes[names[0]].set_title(text)
-    empty = axes[below[0]]
-    empty.set(ylim=(0.0, CLOSE), xlim=axes[low[0]].get_xlim(), title="no separation yet")
-    empty.set(xlabel="Time (s)", ylabel="Frequency (Hz)")
-    empty.text(0.5, 0.5, "as above", ha="center", transform=empty.transAxes)
+    say_as_above(axes[below[0]], axes[low[0]])
     for level in levels[:4]:
         mark_interval(axes["run"], level)
     mark_first_separation([axes["run"]], case)
@@ -411,6 +408,13 @@ def four_stretches(
         ax.label_outer()
     bar_of(figure, spectra, mesh, levels[0])
     return figure
+
+
+def say_as_above(ax: Axes, above: Axes) -> None:
+    """Say in a panel that it would repeat that above it."""
+    ax.set(xlim=above.get_xlim(), ylim=above.get_ylim(), title="no separation yet")
+    ax.set(xlabel=above.get_xlabel(), ylabel=above.get_ylabel())
+    ax.text(0.5, 0.5, "as above", ha="center", transform=ax.transAxes)
 
 
 def mark_interval(ax: Axes, level: xr.DataArray) -> None:
@@ -449,35 +453,47 @@ def response(  # noqa: PLR0913
     until : end of the part of the run that (a) shows
     printed : time of the first separation that the paper prints
     """
+    cases = {"with separation": case}
+    if ignored is not None:
+        cases["separation ignored"] = ignored
     looks = {0: ["run", "run"], 1: ["c", "c"], 2: ["c", "d"]}[len(zooms)]
-    lower = "with" if ignored is None else "without"
-    layout = [["run", "run", "with", "with"], [*looks, lower, lower]]
+    layout = [["run"] * 2 + ["with separation"] * 2, looks + [[*cases][-1]] * 2]
     height = 1.9 if zooms or ignored is not None else 1.3
     figure, axes = panels(layout, PAGE, height)
-    cases = {"with": case} if ignored is None else {"with": case, "without": ignored}
     samples = ranges_of(case, history, until)
     draw_history([axes["run"]], samples, [variable])
-    levels = levels_of([window_of(each, window) for each in cases.values()], variable)
-    for name, level in zip(cases, levels, strict=True):
-        mesh = draw_spectrogram(axes[name], level, HIGHEST)
-        mark_first_separation([axes[name]], cases[name])
-    if ignored is not None:
-        axes["with"].set_title("with separation")
-        axes["without"].set_title("separation ignored")
-    bar_of(figure, [axes[name] for name in cases], mesh, levels[0])
+    interval = draw_spectra(figure, axes, cases, window, variable)
     for name, place in zip("cd", zooms, strict=False):
         draw_look(axes[name], case, place, 0.2, variable)
     if len(zooms) > 1:
         compare([axes["c"], axes["d"]])
         axes["d"].label_outer()
     if highest:
-        mark_highest(axes["with"], case)
-    mark_interval(axes["run"], levels[0])
+        mark_highest(axes["with separation"], case)
+    mark_interval(axes["run"], interval)
     mark_first_separation([axes["run"]], case)
     mark_printed(axes["run"], printed)
     if variable == "w_point":
         mark_thickness(axes["run"], case, samples["w_point_max"])
     return figure
+
+
+def draw_spectra(
+    figure: Figure,
+    axes: Mapping[str, Axes],
+    cases: Mapping[str, xr.DataTree],
+    window: str,
+    variable: str,
+) -> xr.DataArray:
+    """Draw the spectra in time of cases in panels of their names, with a bar; returns the first."""
+    levels = levels_of([window_of(each, window) for each in cases.values()], variable)
+    for (name, case), level in zip(cases.items(), levels, strict=True):
+        mesh = draw_spectrogram(axes[name], level, HIGHEST)
+        mark_first_separation([axes[name]], case)
+        if len(cases) > 1:
+            axes[name].set_title(name)
+    bar_of(figure, [axes[name] for name in cases], mesh, levels[0])
+    return levels[0]
 
 
 def mark_highest(ax: Axes, case: xr.DataTree) -> None:

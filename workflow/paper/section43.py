@@ -651,7 +651,12 @@ def stick_may_vanish(*cases: CaseView, share: float) -> Answer:
 # ---- Maps
 
 
-STABLE_IN_CONTACT = [Outcome.QUIET, Outcome.OTHER_CYCLE, Outcome.STEADY_SLIDING, Outcome.AT_REST]
+STABLE_IN_CONTACT = [
+    Outcome.STICK_SLIP,
+    Outcome.OTHER_CYCLE,
+    Outcome.STEADY_SLIDING,
+    Outcome.AT_REST,
+]
 
 
 class Plane(NamedTuple):

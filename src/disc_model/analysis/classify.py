@@ -8,6 +8,7 @@ neighbouring motions, such as a release that one of them has.
 """
 
 import math
+from collections.abc import Mapping
 from enum import StrEnum
 from typing import NamedTuple
 
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from disc_model.arrays import Array, Indices, Mask
-from disc_model.data.variables import PHASES, Outcome, Variable
+from disc_model.data.variables import PHASES, Outcome
 
 CLOSES = 1e-8
 """s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more."""
@@ -306,9 +307,6 @@ class Settled(StrEnum):
     SETTLED = "settled"
 
 
-ANSWER = Variable("1", "whether the motion has settled", tuple(Settled))  # its variable in datasets
-
-
 class Settling(NamedTuple):
     """Answer to the question whether a motion has settled.
 
@@ -398,3 +396,37 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     if max(least, sizes.max()) <= slowest:
         return Settling(Settled.SETTLED, fastest, least, float(t[0]))
     return Settling(Settled.UNDECIDED, fastest, least)
+
+
+SECTIONS = ("psi", "w_point")
+"""Variables of a section that both must have settled."""
+
+
+def settled_since(section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike] | None) -> float:
+    """Time from which all points of a motion's section lie on its end, s; nan if this is not shown.
+
+    Parameters
+    ----------
+    section : samples once a turn of the drive, by name: time (s), and `SECTIONS` with their velocities, shape (n,)
+    bins : ranges of an envelope beside it, if there is one, such as w_point_min and w_point_max: their widths decide
+        where the section itself shows nothing
+    """
+    latest = max(_since(section, bins, name) for name in SECTIONS)
+    if not math.isfinite(latest):
+        return math.nan
+    time = np.asarray(section["time"])
+    start = min(int(np.searchsorted(time, latest)), len(time) - 1)
+    columns = [np.asarray(section[f"{name}{of}"]) for name in SECTIONS for of in ("", "_velocity")]
+    return float(time[first_settled(np.column_stack(columns), start)])
+
+
+def _since(
+    section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike] | None, name: str
+) -> float:
+    """Time from which a variable has settled, s; infinite if this is not shown."""
+    answer = settling(section["time"], section[name])
+    if math.isnan(answer.since) and bins is not None:
+        widths = np.asarray(bins[f"{name}_max"]) - np.asarray(bins[f"{name}_min"])
+        # the last one is cut
+        answer = settling(np.asarray(bins["time"])[:-1], widths[:-1], still=1.0)
+    return math.inf if math.isnan(answer.since) else answer.since

@@ -37,7 +37,7 @@ def scalars_dataset(
     and the parameters."""
     known = {"status": STATUSES.index(status), **values}
     data: dict[str, Any] = {
-        name: ((), variable.dtype(known.get(name, variable.missing)), variable.attributes)
+        name: ((), variable.dtype(known.get(name, variable.unknown)), variable.attributes)
         for name, variable in SCALARS.items()
     }
     for name, value in _parameter_values(p).items():

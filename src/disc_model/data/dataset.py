@@ -15,6 +15,7 @@ import xarray as xr
 from netCDF4 import Dataset
 from xarray.backends import NetCDF4DataStore
 
+from disc_model.data.described import describe_run
 from disc_model.data.files import (
     MissingFile,
     UnreadableFile,
@@ -126,11 +127,15 @@ def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
 
 
 def load_result(path: str | Path) -> xr.DataTree:
-    """As `load`, of a file of a study's results: `UnreadableFile` has a remedy."""
+    """As `load`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of a run
+    say what they are in today's words."""
     try:
-        return load(path)
+        tree = load(path)
     except UnreadableFile as error:
         raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
+    if "parameters_key" in tree.attrs:
+        describe_run(tree)
+    return tree
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

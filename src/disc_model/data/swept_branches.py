@@ -5,14 +5,10 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
+from disc_model.data.variables import OF_RESULTS
 from disc_model.errors import Fault, ParameterError
 
-WORDS = {
-    "ended": "why the branch ended in each direction",
-    "not_reached": "values asked for at which the branch has no cycle, in SI units",
-    "free_parameters": "what varies along the branch",
-    "branch_parameters": "case whose cycle is followed, in JSON",
-}
+WORDS = ("ended", "not_reached", "free_parameters", "branch_parameters")
 """Attributes of a branch that are variables of a sweep, by their names there."""
 ATTRIBUTES = {"branch_parameters": "parameters"}
 """Attributes whose names are others in a sweep, whose own attribute tells the case of all."""
@@ -37,9 +33,9 @@ def variables_of_branch(branch: xr.Dataset) -> xr.Dataset:
         own.pop("versions", None)  # the sweep tells them itself
         return branch.assign(own)
     said = {}
-    for name, meaning in WORDS.items():
+    for name in WORDS:
         text = branch.attrs.get(ATTRIBUTES.get(name, name), "")
-        said[name] = xr.DataArray(text, attrs={"long_name": meaning})
+        said[name] = xr.DataArray(text, attrs=OF_RESULTS["Branch"][name].attributes)
     return branch.drop_vars(["point", "special"]).assign(said)
 
 

@@ -28,7 +28,7 @@ class Outcome(enum.StrEnum):
     """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the
     criteria."""
 
-    QUIET = "quiet"  # the stable stick-slip cycle of the static start: within `thresholds.NEAR`, or that of `floquet`
+    STICK_SLIP = "stick_slip"  # the stable cycle of the static start: within `thresholds.NEAR`, or that of `floquet`
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
     SEPARATING = "separating"  # a stable cycle that loses contact
     QUASI_PERIODIC = "quasi_periodic"  # a motion on an attractor that is regular and aperiodic
@@ -95,14 +95,17 @@ OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _BEYO
 
 
 class Variable(NamedTuple):
-    """A variable of a dataset."""
+    """A variable of a dataset, as an entry of variables.toml states it."""
 
-    units: str
-    long_name: str
+    units: str = "1"
+    long_name: str = ""
     flags: tuple[str, ...] = ()  # the words that the values of a flag stand for
     dims: tuple[str, ...] = ()  # dimensions beyond those of the grid on which it is computed
     whole: bool = False  # whether its values are whole numbers
     truth: bool = False  # whether they are 1 for True, 0 for False, and nan
+    comment: str = ""  # the rest of the sentence of which the long name is the beginning
+    missing: str = ""  # why there may be no value, such as "there is no cycle"
+    parameter: str = ""  # the number of the case whose values they are, or the option that names it
 
     @property
     def has_classes(self) -> bool:
@@ -111,17 +114,32 @@ class Variable(NamedTuple):
 
     @property
     def attributes(self) -> dict[str, Any]:
-        """The variable's CF attributes; without ``units`` if they are "", as for words."""
-        attributes: dict[str, Any] = {}
-        if self.units:
-            attributes["units"] = self.units
-        attributes["long_name"] = self.long_name
-        if self.flags:
-            attributes["flag_values"] = np.arange(len(self.flags), dtype=np.int8)
-            attributes["flag_meanings"] = " ".join(self.flags)
+        """The variable's CF attributes: its `codes`, and the `texts` that it has without options."""
+        return {**self.texts(), **self.codes}
+
+    @property
+    def codes(self) -> dict[str, Any]:
+        """Attributes of a flag: the words that its values stand for."""
+        if not self.flags:
+            return {}
+        numbers = np.arange(len(self.flags), dtype=np.int8)
+        return {"flag_values": numbers, "flag_meanings": " ".join(self.flags)}
+
+    def texts(self, options: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]:
+        """Attributes that say what it is: `units`, `long_name`, `comment`, `missing` and `parameter`,
+        without those that are "".
+
+        options : of the quantity, which may name the parameter whose unit, and name unless it has one
+            of its own, the variable has
+        """
+        texts = {"long_name": self.long_name, "comment": self.comment, "missing": self.missing}
         if self.truth:
-            attributes.update(TRUTH)
-        return attributes
+            texts.update(TRUTH)
+        stated = {name: text for name, text in texts.items() if text}
+        if self.parameter:
+            number = options.get(self.parameter, self.parameter)
+            return {**attributes_of_number(number), **stated, "parameter": number}
+        return {"units": self.units, **stated} if self.units else stated
 
     @property
     def dtype(self) -> type[np.generic]:
@@ -132,7 +150,7 @@ class Variable(NamedTuple):
         return np.float64
 
     @property
-    def missing(self) -> float:
+    def unknown(self) -> float:
         """Value of unknown points: `failed` for a status, the first value for other flags, 0 for
         counts, else nan."""
         if "failed" in self.flags:
@@ -142,8 +160,8 @@ class Variable(NamedTuple):
         return math.nan
 
     def empty(self, shape: Sequence[int]) -> NDArray[Any]:
-        """An array filled with `missing`."""
-        return np.full(shape, self.missing, dtype=self.dtype)
+        """An array filled with `unknown`."""
+        return np.full(shape, self.unknown, dtype=self.dtype)
 
 
 STABLE_CYCLES = (
@@ -151,30 +169,66 @@ STABLE_CYCLES = (
     "steady_sliding",
     "at_rest",
 )  # motions near the static start: a cycle, sliding, rest
-_FLAGS = {"kind": EVENT_KINDS, "phase": PHASES, "status": STATUSES}
-
-
-def _variables(section: str) -> dict[str, Variable]:
-    return {
-        name: Variable(units, long_name, _FLAGS.get(name, ()), whole="whole" in marks)
-        for name, (units, long_name, *marks) in _TABLES[section].items()
-    }
-
+POINT_STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
+CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS = map(
-    _variables, ("series", "scalars", "perturbations", "modal", "of_states", "of_grids")
+_WORDS: Mapping[str, tuple[str, ...]] = {
+    "": (),
+    **{name: tuple(words) for name, words in _TABLES["words"].items()},
+    "events": EVENT_KINDS,
+    "phases": PHASES,
+    "statuses": STATUSES,
+    "point_statuses": POINT_STATUSES,
+    "cycle_statuses": CYCLE_STATUSES,
+    "outcomes": OUTCOMES_TO_HORIZON,
+    "sample_outcomes": ("not_simulated", *OUTCOMES_TO_HORIZON),
+    "long_term": LONG_TERM_OUTCOMES,
+    "attractors": ("none", *LONG_TERM_OUTCOMES[1:]),
+}
+"""Words of flags by the names that the table has for them."""
+_COMMON: Mapping[str, Any] = {
+    **_TABLES["modal"],
+    **_TABLES["series"],
+    **_TABLES["scalars"],
+    **_TABLES["common"],
+}
+"""What entries of quantities and results have that they do not state themselves."""
+
+
+def _variables(
+    table: Mapping[str, Any], common: Mapping[str, Any] = MappingProxyType({})
+) -> dict[str, Variable]:
+    """The variables of a part of the table, by name."""
+    variables = {}
+    for name, stated in table.items():
+        entry = {"flags": "", "dims": (), **common.get(name, {}), **stated}
+        why = [_TABLES["missing"][dim] for dim in entry["dims"] if dim in _TABLES["missing"]]
+        if why and "missing" not in stated:
+            entry["missing"] = why[-1]
+        if entry["flags"] or entry.get("whole"):
+            entry.pop("missing", None)
+        entry.update(flags=_WORDS[entry["flags"]], dims=tuple(entry["dims"]))
+        variables[name] = Variable(**entry)
+    return variables
+
+
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS = (
+    _variables(_TABLES[part])
+    for part in ("series", "scalars", "perturbations", "modal", "of_states", "of_grids")
 )
-OF_RESULTS = {
-    kind: {name: Variable(*entry) for name, entry in table.items()}
-    for kind, table in _TABLES["results"].items()
-}
-"""Variables of results by their class or function, which may mean something else elsewhere."""
-OF_ARGUMENTS = {
-    function: {name: Variable(*entry) for name, entry in table.items()}
-    for function, table in _TABLES["arguments"].items()
-}
+OF_ARGUMENTS = {name: _variables(part) for name, part in _TABLES["arguments"].items()}
 """Arguments of functions that are no options of a quantity, by function."""
+OF_RESULTS = {name: _variables(part, _COMMON) for name, part in _TABLES["results"].items()}
+"""Variables of results by their class or function, which may mean something else elsewhere."""
+OF_QUANTITIES = {
+    quantity: {name: _variables(part, _COMMON) for name, part in parts.items()}
+    for quantity, parts in _TABLES["quantities"].items()
+}
+"""Variables of quantities, by quantity, and by what they are there: its "columns", "coordinates", its "summary",
+and those that are "added" to the results for one case."""
+COMMON = _variables(_TABLES["common"])
+"""Variables of several quantities and of sweeps."""
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows
 BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
@@ -196,15 +250,16 @@ SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distrib
 
 
 def attributes(name: str) -> dict[str, Any]:
-    """CF attributes of a variable: units, long_name and, for a flag, the meanings of its values."""
+    """CF attributes of a variable: units, long name, comment and, for a flag, the meanings of its
+    values."""
     stem, _, bound = name.rpartition("_")
     if bound in ("min", "max") and stem in SERIES:
         which = "least" if bound == "min" else "greatest"
-        what, remark, zero = SERIES[stem].long_name.partition("; ")
-        meaning = f"{what}, {which} within the bin{remark}{zero}"
-        variable = SERIES[stem]._replace(long_name=meaning)
-    elif name in (known := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
-        variable = known[name]
+        known = SERIES[stem]
+        remark = "; ".join(filter(None, ["within the bin", known.comment]))
+        variable = known._replace(long_name=f"{which} {known.long_name}", comment=remark)
+    elif name in (others := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
+        variable = others[name]
     else:
         field = Parameters.model_fields[name]
         unit = re.sub(
@@ -212,7 +267,10 @@ def attributes(name: str) -> dict[str, Any]:
             lambda below: f" {below[1]}-{below[2] or 1}",
             Parameters.unit(name) or "1",
         )
-        variable = Variable(unit, field.description or name, CHOICES.get(name, ()))
+        description = field.description or name
+        long_name = _TABLES["parameters"].get(name, description)
+        comment = description if long_name != description else ""
+        variable = Variable(unit, long_name, CHOICES.get(name, ()), comment=comment)
     return variable.attributes
 
 
@@ -223,8 +281,7 @@ def rule_of_taken(name: str) -> str:
     kind = "parameter" if name in Parameters.model_fields else "variable of results"
     if name not in BESIDE_WINDOWS:
         return f"must not be the name of a {kind}"
-    meaning, *_ = re.split("[,:;]", attributes(name)["long_name"])
-    return f"must not be the name of a {kind} ({meaning})"
+    return f"must not be the name of a {kind} ({attributes(name)['long_name']})"
 
 
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
@@ -235,18 +292,23 @@ WITHOUT_EFFECT = {"comment": "kept beside the samples, without effect on the res
 """Attributes of numbers that stand along samples, but are none of the case."""
 
 
+FORMER_WORDS = {"quiet": "stick_slip"}
+"""Words of files that former versions have written, and what they are now."""
+
+
 def flag_names(variable: Any) -> np.ndarray:
     """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
-    they are, and "" for nan."""
+    they are, but for `FORMER_WORDS`, and "" for nan."""
     values = variable.values
-    if variable.dtype.kind == "O":  # as of words that xarray's where has masked
-        values = np.where(variable.isnull().values, "", values)
     if variable.dtype.kind in "UO":
-        return np.asarray(values, dtype=str)
-    known = np.array([*variable.attrs["flag_meanings"].split(), ""])
-    # the last one is that of a missing value
-    places = np.where(np.isnan(values), -1, values).astype(int)
-    return np.asarray(known[places])
+        # as of words that xarray's where has masked
+        known, places = np.unique(np.where(variable.isnull(), "", values), return_inverse=True)
+    else:
+        known = np.array([*variable.attrs["flag_meanings"].split(), ""])
+        # the last one is that of a missing value
+        places = np.where(np.isnan(values), -1, values).astype(int)
+    words = np.array([FORMER_WORDS.get(word, word) for word in known.tolist()], dtype=str)
+    return words[places].reshape(values.shape)
 
 
 def typeset(text: str) -> str:
@@ -335,7 +397,8 @@ def attributes_of_mode(name: str) -> dict[str, Any]:
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column].variable
     nodes = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
-    return number._replace(long_name=f"{number.long_name} of the mode of {nodes}").attributes
+    long_name = f"{number.long_name} of the mode ({diameters}, {circles})"
+    return number._replace(long_name=long_name, comment=f"the mode of {nodes}").attributes
 
 
 def attributes_of_number(name: str) -> dict[str, Any]:

@@ -385,6 +385,22 @@ def wished(look: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
     return {**usual, **normalize_kwargs(dict(look), Line2D)}
 
 
+def is_words(x: xr.DataArray) -> bool:
+    """Whether an array has words, or other objects, in place of numbers."""
+    return x.dtype.kind in "OUST"
+
+
+def places(axis: Any, x: xr.DataArray) -> NDArray[np.float64]:
+    """The places of numbers, or of words, along an axis; nan for ""."""
+    if not is_words(x):
+        return x.values.astype(float)
+    said = words(x)
+    found = np.full(said.shape, np.nan)
+    axis.update_units(said[said != ""])
+    found[said != ""] = axis.convert_units(said[said != ""])
+    return found
+
+
 def lines(
     ax: Axes,
     y: xr.DataArray,
@@ -398,7 +414,7 @@ def lines(
 ) -> None:
     """A line along a dimension, for each value of the other one if there is one: hollow marks where
     a value is in doubt, and along the lower edge crosses where there is none, and triangles where it
-    is below any number.
+    is below any number. Words are marks at places of their own, which no line joins.
 
     doubtful : of the dimensions of `y`
     missing : what the legend says of crosses; "" for no crosses
@@ -412,10 +428,12 @@ def lines(
     why = missing_text(y) if missing is None else missing
     drawn = []
     for (name, part), (_, unsure), marker in zip(each_value(y, by), hollow, markers, strict=False):
-        along, values = part[x].values.astype(float), part.values.astype(float)
+        along, values = places(ax.xaxis, part[x]), places(ax.yaxis, part)
         finite = np.where(np.isfinite(values), values, np.nan)
         breaks = np.flatnonzero(np.abs(np.diff(np.arcsinh(finite / 0.1))) > jump) + 1
         own = wished(look, marker=marker, label=name)
+        if is_words(y) or is_words(y[x]):
+            own["linestyle"] = ""
         [line] = ax.plot(np.insert(along, breaks, np.nan), np.insert(finite, breaks, np.nan), **own)
         drawn.append((line, along, values, unsure.values))
     for line, along, values, unsure in drawn:
@@ -426,7 +444,7 @@ def lines(
         if why:
             mark_missing(ax, along[~np.isfinite(values) & ~lowest], why, line.get_color())
     ax.set(xlabel=label(y[x]), ylabel=label(y))
-    if is_geometric(y[x].values):
+    if not is_words(y[x]) and is_geometric(y[x].values):
         ax.set_xscale("log")
         plain_numbers(ax.xaxis)
 

@@ -37,7 +37,6 @@ UNRESOLVED = Look("finer than the cells", "none", "////////")
 LOOKS = {
     # what becomes of a motion
     "stick_slip": Look("stick-slip, small", "#f3f6f8"),
-    "quiet": Look("stick-slip, small", "#f3f6f8"),  # the word in files of former versions
     "growing": Look("growing, in contact", "#c2ccd6"),
     "other_cycle": Look("another cycle in contact", "#86a0b8", "+++"),
     "steady_sliding": Look("steady sliding", "#e3d5ee", "|||"),

@@ -239,7 +239,7 @@ def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
 ENERGY = "energy"
 LOST = "undecided_lost"
 STACKED = (
-    "separating stick_slip quiet other_cycle quasi_periodic irregular steady_sliding at_rest "
+    "separating stick_slip other_cycle quasi_periodic irregular steady_sliding at_rest "
     f"undecided {LOST} failed"
 ).split()
 """Classes from below: those that separate begin at zero, as their intervals do."""

@@ -27,24 +27,21 @@ from disc_model.figures.draw import (
     cells,
     class_map,
     colours_of,
-    each_value,
     explain,
     is_rate,
+    is_words,
     lines,
-    mark_missing,
-    missing_text,
     number_map,
     rate_axis,
     shares,
-    sign_changes,
     unresolved,
     wished,
 )
-from disc_model.figures.looks import STABLE, Look
+from disc_model.figures.looks import Look
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import MOST_VALUES, known_units
-from disc_model.figures.shown import label, parameter_of, shown, shown_case, value_text, words
-from disc_model.figures.studies import in_doubt, why_missing
+from disc_model.figures.shown import label, parameter_of, shown, shown_case, value_text
+from disc_model.figures.studies import in_doubt, rate_map, why_missing
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
 
@@ -94,10 +91,12 @@ def axes_for(ax: Any) -> Axes:
     return plt.subplots(layout="constrained")[1] if ax is None else ax
 
 
-def explained(ax: Axes) -> Axes:
-    """Axes with a legend of what has a label, and a long label in lines."""
+def explained(ax: Axes, below: bool = False) -> Axes:
+    """Axes with a legend of what has a label, in them or below, and with a long label in lines."""
     break_label(ax, 3)
-    if ax.get_legend_handles_labels()[1]:
+    if below:
+        explain(ax.figure, [ax], LETTERS)
+    elif ax.get_legend_handles_labels()[1]:
         ax.legend()
     return ax
 
@@ -178,11 +177,8 @@ def window_of(case: xr.DataTree, name: Any, which: str = "window", **variables: 
     which : the argument that names the window
     variables : those whose samples it must hold, by the arguments that name them
     """
-    known = [str(child) for child in case.children if child != "events"]
-    rule = f"was not recorded{suggestion(name, known)}"
-    require((isinstance(name, str) and name in known, which, name, rule))
     with refused(which, name):
-        samples = runs.window_of(case, name)
+        samples = runs.window_of(case, str(name))
     for argument, variable in variables.items():
         held = isinstance(variable, str) and variable in samples
         require((held, argument, variable, f"is not among the samples of the window {name}"))
@@ -276,20 +272,17 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     data = shown(data.sortby(numbers), units)
     named = [str(dim) for dim in data[name].dims if dim in data.coords and dim != CLASSES]
     across = str(x or [*numbers, *named, *data[name].dims][0])
-    own = ax is None
+    below = ax is None
     ax = axes_for(ax)
     if across != CLASSES in data[name].dims:
         shares(ax, data[across], data[name], CLASSES)
         ax.set_ylabel(label(data[name]))
     elif x or len(numbers) < 2:
+        below = False
         draw_lines(ax, data, name, across, joined=across in study.dims, **look)
-        return explained(ax)
     else:
         draw_map(ax, data.transpose(*reversed(numbers), ...), name, **look)
-    if own:
-        explain(ax.figure, [ax], LETTERS)
-        return ax
-    return explained(ax)
+    return explained(ax, below)
 
 
 def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
@@ -343,11 +336,6 @@ def number_axes(study: xr.Dataset, name: str) -> list[str]:
     return [dim for dim, kind in kinds.items() if kind == "f" or (kind in "iu" and dim in points)]
 
 
-def is_words(x: xr.DataArray) -> bool:
-    """Whether an array has words, or other objects, in place of numbers."""
-    return x.dtype.kind in "OUST"
-
-
 # ---- Sweeps: drawing
 
 
@@ -359,14 +347,12 @@ def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
         unresolved(ax, plane)
         return
     colours = {**colours_of(plane), **look}
-    mesh = number_map(ax, plane, why_missing(study, name), **colours)
+    paint = rate_map if is_rate(plane) else number_map
+    mesh = paint(ax, plane, why_missing(study, name), **colours)
     bar_of(ax.figure, ax, mesh, plane)
     if doubt is not None:
         why = f"circles: {doubt.attrs['long_name']}"
         cells(ax, plane, doubt.values, Look(why, "none", "oo"))
-    if is_rate(plane):
-        cells(ax, plane, plane.values < 0, STABLE)
-        sign_changes(ax, plane, "growth rate changes its sign")
 
 
 def draw_lines(
@@ -380,10 +366,8 @@ def draw_lines(
     by = next((str(dim) for dim in array.dims if dim != across), "")
     usual: dict[str, Any] = {"markersize": 3}
     if not by:
-        usual["label"] = selected_values(array)
-    if is_words(array) or is_words(array[across]):
-        draw_words(ax, array, across, **wished(look, **usual))
-        return
+        chosen_values = [x for x in array.coords.values() if x.ndim == 0 and parameter_of(x)]
+        usual["label"] = ", ".join(map(value_text, chosen_values))
     if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
         array = flattened(array, across)
         doubt = None if doubt is None else flattened(doubt, across)
@@ -404,20 +388,3 @@ def flattened(array: xr.DataArray, across: str) -> xr.DataArray:
     x = array[across].broadcast_like(array)
     along = xr.DataArray(np.ravel(x), dims=across, attrs=x.attrs)
     return xr.DataArray(np.ravel(array), {across: along}, name=array.name, attrs=array.attrs)
-
-
-def selected_values(array: xr.DataArray) -> str:
-    """The numbers of the case at which a variable has been selected, as a name of its line."""
-    single = [x for x in array.coords.values() if x.ndim == 0 and parameter_of(x)]
-    return ", ".join(map(value_text, single))
-
-
-def draw_words(ax: Axes, array: xr.DataArray, across: str, **look: Any) -> None:
-    """Draw marks over words, or of words."""
-    by = next((str(dim) for dim in array.dims if dim != across), "")
-    for name, part in each_value(array, by):
-        x, y = (words(each) if is_words(each) else each.values for each in (part[across], part))
-        [line] = ax.plot(x, y, **{"marker": "o", "linestyle": "", "label": name, **look})
-        gone = ax.convert_xunits(x[part.isnull().values])
-        mark_missing(ax, gone, missing_text(part), line.get_color())
-    ax.set(xlabel=label(array[across]), ylabel=label(array))

@@ -79,6 +79,8 @@ class Result(Summarised, EqualByValue):
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
         just after the event; made at its first use; ``events.attrs["units"]`` has the units
     first_separation : s, nan if contact was never lost
+    settled_since : s, from which all points of the first `Poincare` lie on the motion on which the run ends; nan if this
+        is not shown
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
@@ -143,6 +145,19 @@ class Result(Summarised, EqualByValue):
         table.attrs["units"] = {name: unit for name, unit in units.items() if unit not in ("", "1")}
         return table
 
+    @cached_property
+    def settled_since(self) -> float:
+        """Time from which all points of the run's first `Poincare` lie on the motion on which it ends, s;
+        nan if this is not shown."""
+        from disc_model.analysis.classify import settled_since
+
+        sections = [name for name, kept in self.windows.items() if isinstance(kept, Poincare)]
+        section = self.samples[sections[0]] if sections else {"time": np.zeros(0)}
+        if not section["time"].size:
+            return math.nan
+        bins = (samples for samples in self.samples.values() if "w_point_min" in samples)
+        return settled_since(section, next(bins, None))
+
     def value_at(self, name: str, times: ArrayLike) -> Array:
         """Values of Omega (rad/s) or N (N) at given times (s), ramps included, in an array of the
         shape of `times`.
@@ -185,7 +200,8 @@ class Result(Summarised, EqualByValue):
 
         from disc_model.data.columns import scalars_dataset, series_dataset
 
-        scalars = scalars_dataset(self.parameters, self.scalars(), self.status.value, self.message)
+        values = {**self.scalars(), "settled_since": self.settled_since}
+        scalars = scalars_dataset(self.parameters, values, self.status.value, self.message)
         scalars.attrs["versions"] = self.versions
         if self.ramps:
             scalars.attrs["ramps"] = json.dumps([ramp.model_dump() for ramp in self.ramps])
@@ -197,7 +213,7 @@ class Result(Summarised, EqualByValue):
         return xr.DataTree.from_dict(groups)
 
     def scalars(self) -> dict[str, float]:
-        """Values of `disc_model.data.variables.SCALARS`, but for the status."""
+        """Values of `disc_model.data.variables.SCALARS` that need no samples, but for the status."""
         values = {name: self.statistics[name] for name in SCALARS if name in self.statistics}
         for name in ("first_separation", "t_end", "tol", "u_0"):
             values[name] = getattr(self, name)
@@ -546,10 +562,10 @@ class Statistics(Strict):
     time_slip: Real
     time_separation: Real
     energy_residual: Real
-    energy_residual_transverse: Real
-    energy_residual_inplane: Real
+    energy_residual_transverse: Real = math.nan
+    energy_residual_inplane: Real = math.nan
     audited_steps: Count
-    surface_speed: Real
+    surface_speed: Real = math.nan
 
 
 class Header(Strict):
@@ -583,10 +599,11 @@ def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Resu
     windows: Windows = {**header.windows, **header.sections}
     rule = f"must be {', '.join(windows) or 'none'}"
     require((tables.keys() == windows.keys(), "windows", ", ".join(tables), rule))
-    _check_columns("events", events, EVENT_ROW)
+    _check_columns("events", events, EVENT_ROW, ("time", "kind", "phase"))
     for name, samples in tables.items():
         folded = getattr(windows[name], "envelope", None)
-        _check_columns(name, samples, BIN_ROW if folded else SAMPLE_ROW)
+        _check_columns(name, samples, BIN_ROW if folded else SAMPLE_ROW, ("time",))
+    unknown = np.full(events["time"].shape, np.nan)
     for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
         known = np.isin(events[name], range(len(words))).all()
         require((known, f"events.{name}", events[name], "must be numbers of their words"))
@@ -595,7 +612,7 @@ def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Resu
     return Result(
         parameters=header.parameters,
         windows={name: windows[name] for name in tables},
-        event_rows=np.stack([events[name] for name in EVENT_ROW], axis=1),
+        event_rows=np.stack([events.get(name, unknown) for name in EVENT_ROW], axis=1),
         final_state=final_state,
         statistics=statistics,
         samples=tables,
@@ -605,9 +622,12 @@ def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Resu
     )
 
 
-def _check_columns(name: str, columns: Mapping[str, Array], row: Sequence[str]) -> None:
-    """Raise `ParameterError` unless a table has the columns of a row, all of one length."""
-    fits = sorted(columns) == sorted(row)
-    require((fits, name, ", ".join(columns), f"must be {', '.join(row)}"))
+def _check_columns(
+    name: str, columns: Mapping[str, Array], row: Sequence[str], needed: Sequence[str]
+) -> None:
+    """Raise `ParameterError` unless a table has columns of a row, all of one length: the needed ones, and
+    others as far as they were known when it was written."""
+    fits = {*needed} <= columns.keys() <= {*row}
+    require((fits, name, ", ".join(columns), f"must be of {', '.join(row)}"))
     lengths = {len(column) for column in columns.values()}
     require((len(lengths) == 1, name, sorted(lengths), "must have columns of one length"))

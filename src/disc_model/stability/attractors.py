@@ -241,7 +241,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
 @dataclass
 class _FollowedMotion:
     """What is known of a motion that is followed: its legs and their segments, the time of its
-    first separation (s), the least distance from the quiet cycle at which it was tested, and
+    first separation (s), the least distance from the stick-slip cycle at which it was tested, and
     whether its last segments were steady."""
 
     legs: list[Result] = field(default_factory=list)
@@ -252,7 +252,7 @@ class _FollowedMotion:
 
 
 class Basins:
-    """The attractors of a case, `known` in the order in which they were found: the quiet cycle, and
+    """The attractors of a case, `known` in the order in which they were found: the stick-slip cycle, and
     those reached from `OWN_STARTS` and from later starts.
 
     Motions are followed to the horizon (s). One that approaches an attractor counts as being on it
@@ -260,7 +260,7 @@ class Basins:
 
     static : static deflection under the preload, m
     smallest : range of the height below which ranges count as equal, m
-    cycle : the quiet cycle, if it exists and is stable
+    cycle : the stick-slip cycle, if it exists and is stable
     """
 
     def __init__(
@@ -354,7 +354,7 @@ class Basins:
         return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
 
     def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
-        """A point of a motion on the section, and its distance from the quiet cycle; infinite
+        """A point of a motion on the section, and its distance from the stick-slip cycle; infinite
         unless it is near."""
         nowhere = self.map.static, math.inf
         last = segments[-1]
@@ -374,7 +374,7 @@ class Basins:
     def _approached(self, motion: _FollowedMotion, state: State) -> Attractor | None:
         """The known attractor that the motion approaches before it has settled; None if there is
         none."""
-        # tested only nearer to the quiet cycle than ever before
+        # tested only nearer to the stick-slip cycle than ever before
         x, distance = self._near_quiet_cycle(motion.segments, state)
         is_nearer = distance < motion.least_tested
         motion.least_tested = min(distance, motion.least_tested)
@@ -384,12 +384,12 @@ class Basins:
         return self._approached_by_range(ranges)
 
     def _approached_by_range(self, ranges: Sequence[float]) -> Attractor | None:
-        """The attractor, other than the quiet cycle, whose range of the height those of the last
+        """The attractor, other than the stick-slip cycle, whose range of the height those of the last
         legs (m) approach; None if that is not clear, as on a rigid disc, whose height never
         changes."""
         if self.static == 0:
             return None
-        others = [attractor for attractor in self.known if attractor.kind is not Outcome.QUIET]
+        others = [attractor for attractor in self.known if attractor.kind is not Outcome.STICK_SLIP]
         if len(ranges) < thresholds.NEARING or not others:
             return None
 

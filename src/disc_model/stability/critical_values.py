@@ -11,7 +11,7 @@ import xarray as xr
 
 from disc_model.arrays import Array, EqualByValue, Mask
 from disc_model.data.variables import (
-    Variable,
+    OF_RESULTS,
     attributes_of_number,
     unit_of_parameter,
     value_with_unit,
@@ -24,23 +24,10 @@ from disc_model.stability.parameter_scan import SLIDING
 
 MOTIONS = {STICK_SLIP: "motion near the static start", SLIDING: "steady sliding"}
 """Kinds of motion whose stability is followed, and what texts call them."""
-RATES = {
-    "growth_rate": Variable("s-1", "growth rate of disturbances of the motion"),
-    "sliding_growth_rate": Variable(
-        "s-1", "growth rate of steady sliding where this is the motion near the static start"
-    ),
-}
-UNSTABLE_ABOVE = Variable("1", "whether the motion is unstable just above the change of stability")
 UNSTABLE = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
 """What names of variables call the kinds of motion whose stability is followed."""
-OF_PARAMETER = {
-    "value": "critical value of {parameter} for instability of {motion}",
-    "border": "{parameter} above which {motion} stays unstable",
-    "crossings": "{parameter} at which stability of {motion} changes",
-    "values": "{parameter} at which the motion was computed",
-    "resolution": "largest step in {parameter} between computed values",
-}
-"""Variables in the unit of the parameter, and their names."""
+OF_PARAMETER = ("value", "border", "crossings", "values", "resolution")
+"""Variables in the unit of the parameter."""
 SAVED = ("value", "border", "crossings", "resolution")
 """Those of them in a dataset, along which the values are a coordinate."""
 
@@ -201,22 +188,29 @@ class Critical(EqualByValue):
 # ---- As a dataset
 
 
-def long_name_of(name: str, kind: str, meaning: str) -> str:
-    """The name of a variable in the unit of the parameter, by what this means and the kind of motion."""
-    return OF_PARAMETER[name].format(parameter=meaning, motion=UNSTABLE[kind])
+def attributes_of_critical(found: Critical) -> dict[str, dict[str, Any]]:
+    """Attributes of critical values by name; those in the unit of the parameter name it, and say in the
+    comment what it and the kind of motion are."""
+    number = attributes_of_number(found.name)
+    meant = {"parameter": number["long_name"], "motion": UNSTABLE[found.kind]}
+    attributes = {name: known.texts() for name, known in OF_RESULTS["Critical"].items()}
+    for name in OF_PARAMETER:
+        own = attributes[name]
+        own["units"] = number["units"]
+        own["long_name"] = f"{own['long_name']} of {found.name}"
+        own["comment"] = own["comment"].format(**meant)
+    return attributes
 
 
 def _dataset_of(found: Critical) -> xr.Dataset:
     """Critical values as a dataset, as `Critical.to_dataset` describes it."""
-    described = attributes_of_number(found.name)
+    described = attributes_of_critical(found)
+    along = {"growth_rate": found.name, "sliding_growth_rate": found.name}
     variables: dict[str, xr.Variable] = {}
-    for name in SAVED:
-        attrs = {**described, "long_name": long_name_of(name, found.kind, described["long_name"])}
-        variables[name] = _variable(getattr(found, name), "crossing", attrs)
-    for name in ("growth_rate", "sliding_growth_rate"):
-        variables[name] = _variable(getattr(found, name), found.name, RATES[name].attributes)
-    above = found.unstable_above
-    variables["unstable_above"] = _variable(above, "crossing", UNSTABLE_ABOVE.attributes)
+    for name in (*SAVED, *along, "unstable_above"):
+        values = np.asarray(getattr(found, name))
+        dims = (along.get(name, "crossing"),)[: values.ndim]
+        variables[name] = xr.Variable(dims, values, described[name])
     attrs = {
         "kind": found.kind,
         "message": found.message,
@@ -224,11 +218,5 @@ def _dataset_of(found: Critical) -> xr.Dataset:
         "parameters": found.parameters.canonical_json,
         "versions": versions_text(),
     }
-    coordinates = {found.name: xr.Variable(found.name, found.values, described)}
-    return xr.Dataset(variables, coordinates, attrs)
-
-
-def _variable(values: Any, dim: str, attrs: dict[str, Any]) -> xr.Variable:
-    """A variable of numbers along a dimension, or of one number alone."""
-    array = np.asarray(values)
-    return xr.Variable((dim,)[: array.ndim], array, attrs)
+    along_name = xr.Variable(found.name, found.values, attributes_of_number(found.name))
+    return xr.Dataset(variables, {found.name: along_name}, attrs)

@@ -64,7 +64,7 @@ class NearCycle:
 
     @property
     def kind(self) -> Outcome:
-        """Outcome of a motion on the cycle: quiet if the cycle is that of the static start, or near
+        """Outcome of a motion on the cycle: stick-slip if the cycle is that of the static start, or near
         it."""
         if self.cycle.separations:
             return Outcome.SEPARATING
@@ -72,11 +72,11 @@ class NearCycle:
         if start.reached:
             apart = float(np.linalg.norm(self.x - start.x))
             if apart <= thresholds.NEAR * self.map.deflection:
-                return Outcome.QUIET
+                return Outcome.STICK_SLIP
         cycle = find_cycle(self.cycle.parameters)
         same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=thresholds.ARRIVED)
         if same_period and cycle.releases == self.cycle.releases:
-            return Outcome.QUIET
+            return Outcome.STICK_SLIP
         return Outcome.OTHER_CYCLE
 
     @property

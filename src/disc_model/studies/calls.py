@@ -10,6 +10,7 @@ from itertools import product
 from typing import Any
 
 from disc_model.data.swept_branches import name_beside
+from disc_model.data.variables import OF_RESULTS
 from disc_model.errors import (
     Fault,
     ImplausibleValue,
@@ -108,7 +109,7 @@ class Call:
                 kept[name_beside(name)] = own
             elif (self.ours, name) == LIMITED:
                 kept[f"{name}_used"] = own.copy()
-                kept[f"{name}_used"].attrs["long_name"] += " that was used, at most the limit"
+                kept[f"{name}_used"].attrs = OF_RESULTS["Result"][f"{name}_used"].attributes
             elif name in self.arguments and not {*own.dims} - {name}:
                 continue
             elif self.ours:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.described import described
 from disc_model.data.swept_speeds import SPEED, doubtful_contact, swept_speeds
 from disc_model.errors import renamed, require, with_known_names
 from disc_model.parameters import Parameters
@@ -46,7 +47,7 @@ def outcome(
     extrapolate: bool = False,
     tol: float = 1e-10,
 ) -> xr.Dataset:
-    """Long-term behaviour within a horizon, such as "quiet" or "separation", with ranges and phases
+    """Long-term behaviour within a horizon, such as "stick_slip" or "separation", with ranges and phases
     late in the run.
 
     Parameters
@@ -66,8 +67,8 @@ def outcome(
     -------
     xarray.Dataset
         `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
-        Of stable cycles in contact, "quiet" are that of `floquet`, and one whose release differs from the first release
-        of the static start by at most a tenth of the static deflection; "other_cycle" are all others
+        Of stable cycles in contact, "stick_slip" are that of `floquet`, and one whose release differs from the first
+        release of the static start by at most a tenth of the static deflection; "other_cycle" are all others
 
     Raises
     ------
@@ -176,8 +177,7 @@ def _with_bound(speeds: xr.Dataset) -> xr.Dataset:
     """Results of a scan with whether each critical speed is the lowest one of the scan."""
     lowest = float(speeds["scan_Omega"].min())
     at_bound = speeds["critical_speed"] <= lowest
-    at_bound.attrs = {"long_name": "whether contact is lost at the lowest speed already"}
-    return speeds.assign(at_lower_bound=at_bound)
+    return described(speeds.assign(at_lower_bound=at_bound), "critical_speed")
 
 
 def _with_reason(speeds: xr.Dataset) -> xr.Dataset:
@@ -262,7 +262,7 @@ def basins(  # noqa: PLR0913
     >>> import disc_model as dm
     >>> found = dm.basins(dm.Parameters(N=385, Omega=14), [1e-4, 0.1], 3, horizon=60)
     >>> found["kind"].values.tolist()
-    [['quiet', 'quiet', 'quiet'], ['separating', 'separating', 'separating']]
+    [['stick_slip', 'stick_slip', 'stick_slip'], ['separating', 'separating', 'separating']]
     >>> axes = dm.plot_sweep(found)
     """
     options: dict[str, Any] = {

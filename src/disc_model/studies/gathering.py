@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.missing import reason_of, with_reason
+from disc_model.data.described import known_of
 from disc_model.data.swept_branches import variables_of_branch
 from disc_model.data.variables import CycleStatus, message_of
 from disc_model.simulation.result import Result
-from disc_model.stability.critical_values import Critical
-from disc_model.studies.result_attributes import attributes_of
+from disc_model.stability.critical_values import Critical, attributes_of_critical
 
 OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
@@ -39,18 +38,26 @@ def variables_of_result(result: Any, function: str = "") -> dict[str, xr.Variabl
     if isinstance(result, xr.Dataset):
         return {str(name): variable for name, variable in result.variables.items()}
     variables = {}
+    known = _attributes_of(result, function)
     along = "row" if _is_table(result, 2) else ""
     for key, value in _named_values(result).items():
         name = str(key)
         array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            attributes = attributes_of(result, name, function)
-            if array.dtype.kind in "fc":
-                attributes = with_reason(attributes, reason_of(type(result).__name__, name))
-            variables[name] = xr.Variable(
-                (along or f"{name}_index",)[: array.ndim], array, attributes
-            )
+            dims = (along or f"{name}_index",)[: array.ndim]
+            variables[name] = xr.Variable(dims, array, known.get(name, {}))
     return variables
+
+
+def _attributes_of(result: Any, function: str) -> Mapping[str, Mapping[str, Any]]:
+    """Units and meanings of the variables of a result of this package by name; none of a reader's own
+    results, whose names need not mean the same."""
+    if isinstance(result, Critical):
+        return attributes_of_critical(result)
+    kind = type(result).__name__ if is_dataclass(result) else function
+    if not kind:
+        return {}
+    return {name: known.texts() for name, known in known_of(kind).items() if not known.flags}
 
 
 def _is_whole_dataset(result: Any) -> bool:

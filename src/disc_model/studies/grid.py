@@ -81,10 +81,10 @@ class _Columns(Strict):
 def described(name: str) -> dict[str, Any]:
     """Description and unit of a value in the schema of files."""
     stated = attributes(name)
-    unit = stated.get("units", "")
+    meaning, unit = stated["long_name"], stated.get("units", "")
     if name in Parameters.model_fields:
-        unit = Parameters.unit(name)
-    return {"description": stated["long_name"], "json_schema_extra": {"unit": unit}}
+        meaning, unit = Parameters.model_fields[name].description, Parameters.unit(name)
+    return {"description": meaning, "json_schema_extra": {"unit": unit}}
 
 
 _columns: dict[str, Any] = {name: (Axis, Field(None, **described(name))) for name in VARIED}

@@ -13,7 +13,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
-from disc_model.data.missing import explained
+from disc_model.data.described import described
 from disc_model.data.variables import EXCLUDED, Variable
 from disc_model.errors import DiscModelError
 from disc_model.parameters import PLATE, RATIOS
@@ -51,8 +51,9 @@ def merge_batches(
         If the batches do not match the grid.
     """
     flat = xr.concat(batches, POINT, compat="equals", **JOINED)
-    described = [Batch.model_validate_json(batch.attrs["specification"]) for batch in batches]
-    quantity = quantity_of(described[0].quantity).model_validate(described[0].options)
+    specified = [Batch.model_validate_json(batch.attrs["specification"]) for batch in batches]
+    first = specified[0]
+    quantity = quantity_of(first.quantity).model_validate(first.options)
     places = _places(flat, grid, complete="where" not in attrs)
 
     shape = [len(dim.values) for dim in grid]
@@ -78,11 +79,11 @@ def merge_batches(
     every = {
         "Conventions": CONVENTIONS,
         **attrs,
-        **_common_attributes(described, quantity),
+        **_common_attributes(specified, quantity),
         **common_provenance(batches),
     }
     study = summarised(xr.Dataset(variables, coords, every), quantity)
-    return explained(study, described[0].quantity)
+    return described(study, first.quantity, quantity.model_dump())
 
 
 def _places(
@@ -115,14 +116,14 @@ def _common_attributes(batches: Sequence[Batch], quantity: Quantity) -> dict[str
     discs: dict[str, Any] = {}
     for batch in batches:
         discs.update((name, disc.model_dump()) for name, disc in batch.discs.items())
-    described = {
+    common = {
         "quantity": first.quantity,
         "options": json_attribute(first.options),
         "base": json_attribute(fixed_base(first.base, first.names, quantity)),
     }
     if discs:
-        described["discs"] = json_attribute(dict(sorted(discs.items())))
-    return described
+        common["discs"] = json_attribute(dict(sorted(discs.items())))
+    return common
 
 
 def fixed_base(base: Mapping[str, Any], names: Sequence[str], quantity: Quantity) -> dict[str, Any]:
@@ -188,19 +189,11 @@ def merge_cases(
     reference."""
     rows = [tree.to_dataset() for tree in cases.values()]
     table = xr.concat(rows, dim="case", **JOINED)
-    table = table.assign_coords(case=("case", list(cases), {"long_name": "name of the case"}))
+    table = table.assign_coords(case=("case", list(cases)))
     texts = []
     for case, row in zip(cases, rows, strict=True):
         texts.append({"message": row.attrs["message"], **labels.get(case, {})})
-    for name, meaning in _TEXTS.items():
-        column = np.array([text.get(name, "") for text in texts], dtype=str)
-        table[name] = ("case", column, {"long_name": meaning})
+    for name in ("message", "reference", "title"):
+        table[name] = ("case", np.array([text.get(name, "") for text in texts], dtype=str))
     table.attrs = {"Conventions": CONVENTIONS, **common_provenance(rows)}
-    return xr.DataTree(explained(table, "Result"), children=cases)
-
-
-_TEXTS = {
-    "message": "what ended the simulation early",
-    "reference": "place in the paper",
-    "title": "what the case is",
-}
+    return xr.DataTree(described(table, "Result"), children=cases)

@@ -7,10 +7,11 @@ from typing import Any, ClassVar
 import numpy as np
 import xarray as xr
 
-from disc_model.data.variables import PHASES, SERIES, Variable
+from disc_model.data.described import described
+from disc_model.data.variables import OF_QUANTITIES
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity
+from disc_model.studies.quantity import Coordinate, Point, Quantity
 from disc_model.studies.run import run_batch
 
 SAMPLES = 256  # of a history: nearly four per oscillation of the fastest mode of the paper's disc in the longest one
@@ -24,15 +25,8 @@ SHOWN = ("P", "u", "psi")
 class Motions:
     """A quantity for `run_batch` that computes histories instead of the study's own quantity."""
 
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "length": Variable("s", "length of the history"),
-        **{name: SERIES[name]._replace(dims=("sample",)) for name in SHOWN},
-        "phase": Variable("1", "phase of the motion", ("none", *PHASES), dims=("sample",)),
-    }
-    COORDINATES: ClassVar = {
-        "sample": Coordinate("1", "number of the sample", lambda o: range(SAMPLES))
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["motions"]["columns"]
+    COORDINATES: ClassVar = {"sample": Coordinate(lambda o: range(SAMPLES))}
 
     def __init__(self, quantity: Quantity) -> None:
         self.quantity = quantity
@@ -64,4 +58,5 @@ def run_motions(text: str) -> xr.Dataset:
     """Histories along `point` and `sample`, for a text from
     `disc_model.studies.grid.GridStudy.motions`."""
     histories = run_batch(text, Motions)
-    return histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})
+    histories = histories.assign({name: histories[name].astype(np.float32) for name in SHOWN})
+    return described(histories, "motions")

@@ -8,7 +8,7 @@ from typing import Any
 import xarray as xr
 
 from disc_model.data.coded import words
-from disc_model.data.missing import explained
+from disc_model.data.described import described
 from disc_model.display import progress_bar
 from disc_model.errors import Fault, ParameterError, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
@@ -76,7 +76,7 @@ def compute_quantity(
         "versions": versions_text(),
     }
     dataset = xr.Dataset(columns, coordinates, attrs).isel({POINT: 0})
-    return explained(words(dataset), name)
+    return words(described(dataset, name, quantity.model_dump()))
 
 
 def _fault_of_argument(fault: Fault, options: Mapping[str, Any]) -> Fault:

@@ -7,21 +7,15 @@ import ast
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache, partial
+from functools import cache
 from types import CodeType, MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
 
 import numpy as np
 from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
 
-from disc_model.data.variables import (
-    OUTCOMES_TO_HORIZON,
-    SCALARS,
-    CycleStatus,
-    Variable,
-    attributes_of_number,
-)
-from disc_model.errors import DiscModelError, Fault, Status
+from disc_model.data.variables import Variable
+from disc_model.errors import DiscModelError, Fault
 from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
 from disc_model.simulation.case import Start
 from disc_model.units import Count, Finite, Positive, Strict, must, number
@@ -152,16 +146,6 @@ def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
 
 
 # ---- Quantities
-STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-STATUS = Variable("1", "what became of the computation", STATUSES)
-START_OUTCOME = Variable(
-    "1", "what the static start comes to, or whether it separates", OUTCOMES_TO_HORIZON
-)
-TIMED_SEPARATION = SCALARS["first_separation"]._replace(
-    long_name="time of the first separation, where no departure was extrapolated"
-)
-CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
-
 Row = Mapping[str, Any]
 Made = Parameters | DiscModelError  # parameters, or the error in their place
 NUMERICAL = (
@@ -187,21 +171,14 @@ class Point(NamedTuple):
 
 
 class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: unit and name in words, both of which may show options, values
-    for given options, and the option by which it has room for more."""
+    """A dimension of a quantity's own: values for given options, and the option by which it has room
+    for more."""
 
-    units: str
-    long_name: str
     values: Callable[[Any], Sequence[Any]]
     room: str = ""
 
 
-DIRECTION = Coordinate("", "direction of the sweep", lambda options: ("up", "down"))
-
-
-def units_of(parameter: str) -> str:
-    """The unit of a number of the case, as datasets have it."""
-    return str(attributes_of_number(parameter).get("units", ""))
+DIRECTION = Coordinate(lambda options: ("up", "down"))
 
 
 def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
@@ -220,11 +197,6 @@ def tried(
         return compute(subject, *options)
     except NUMERICAL as error:
         return failed(error, flag)
-
-
-def along(*dims: str) -> Callable[..., Variable]:
-    """What makes variables along dimensions of a quantity's own."""
-    return partial(Variable, dims=dims)
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
@@ -251,7 +223,7 @@ AT_HORIZON = "The motion at the horizon."
 COME_TO_BY: Mapping[str, str] = MappingProxyType(
     {
         "separation": "The motion a while after the first separation.",
-        "quiet": ON_CYCLE,
+        "stick_slip": ON_CYCLE,
         "other_cycle": ON_CYCLE,
         "separating": ON_CYCLE,
         "steady_sliding": "The steady sliding that the motion has settled to.",
@@ -263,7 +235,7 @@ COME_TO_BY: Mapping[str, str] = MappingProxyType(
 """What a motion has come to, by its outcome."""
 SETTLED_TO_BY: Mapping[str, str] = MappingProxyType(
     {
-        "quiet": "After the transient, of a motion that comes to the quiet cycle.",
+        "stick_slip": "After the transient, of a motion that comes to the cycle of the static start.",
         "other_cycle": "After the transient, of a motion that comes to another cycle in contact.",
         "separating": "After the transient, of a motion that comes to a cycle with separations.",
         "quasi_periodic": "After the transient, of a motion that is quasi-periodic.",

@@ -1,7 +1,7 @@
 """Outcome of the static start over two parameters, refined at borders, and the cycle at every
 point.
 
-Multipliers give the outcome where the start stays quiet, or grows too slowly for anything else.
+Multipliers give the outcome where the start stays on its cycle, or grows too slowly for anything else.
 Elsewhere the start is simulated, except within cells all of whose points that were simulated
 separate: only separation is inferred. docs/study_method.md, Regions, describes the cells.
 """
@@ -89,7 +89,7 @@ class TilePoint:
         own = self.own_cycle
         if not isinstance(self.result, OutcomeResult):
             return own
-        if own is not None and self.result.outcome is not Outcome.QUIET:
+        if own is not None and self.result.outcome is not Outcome.STICK_SLIP:
             return own
         return self.result.near
 
@@ -183,7 +183,7 @@ class Tile:
         if own is None:
             return ""
         if own.cycle.stable:
-            return Outcome.QUIET
+            return Outcome.STICK_SLIP
         if own.stays_linear_until(self.options.horizon):
             return Outcome.GROWING
         return ""

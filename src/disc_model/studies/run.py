@@ -47,12 +47,10 @@ def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Data
     messages = [with_cuts(message, row, computed, own_coords) for row, message in results]
 
     variables = variables_of(computed.COLUMNS, own_coords, rows, {POINT: len(rows)})
-    text_array = np.array(messages, dtype=str)
-    variables["message"] = xr.Variable(POINT, text_array, {"long_name": "what went wrong"})
+    variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str))
     coords = {}
     for name in batch.names:
-        values = [varied[name] for varied in batch.varied]
-        coords[name] = xr.Variable(POINT, values, describe(name))
+        coords[name] = xr.Variable(POINT, [varied[name] for varied in batch.varied])
     coords.update(own_coords)
     attrs = {
         "Conventions": CONVENTIONS,
@@ -138,13 +136,10 @@ def coordinates_of(
     coordinates: Mapping[str, Coordinate], quantity: Quantity
 ) -> dict[str, xr.Variable]:
     """Return the dimensions of a quantity's own, with values for its options."""
-    made = {}
-    for name, coordinate in coordinates.items():
-        units = coordinate.units.format(quantity)
-        described = Variable(units, coordinate.long_name.format(quantity))
-        values = np.array(coordinate.values(quantity))
-        made[name] = xr.Variable(name, values, described.attributes)
-    return made
+    return {
+        name: xr.Variable(name, np.array(coordinate.values(quantity)))
+        for name, coordinate in coordinates.items()
+    }
 
 
 def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Variable]) -> str:
@@ -192,7 +187,7 @@ def variables_of(
     sizes: Mapping[str, int],
 ) -> dict[str, xr.Variable]:
     """Return rows as variables along dimensions of these sizes, the last one fastest, and along
-    the quantity's own."""
+    the quantity's own; what they are is said where they are merged."""
     rows = list(rows)
     variables = {}
     for name, column in columns.items():
@@ -200,7 +195,7 @@ def variables_of(
         for i, row in enumerate(rows):
             _store(row.get(name), array[i, ...], column)
         array = array.reshape((*sizes.values(), *array.shape[1:]))
-        variables[name] = xr.Variable((*sizes, *column.dims), array, column.attributes)
+        variables[name] = xr.Variable((*sizes, *column.dims), array, column.codes)
     return variables
 
 

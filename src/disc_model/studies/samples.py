@@ -12,12 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from disc_model.errors import Fault, suggestion
-from disc_model.studies.quantity import STATUS
 from disc_model.studies.swept_values import checked_values
 from disc_model.units import is_missing, is_number
 
-OF_SWEEPS = {"status": STATUS.long_name, "message": "what became of it, in words"}
-"""Variables that every sweep has, and their names."""
+OF_SWEEPS = ("status", "message")
+"""Variables that every sweep has."""
 LIKE = 0.8
 """Likeness of two names from which the first is taken to be the second with a slip of the pen."""
 

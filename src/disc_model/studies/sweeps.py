@@ -10,7 +10,7 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data.variables import WITHOUT_EFFECT, attributes_of_mode, message_of
+from disc_model.data.variables import COMMON, WITHOUT_EFFECT, attributes_of_mode, message_of
 from disc_model.errors import Fault, ParameterError, raise_faults
 from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, RATIOS, Parameters
@@ -125,8 +125,8 @@ def sweep(  # noqa: PLR0913
 
     sizes = {dimension.name: len(dimension) for dimension in call.dimensions}
     variables, fixed = stacked(rows, sizes)
-    for name, meaning in OF_SWEEPS.items():
-        variables[name].attrs.setdefault("long_name", meaning)
+    for name in OF_SWEEPS:
+        variables[name].attrs.setdefault("long_name", COMMON[name].long_name)
     attrs = {
         "function": call.title,
         "options": json.dumps({**call.defaults, **call.options}, sort_keys=True, default=repr),

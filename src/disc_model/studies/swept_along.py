@@ -9,10 +9,9 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_speeds import SPEED, edges_along
-from disc_model.data.variables import attributes_of_number, presentation_of, unit_of_parameter
+from disc_model.data.variables import OF_QUANTITIES, attributes_of_number, unit_of_parameter
 from disc_model.errors import Fault, raise_faults, require
-from disc_model.figures.words import within_words
-from disc_model.parameters import RATIOS, foreign_case
+from disc_model.parameters import foreign_case
 from disc_model.simulation.states import mode_arrays
 from disc_model.stability.continuation.arguments import free_faults, values_in_si
 
@@ -51,31 +50,9 @@ def named_along(sweep: xr.Dataset, name: str) -> xr.Dataset:
     onset, end = edges_along(name)
     onset_speed, end_speed = edges_along(SPEED)
     renamed = sweep.rename({f"sweep_{SPEED}": along, onset_speed: onset, end_speed: end})
-    for variable in renamed.variables.values():
-        variable.attrs["long_name"] = _of_values(variable.attrs["long_name"])
-    units = attributes_of_number(name).get("units", "1")
-    noun = _noun(name)
-    names = {along: f"{noun}, in the sweep"}
-    names[onset] = f"{noun} at separation onset, {_condition(renamed[onset])}"
-    names[end] = f"{noun} at separation end, {_condition(renamed[end])}"
-    for each, long_name in names.items():
-        renamed[each].attrs.update(units=units, long_name=long_name)
+    number = attributes_of_number(name)
+    renamed[along].attrs = {**number, "parameter": name}
+    for edge in (onset, end):
+        known = OF_QUANTITIES["hysteresis"]["added"][edge]
+        renamed[edge].attrs = {"units": number.get("units", "1"), **known.texts()}
     return renamed
-
-
-def _of_values(long_name: str) -> str:
-    """The name of a variable in which the values of the sweep are no speeds."""
-    return long_name.replace("at a speed", "at a value")
-
-
-def _noun(name: str) -> str:
-    """What a number is called, such as preload."""
-    shown = presentation_of(name).name
-    if not shown or name in RATIOS:
-        return str(attributes_of_number(name)["long_name"])
-    return within_words(shown)
-
-
-def _condition(variable: xr.DataArray) -> str:
-    """Where a variable has no value, as its name says."""
-    return f"nan {variable.attrs['long_name'].partition(', nan ')[2]}"

@@ -158,7 +158,7 @@ def test_a_number_of_a_mode_of_a_given_disc_is_a_parameter_too(
     case = dm.Parameters(N=385, Omega=10, disc=disc, r_0=0.1)
     data = dm.continue_cycle(case, name, bounds).to_dataset()
     along = data[name]
-    said = f"{meaning} of the mode of 1 nodal diameter and 0 circles"
+    said = f"{meaning} of the mode (1, 0)"
     assert (along.units, along.long_name) == (units, said)
     assert data[f"special_{name}"].units == units
     assert along.min() == bounds[0]

@@ -6,19 +6,19 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from disc_model.data.variables import Outcome
+from disc_model.data.variables import POINT_STATUSES, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
 from disc_model.stability.outcome import Attractor, OutcomeResult
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
-from disc_model.studies.quantity import STATUSES, Point
+from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import stretch
 from tests.studies.conftest import compute
 
 CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
-QUIET = Attractor(Outcome.QUIET, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
+NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
 APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
 
 
@@ -30,7 +30,7 @@ class Made:
 
     def __init__(self, p, horizon, **_) -> None:
         self.p = p
-        self.known = [QUIET, APART]
+        self.known = [NEAR, APART]
 
     def copy(self) -> "Made":
         return self
@@ -43,7 +43,7 @@ class Made:
         energy, i = state
         if i in self.classes:
             return self.classes[i]
-        attractor = QUIET
+        attractor = NEAR
         if energy > self.least(self.p, i):
             attractor = APART
         return OutcomeResult(attractor.kind, 50.0, attractor=attractor)
@@ -69,7 +69,7 @@ def test_shares_are_counted_with_wilsons_intervals(made: None) -> None:
     assert table["basin_fraction"][place] == 0.3
     assert table["basin_fraction_low"][place] == pytest.approx(0.1078, abs=1e-4)
     assert table["basin_fraction_high"][place] == pytest.approx(0.6032, abs=1e-4)
-    assert table["basin_fraction"][0, classes.index("quiet")] == 0.7
+    assert table["basin_fraction"][0, classes.index("stick_slip")] == 0.7
     assert table["basin_fraction_low"][0, classes.index("undecided")] == pytest.approx(0, abs=1e-12)
     assert table["basin_fraction_by_energy"][0, 0].sum() == 1
     assert table["attractor_starts"][0, :3].tolist() == [7, 3, 0]
@@ -232,8 +232,8 @@ def test_attractors_of_a_case_are_found_once_for_all_its_starts(
 
         def follow(self, state: tuple[float, int]) -> OutcomeResult:
             known.append(len(self.known))
-            self.known.append(QUIET)
-            return OutcomeResult(QUIET.kind, 50.0, attractor=QUIET)
+            self.known.append(NEAR)
+            return OutcomeResult(NEAR.kind, 50.0, attractor=NEAR)
 
     monkeypatch.setattr(attractors, "Basins", Counted)
     points = [Point(Parameters(N=385, Omega=Omega)) for Omega in (14, 14, 14, 15)]
@@ -253,7 +253,7 @@ def test_a_point_fails_if_all_its_starts_do(
     monkeypatch.setattr(Made, "classes", results)
     table = found(energies=[0.01], n_starts=3)
     [code] = table.arrays["status"]
-    assert STATUSES[code] == status
+    assert POINT_STATUSES[code] == status
     assert table.messages == [f"{failed} of 3 starts failed, such as lost"]
     share = table.arrays["basin_fraction"][0, basins.CLASSES.index("failed")]
     assert share == pytest.approx(failed / 3)

@@ -39,7 +39,7 @@ def at_switches(Omega: float, samples: int = 50, **how: float) -> dict[str, Any]
 @pytest.mark.parametrize(
     ("p", "kind", "transient"),
     [
-        (SMALL, Outcome.QUIET, 2.0),
+        (SMALL, Outcome.STICK_SLIP, 2.0),
         (Parameters(N=200, Omega=0), Outcome.AT_REST, 2.0),
         (Parameters(N=50, Omega=15, c_p=0.5), Outcome.STEADY_SLIDING, 2.0),
         # contact is first lost at 11 s; the cycle that it comes to has 86 separations
@@ -203,7 +203,7 @@ def test_a_residual_needs_an_interval_more_than_the_period(releases: int, residu
         final_state=SimpleNamespace(time=0.5),
     )
     cycle = SimpleNamespace(releases=2, separations=0)
-    near = SimpleNamespace(cycle=cycle, kind=Outcome.QUIET)
+    near = SimpleNamespace(cycle=cycle, kind=Outcome.STICK_SLIP)
     reached = attractors.Arrival(Settling(), near=near)
     found = bifurcation._motion_reached(SMALL, reached, run, 1e-10)
     assert found.period == 2

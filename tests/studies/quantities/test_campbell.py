@@ -15,7 +15,7 @@ from disc_model.parameters import Parameters
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.frequencies import frequencies
 from disc_model.studies.merge import summarised
-from disc_model.studies.quantities.campbell import KINDS, Campbell, Rates, effect_of, frequency_of
+from disc_model.studies.quantities.campbell import Campbell, Rates, effect_of, frequency_of
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SMALL, computed
 
@@ -239,7 +239,8 @@ def test_columns_are_those_of_the_cycle_and_of_the_modes(monkeypatch: pytest.Mon
     assert values["n_modes"] == 3
     assert values["largest_sliding_growth_rate"] == dm.steady_sliding(case).growth_rate
     assert values["diameters"].tolist() == [0, 0, 2]
-    assert [KINDS[code] for code in values["mode_kind"]] == ["slider", "disc", "disc"]
+    kinds = Campbell.COLUMNS["mode_kind"].flags
+    assert [kinds[code] for code in values["mode_kind"]] == ["slider", "disc", "disc"]
     assert values["sliding_frequency"].tolist() == [71, 130, 140]
     assert values["sliding_growth_rate"].tolist() == [-0.1, -0.2, -0.3]
     assert values["cycle_frequency"].tolist() == [0, 1, 2]

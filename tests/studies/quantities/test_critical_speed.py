@@ -138,7 +138,7 @@ def test_a_separation_after_an_extrapolation_counts_and_has_no_time(
 
     def motion(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
         if p.Omega < 13:
-            return OutcomeResult(Outcome.QUIET)
+            return OutcomeResult(Outcome.STICK_SLIP)
         rough = p.Omega < 14
         return OutcomeResult(Outcome.SEPARATION, first_separation=100.0, extrapolated=rough)
 

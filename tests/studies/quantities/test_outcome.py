@@ -6,11 +6,11 @@ import sys
 import numpy as np
 import pytest
 
-from disc_model.data.variables import Outcome, flag_names
+from disc_model.data.variables import POINT_STATUSES, Outcome, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies.quantities.outcome import HorizonOutcome
-from disc_model.studies.quantity import STATUSES, Point
+from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import stretch
 from tests.studies.conftest import SMALL, compute, computed
 
@@ -26,7 +26,7 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(sys.modules["disc_model.simulation.run"], "MOST_STEPS", 100)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=20)
     assert words == ["failed"]
-    assert STATUSES[arrays["status"][0]] == "step_limit"
+    assert POINT_STATUSES[arrays["status"][0]] == "step_limit"
 
 
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
@@ -35,7 +35,7 @@ def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:
     damped = computed(
         quantity="outcome", options=options, base=base, axes={"N": [200], "Omega": [20]}
     ).squeeze()
-    assert flag_names(damped["outcome"]) == "quiet"
+    assert flag_names(damped["outcome"]) == "stick_slip"
     assert damped["left_at"] == damped["time_reached"] < 3.0
     assert 0 < damped["cycle_distance"] < 0.1
     # which says nothing of how long the motion takes to settle
@@ -89,11 +89,11 @@ def test_a_motion_that_is_left_before_the_horizon_says_when(
     segment = stretch(separation_rate=0, separation_fraction=0)
 
     def find_outcome(p: Parameters, horizon: float, **_: object) -> OutcomeResult:
-        return OutcomeResult(Outcome.QUIET, horizon, time=time, segment=segment, distance=0.02)
+        return OutcomeResult(Outcome.STICK_SLIP, horizon, time=time, segment=segment, distance=0.02)
 
     monkeypatch.setattr("disc_model.stability.outcome.find_outcome", find_outcome)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
-    assert words == ["quiet"]
+    assert words == ["stick_slip"]
     assert np.isfinite(arrays["left_at"][0]) == is_left
     assert arrays["time_reached"][0] == time
     assert arrays["cycle_distance"][0] == 0.02

@@ -40,19 +40,22 @@ def wrong(study: xr.Dataset) -> np.ndarray:
 
 @pytest.fixture
 def made_up(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
-    """Motions that separate within an ellipse and, by their multipliers, stay quiet outside;
+    """Motions that separate within an ellipse and, by their multipliers, stay on their cycle outside;
     those asked."""
     asked: list[Parameters] = []
 
     def trend(tile: refinement.Tile, point: refinement.TilePoint) -> str:
         if separates(point.parameters):
             return ""
-        return Outcome.QUIET
+        return Outcome.STICK_SLIP
 
     def find_outcome(p: Parameters, horizon: float, **_) -> OutcomeResult:
         asked.append(p)
         return OutcomeResult(
-            Outcome.SEPARATION if separates(p) else Outcome.QUIET, 1.0, None, first_separation=p.N
+            Outcome.SEPARATION if separates(p) else Outcome.STICK_SLIP,
+            1.0,
+            None,
+            first_separation=p.N,
         )
 
     nothing = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
@@ -138,7 +141,7 @@ def test_a_point_on_the_edge_of_a_cell_that_does_not_separate_opens_it(
 
 
 def test_marked_points_are_worked_out_and_tiles_make_the_grid_once() -> None:
-    marks = {"here": {"x": 12.03125, "y": 187.5, "paper_outcome": "quiet"}}
+    marks = {"here": {"x": 12.03125, "y": 187.5, "paper_outcome": "stick_slip"}}
     plot = {"kind": "region_map", "x": "Omega", "y": "N", "marks": marks}
     study = parse_grid(raw(figures={"map": plot}))
     texts = [json.loads(text) for text in study.batches.values()]

@@ -12,11 +12,12 @@ from scipy import stats
 from disc_model.parameters import Parameters
 from disc_model.studies.distributions import BLOCK, TruncatedNormal, quantile, unit_draws
 from disc_model.studies.quantities import sensitivity
-from disc_model.studies.quantities.sensitivity import SAMPLE_CYCLES, Sensitivity
+from disc_model.studies.quantities.sensitivity import Sensitivity
 from disc_model.studies.quantity import Row
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 
+SAMPLE_CYCLES = Sensitivity.COLUMNS["cycle"].flags
 UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
 
 

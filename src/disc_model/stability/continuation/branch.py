@@ -11,7 +11,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
-from disc_model.data.variables import attributes_of_number, unit_of_parameter
+from disc_model.data.variables import OF_RESULTS, attributes_of_number, unit_of_parameter
 from disc_model.display import counted, drawings
 from disc_model.errors import Fault, raise_faults, require, rule_of_choice
 from disc_model.parameters import Parameters, Quantity
@@ -145,7 +145,7 @@ class Branch:
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
         described = {name: attributes_of_number(name) for name in self.parameters}
-        described |= {name: known.attributes for name, known in VARIABLES.items()}
+        described |= {name: OF_RESULTS["Branch"][name].attributes for name in VARIABLES}
         return special_table(columns, described)
 
     def to_dataset(self) -> xr.Dataset:
@@ -402,16 +402,15 @@ def _dataset_of(branch: Branch) -> xr.Dataset:
     special = Columns("special", "special_")
     values = [each.values for each in branch.special]
     special.add_parameters(branch.parameters, np.reshape(values, (-1, len(branch.parameters))))
-    special.add(VARIABLES | SPECIAL, lambda name: [getattr(each, name) for each in branch.special])
+    special.add(
+        (*VARIABLES, *SPECIAL), lambda name: [getattr(each, name) for each in branch.special]
+    )
     special.add_states([each.state for each in branch.special])
 
+    known = OF_RESULTS["Branch"]
     numbers = {
-        "point": ("point", np.arange(len(branch)), {"long_name": "number along the branch"}),
-        "special": (
-            "special",
-            np.arange(len(branch.special)),
-            {"long_name": "number of the special point along the branch"},
-        ),
+        "point": ("point", np.arange(len(branch)), known["point"].attributes),
+        "special": ("special", np.arange(len(branch.special)), known["special"].attributes),
     }
     attrs: dict[str, Any] = {
         "ended": branch.ended,

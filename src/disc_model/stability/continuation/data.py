@@ -9,46 +9,22 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep, refuse_failed
-from disc_model.data.variables import COORDINATES, SERIES, Variable, attributes_of_number
+from disc_model.data.variables import COORDINATES, OF_RESULTS, attributes_of_number
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.slipping_map import SlippingMap
 
-VARIABLES = {
-    "growth_rate": Variable("s-1", "growth rate of disturbances of the cycle"),
-    "period": Variable("s", "period of the cycle"),
-    "stick_fraction": Variable("1", "share of the period spent sticking"),
-    "range": Variable("m", "range of the slider's height over a period"),
-    "u_min": Variable("m", "least height over static equilibrium in a period"),
-    "u_max": Variable("m", "greatest height over static equilibrium in a period"),
-}
+VARIABLES = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
 """What is known of each cycle of a branch, and of each special point."""
 EXTREMES = ("u_min", "u_max")
 """Those of them between which the height lies."""
-POINTS = {
-    "largest_multiplier": Variable("1", "modulus of the largest multiplier"),
-    "stable": Variable("1", "whether the cycle is stable"),
-    "separations": Variable("1", "number of separations in a period"),
-    "releases": Variable("1", "number of releases of stick in a period"),
-    "diameters": Variable("1", "nodal diameters of the leading multiplier's eigenvector"),
-    "multipliers": Variable("1", "multipliers of the cycle, largest modulus first"),
-}
+POINTS = ("largest_multiplier", "stable", "separations", "releases", "diameters", "multipliers")
 """What is known of the cycles alone,"""
-SPECIAL = {
-    "kind": Variable("", "kind of the special point"),
-    "label": Variable("", "label of the kind in AUTO and COCO"),
-    "multiplier": Variable("1", "critical multiplier; at a grazing and an end, the leading one"),
-    "after": Variable("1", "number of the point before the special point, or at it"),
-    "changes_stability": Variable("1", "whether the cycle gains or loses stability"),
-}
+SPECIAL = ("kind", "label", "multiplier", "after", "changes_stability")
 """and of the special points alone."""
-STATE = {name: SERIES[name] for name in ("psi", "f", "u", "u_velocity")} | {
-    "phase": Variable("", "phase of the motion"),
-    "direction": Variable("1", "sign of the slip speed"),
-    **COORDINATES,
-}
+STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
 """Values of the cycle's state on the section, at time 0."""
 
 
@@ -129,13 +105,14 @@ class Columns:
             column = xr.Variable(self.dim, values[:, i], attributes_of_number(name))
             self.coordinates[self.begin + name] = column
 
-    def add(self, columns: dict[str, Variable], values_of: Callable[[str], Any]) -> None:
+    def add(self, names: Iterable[str], values_of: Callable[[str], Any]) -> None:
         """Add columns by their names; a second dimension is that of the multipliers or modes."""
-        for name, column in columns.items():
+        for name in names:
             values = np.asarray(values_of(name))
             second = "mode" if name in COORDINATES else "multiplier"
             dims = (self.dim, second)[: values.ndim]
-            self.variables[self.begin + name] = xr.Variable(dims, values, column.attributes)
+            attrs = OF_RESULTS["Branch"][name].attributes
+            self.variables[self.begin + name] = xr.Variable(dims, values, attrs)
 
     def add_states(self, states: list[State]) -> None:
         """Add the values of states."""

@@ -12,20 +12,11 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field, PrivateAttr
 
-from disc_model.data.variables import LONG_TERM_OUTCOMES, Variable
+from disc_model.data.variables import OF_QUANTITIES
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    MOST,
-    STATUS,
-    Coordinate,
-    OutcomeResult,
-    Point,
-    Quantity,
-    listed,
-    with_ends,
-)
+from disc_model.studies.quantity import MOST, Coordinate, OutcomeResult, Point, Quantity, listed
 from disc_model.studies.shares_of_starts import (
     CLASSES,
     columns_of_attractor,
@@ -46,16 +37,6 @@ _ONE_START = (
     "n_starts={0.n_starts} must be 1 where an energy is 0, since no direction tells them apart"
 )
 Follow = Callable[[float, int, int], OutcomeResult]
-_EACH = ("energy", "start")
-_SHARES = ("energy", "attractor_class")
-_KNOWN = ("attractor",)
-
-
-def _share(what: str, dims: tuple[str, ...], that: str = "") -> dict[str, Variable]:
-    ends = ("", ", lower end of its confidence interval", ", upper end of its confidence interval")
-    return with_ends(
-        what, (Variable("1", f"share of the starts{that}{end}", dims=dims) for end in ends)
-    )
 
 
 class AttractorBasins(Start, Quantity):
@@ -93,83 +74,13 @@ class AttractorBasins(Start, Quantity):
         (lambda o: o.n_starts == 1 or 0.0 not in o.energies, _ONE_START),
     )
     points_per_job: ClassVar = 5
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "kind": Variable("1", "what the start comes to", LONG_TERM_OUTCOMES, dims=_EACH),
-        "attractor_index": Variable(
-            "1", "number of the attractor reached, from 1", dims=_EACH, whole=True
-        ),
-        "simulated_time": Variable(
-            "s", "simulated time until it was known what the start comes to", dims=_EACH
-        ),
-        "lost_contact": Variable(
-            "1",
-            "whether contact was lost on the way, or will only be lost later",
-            ("no", "yes", "not_yet"),
-            dims=_EACH,
-        ),
-        **_share("basin_fraction_by_energy", _SHARES),
-        **_share("basin_fraction", ("attractor_class",)),
-        **_share(
-            "separating_fraction",
-            (),
-            " whose end is known that keep losing contact, be it periodic or not",
-        ),
-        "critical_energy": Variable(
-            "J", "least energy found that leads to lasting separation, by bisection"
-        ),
-        "critical_energy_lower": Variable(
-            "J",
-            "greatest energy below the critical one, in the same direction, without lasting separation",
-        ),
-        "critical_energy_sampled": Variable(
-            "J", "least energy among the starts that come to lasting separation"
-        ),
-        "attractor_kind": Variable(
-            "1",
-            "what the attractor is, none if there is no further one",
-            ("none", *LONG_TERM_OUTCOMES[1:]),
-            dims=_KNOWN,
-        ),
-        "attractor_starts": Variable(
-            "1", "number of starts that reach the attractor", dims=_KNOWN, whole=True
-        ),
-        "attractor_range": Variable(
-            "m", "range of the slider's height on the attractor", dims=_KNOWN
-        ),
-        "attractor_separation_rate": Variable(
-            "s-1", "separations per second on the attractor", dims=_KNOWN
-        ),
-        "attractor_stick_fraction": Variable(
-            "1", "share of the time spent sticking on the attractor", dims=_KNOWN
-        ),
-        "attractor_separation_fraction": Variable(
-            "1", "share of the time spent separated on the attractor", dims=_KNOWN
-        ),
-        "attractor_releases": Variable(
-            "1",
-            "stick releases in the attractor's period, 0 if not periodic",
-            dims=_KNOWN,
-            whole=True,
-        ),
-        "attractor_period": Variable(
-            "s", "period of the attractor, nan if not periodic", dims=_KNOWN
-        ),
-        "attractor_growth_rate": Variable(
-            "s-1", "growth rate of disturbances of the attractor, if periodic", dims=_KNOWN
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["basins"]["columns"]
     COORDINATES: ClassVar = {
-        "energy": Coordinate("J", "energy of the kick", lambda o: o.energies),
-        "start": Coordinate("1", "number of the start", lambda o: range(o.n_starts)),
-        "attractor_class": Coordinate("", "what the starts come to", lambda o: CLASSES),
+        "energy": Coordinate(lambda o: o.energies),
+        "start": Coordinate(lambda o: range(o.n_starts)),
+        "attractor_class": Coordinate(lambda o: CLASSES),
         # those of most starts come first; there are seven at 10 rad/s and 385 N
-        "attractor": Coordinate(
-            "1",
-            "number of the attractor",
-            lambda o: range(1, o.max_attractors + 1),
-            "max_attractors",
-        ),
+        "attractor": Coordinate(lambda o: range(1, o.max_attractors + 1), "max_attractors"),
     }
 
     @property

@@ -5,8 +5,8 @@ from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.classify import ANSWER, Motion, Settling, closure
-from disc_model.data.variables import LONG_TERM_OUTCOMES, PHASES, SCALARS, SERIES, Outcome, Variable
+from disc_model.analysis.classify import Motion, Settling, closure
+from disc_model.data.variables import OF_QUANTITIES, Outcome
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
@@ -14,7 +14,6 @@ from disc_model.stability.thresholds import FIRST_LEG
 from disc_model.studies.quantity import (
     MOST,
     SETTLED_TO_BY,
-    STATUS,
     Arrival,
     Coordinate,
     Point,
@@ -60,49 +59,8 @@ class Bifurcation(Start, Quantity):
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
     motion_by: ClassVar = SETTLED_TO_BY
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        **{name: SERIES[name]._replace(dims=("sample",)) for name in SAMPLED},
-        "phase": Variable(
-            "1", "phase of the motion at the sample", ("none", *PHASES), dims=("sample",)
-        ),
-        "first_separation": SCALARS["first_separation"],
-        "separations": Variable(
-            "1", "number of separations up to the last sample, transient included", whole=True
-        ),
-        "transient_time": Variable("s", "time left out before the samples"),
-        "settled": ANSWER,
-        "change_rate": Variable(
-            "s-1", "measured rate of change, or growth rate of disturbances of the cycle reached"
-        ),
-        "least_rate": Variable(
-            "s-1", "least rate of change that the record can show, 0 where multipliers decide"
-        ),
-        "kind": Variable("1", "what the motion has come to", LONG_TERM_OUTCOMES),
-        "period_events": Variable(
-            "1",
-            "number of events after which the motion repeats, 0 if that is not shown",
-            whole=True,
-        ),
-        "period_residual": Variable(
-            "s",
-            "largest difference between an interval and the one a period later: what is left of the approach",
-        ),
-        "stick_fraction": Variable(
-            "1",
-            "share of the time spent sticking: at switches on the cycle or in the later half, otherwise of all",
-        ),
-    }
-    COORDINATES: ClassVar = {
-        "sample": Coordinate(
-            "1", "number of the {0.counted} after the transient", lambda o: range(o.samples)
-        )
-    }
-
-    @property
-    def counted(self) -> str:
-        """What samples are numbered by."""
-        return "turn" if self.section == "stroboscopic" else "event"
+    COLUMNS: ClassVar = OF_QUANTITIES["bifurcation"]["columns"]
+    COORDINATES: ClassVar = {"sample": Coordinate(lambda o: range(o.samples))}
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         return (

@@ -8,28 +8,22 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import numpy as np
 from pydantic import Field
 
-from disc_model.analysis.classify import ANSWER
-from disc_model.data.variables import Variable, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.display import counted
 from disc_model.studies.quantity import (
     DIRECTION,
     NUMERICAL,
-    STATUS,
     Coordinate,
     FloquetResult,
     Free,
     Point,
     Quantity,
     Range,
-    along,
     listed,
 )
 from disc_model.units import Count, Finite, Positive, Seconds, Tolerance, Unit
 
 _SWEEP = ("direction", "sweep_value")
-_one = along("branch")
-_each = along("branch", "branch_point")
-_swept = along(*_SWEEP)
 
 
 class Branches(Quantity):
@@ -75,42 +69,12 @@ class Branches(Quantity):
     )
     points_per_job: ClassVar = 2
     scans: ClassVar = ("parameter",)
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "n_branches": Variable("1", "number of branches found", whole=True),
-        "n_continuation_failures": Variable(
-            "1", "number of cycles that could not be followed", whole=True
-        ),
-        "releases": _one("1", "releases of stick in a period of the branch", whole=True),
-        "separations": _one("1", "separations in a period of the branch", whole=True),
-        "value": _each("", "parameter along the branch, SI units"),
-        "period": _each("s", "period of the cycle"),
-        "range": _each("m", "range of the slider's height over a period"),
-        "growth_rate": _each(
-            "s-1", "growth rate of disturbances of the cycle, 0 where stability changes"
-        ),
-        "sweep_range": _swept(
-            "m", "range of the slider's height at the end of the stay at a value"
-        ),
-        "sweep_separation_rate": _swept(
-            "s-1", "separations per second at the end of the stay at a value"
-        ),
-        "sweep_settled": ANSWER._replace(dims=_SWEEP),
-        "sliding_growth_rate": Variable(
-            "s-1", "growth rate of disturbances of steady sliding", dims=_SWEEP[1:]
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["branches"]["columns"]
     COORDINATES: ClassVar = {
         "direction": DIRECTION,
-        "sweep_value": Coordinate(
-            "", "{0.parameter} in the sweep, SI units", lambda o: o.scan.values
-        ),
-        "branch": Coordinate(
-            "1", "number of the branch", lambda o: range(o.max_branches), "max_branches"
-        ),
-        "branch_point": Coordinate(
-            "1", "number of the point along the branch", lambda o: range(2 * o.max_points)
-        ),
+        "sweep_value": Coordinate(lambda o: o.scan.values),
+        "branch": Coordinate(lambda o: range(o.max_branches), "max_branches"),
+        "branch_point": Coordinate(lambda o: range(2 * o.max_points)),
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
@@ -125,6 +89,7 @@ class Branches(Quantity):
             for name, column in self.COLUMNS.items()
             if column.dims == _SWEEP
         }
+        answers = self.COLUMNS["sweep_settled"].flags
         found = _Found(self)
         lowest = 0
         if self.sweep_from is not None:
@@ -138,7 +103,7 @@ class Branches(Quantity):
                 break
             swept["sweep_range"][way, i] = late.range
             swept["sweep_separation_rate"][way, i] = late.separation_rate
-            swept["sweep_settled"][way, i] = ANSWER.flags.index(reached.settling.answer)
+            swept["sweep_settled"][way, i] = answers.index(reached.settling.answer)
             if way == 0 or i < lowest:
                 near_start = find_cycle(result.parameters)
                 if near_start.state is not None:

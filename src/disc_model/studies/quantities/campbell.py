@@ -18,37 +18,10 @@ from pydantic import Field
 
 from disc_model.arrays import Array, Mask
 from disc_model.data.frequency_jumps import frequency_jumps
-from disc_model.data.variables import EXCLUDED, Variable, flag_names, message_of
-from disc_model.studies.quantity import (
-    CYCLE_STATUSES,
-    Coordinate,
-    Dataset,
-    Point,
-    Quantity,
-    along,
-    listed,
-)
+from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, flag_names, message_of
+from disc_model.studies.quantity import Coordinate, Dataset, Point, Quantity, listed
 from disc_model.units import Count, CycleTolerance, Positive, Unit
 
-KINDS = ("none", "disc", "slider")
-_each = along("mode")
-_crossing = along("crossing")
-LINES = ("none", "stick_slip", "rotation")
-EFFECTS = (
-    "none",
-    "no_rise",
-    "mode_rises",
-    "rises",
-    "destabilises",
-    "no_cycle",
-    "unresolved",
-    "not_near",
-    "beyond_scan",
-)
-"""At a crossing: no growth rate rises; one does, but not the largest; that of the cycle does; the cycle is unstable
-there and on neither side; there is no cycle somewhere in the window; fewer than three speeds lie in the window, or the
-stick-slip frequency jumps in it; the motion is not near the cycle somewhere in the window; or the window goes beyond an
-end of the axis."""
 LEAST_SPEEDS = 3
 """Least number of speeds in a window by which the effect of a crossing is known."""
 OF_CYCLE = ("growth_rate", "stick_slip_frequency", "cycle_frequency", "cycle_growth_rate")
@@ -70,90 +43,25 @@ class Campbell(Quantity):
     """tolerance of cycles: relative residual of the return map"""
     points_per_job: ClassVar = 2000
     over: ClassVar = "Omega"
-    COLUMNS: ClassVar = {
-        "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
-        "near_motion": Variable(
-            "1",
-            "whether the motion from the static start may be near the unstable cycle",
-            truth=True,
-        ),
-        "stick_slip_frequency": Variable(
-            "Hz", "releases of stick per second on the stick-slip cycle, f_s"
-        ),
-        "rotation_frequency": Variable("Hz", "turns of the drive per second, f_Omega"),
-        "n_modes": Variable("1", "number of modes of steady sliding", whole=True),
-        "largest_sliding_growth_rate": Variable(
-            "s-1", "largest growth rate of steady sliding, of all its modes"
-        ),
-        "mode_kind": _each(
-            "1", "what moves most: the disc, or the slider in the disc's plane", KINDS
-        ),
-        "diameters": _each("1", "nodal diameters of the modes with most of the energy", whole=True),
-        "forward_wave_fraction": _each(
-            "1", "share of their energy in waves that travel with the slider"
-        ),
-        "sliding_frequency": _each("Hz", "frequency of steady sliding, in the slider's frame"),
-        "sliding_growth_rate": _each("s-1", "growth rate of the mode of steady sliding"),
-        "cycle_frequency": _each("Hz", "frequency of the cycle's multiplier that goes to the mode"),
-        "cycle_growth_rate": _each(
-            "s-1", "growth rate of the cycle's multipliers that go to the mode"
-        ),
-        "mac": _each("1", "how like the shapes of mode and multiplier are: squared cosine"),
-    }
-    COORDINATES: ClassVar = {
-        "mode": Coordinate(
-            "1",
-            "number of the mode, lowest frequency first",
-            lambda o: range(1, o.modes + 1),
-            "modes",
-        )
-    }
-    SUMMARY_COLUMNS: ClassVar = {
-        "n_crossings": Variable("1", "number of crossings found", whole=True),
-        "crossing_Omega": _crossing("rad s-1", "speed of the crossing"),
-        "crossing_frequency": _crossing("Hz", "frequency of the crossing"),
-        "crossing_mode": _crossing("1", "number of the mode", whole=True),
-        "crossing_line": _crossing("1", "what the line is a multiple of", LINES),
-        "crossing_multiple": _crossing(
-            "1", "which multiple; half-integer where a period may double"
-        ),
-        "crossing_growth_rate": _crossing(
-            "s-1", "largest growth rate of the cycle within the window"
-        ),
-        "crossing_rise": _crossing(
-            "s-1", "largest rise of a mode's growth rate within the window over that at its ends"
-        ),
-        "crossing_growing_mode": _crossing(
-            "1", "number of the mode whose growth rate rises most", whole=True
-        ),
-        "crossing_effect": _crossing(
-            "1",
-            "what the growth rates do in the window; beyond_scan where it leaves the scan, unresolved "
-            "where it has too few speeds, or the stick-slip frequency jumps",
-            EFFECTS,
-        ),
-        "crossing_step": _crossing(
-            "rad s-1", "largest step of the speed by which three speeds lie in the window"
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["campbell"]["columns"]
+    COORDINATES: ClassVar = {"mode": Coordinate(lambda o: range(1, o.modes + 1), "modes")}
+    SUMMARY_COLUMNS: ClassVar = OF_QUANTITIES["campbell"]["summary"]
     SUMMARY_COORDINATES: ClassVar = {
-        "crossing": Coordinate(
-            "1", "number of the crossing", lambda o: range(1, o.max_crossings + 1)
-        )
+        "crossing": Coordinate(lambda o: range(1, o.max_crossings + 1))
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.frequencies import frequencies, may_be_near
 
         cycle, modes, (frequency, growth_rate, mac) = frequencies(point.parameters, tol=self.tol)
+        kinds = self.COLUMNS["mode_kind"].flags
         values: dict[str, Any] = {
             "status": cycle.status.value, "growth_rate": cycle.growth_rate,
             "stick_slip_frequency": cycle.releases / cycle.period if cycle.releases else math.nan,
             "rotation_frequency": point.parameters.Omega / (2 * math.pi),
             "n_modes": len(modes.frequency),
             "largest_sliding_growth_rate": cycle.sliding.growth_rate,
-            "mode_kind": np.where(modes.diameters < 0, KINDS.index("slider"), KINDS.index("disc")),
+            "mode_kind": np.where(modes.diameters < 0, kinds.index("slider"), kinds.index("disc")),
             "diameters": np.maximum(modes.diameters, 0), "forward_wave_fraction": modes.forward,
             "sliding_frequency": modes.frequency, "sliding_growth_rate": modes.growth_rate,
             "cycle_frequency": frequency, "cycle_growth_rate": growth_rate, "mac": mac,

@@ -10,28 +10,14 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import AfterValidator, Field
 
-from disc_model.data.variables import Variable, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import (
-    START_OUTCOME,
-    STATUS,
-    TIMED_SEPARATION,
-    Coordinate,
-    OutcomeResult,
-    Point,
-    Quantity,
-    Range,
-    along,
-    listed,
-)
+from disc_model.studies.quantity import Coordinate, OutcomeResult, Point, Quantity, Range, listed
 from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
 
 _MULTIPLE = (
     "the scan's step of {0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s"
 )
-KINDS = ("none", "begins", "ends")
-_each = along("horizon")
-_crossing = along("horizon", "crossing_number")
 
 
 class CriticalSpeed(Quantity):
@@ -75,40 +61,11 @@ class CriticalSpeed(Quantity):
 
     points_per_job: ClassVar = 5
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "critical_speed": _each(
-            "rad s-1",
-            "lowest speed computed with separation within the horizon, nan if there is none or one below failed",
-        ),
-        "n_crossings": _each(
-            "1",
-            "number of speeds found at which separation within the horizon begins or ends",
-            whole=True,
-        ),
-        "crossing": _crossing(
-            "rad s-1", "a speed at which separation begins or ends, upper end of the last interval"
-        ),
-        "crossing_kind": _crossing(
-            "1", "whether separation begins or ends as the speed rises", KINDS
-        ),
-        "scan_outcome": START_OUTCOME._replace(dims=("scan_Omega",)),
-        "scan_first_separation": TIMED_SEPARATION._replace(dims=("scan_Omega",)),
-        "scan_status": STATUS._replace(dims=("scan_Omega",)),
-        "simulations": Variable("1", "number of simulations", whole=True),
-        "simulated_time": Variable("s", "simulated time of all of them"),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["critical_speed"]["columns"]
     COORDINATES: ClassVar = {
-        "horizon": Coordinate("s", "time within which separation must occur", lambda o: o.horizons),
-        "crossing_number": Coordinate(
-            "1",
-            "number of the crossing, as the speed rises",
-            lambda o: range(o.max_crossings),
-            "max_crossings",
-        ),
-        "scan_Omega": Coordinate(
-            "rad s-1", "speed of the drive point, in the scan", lambda o: o.scan.values
-        ),
+        "horizon": Coordinate(lambda o: o.horizons),
+        "crossing_number": Coordinate(lambda o: range(o.max_crossings), "max_crossings"),
+        "scan_Omega": Coordinate(lambda o: o.scan.values),
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

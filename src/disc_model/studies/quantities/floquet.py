@@ -4,8 +4,8 @@ simulation."""
 import math
 from typing import Any, ClassVar
 
-from disc_model.data.variables import CycleStatus, Variable, message_of
-from disc_model.studies.quantity import CYCLE_STATUSES, Point, Quantity, State
+from disc_model.data.variables import CYCLE_STATUSES, OF_QUANTITIES, CycleStatus, message_of
+from disc_model.studies.quantity import Point, Quantity, State
 from disc_model.units import CycleTolerance
 
 FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
@@ -30,15 +30,7 @@ class Floquet(Quantity):
         "stable": "The stick-slip cycle itself, which is stable.",
         "unstable": "The stick-slip cycle itself, which is unstable: the motion leaves it.",
     }
-    COLUMNS: ClassVar = {
-        "status": Variable("1", "what was found near the static start", CYCLE_STATUSES),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the stick-slip cycle"),
-        "period": Variable("s", "period of the stick-slip cycle"),
-        "stick_fraction": Variable("1", "share of the period spent sticking"),
-        "multiplier_re": Variable("1", "real part of the leading multiplier"),
-        "multiplier_im": Variable("1", "imaginary part of the leading multiplier"),
-        "sliding_growth_rate": Variable("s-1", "growth rate of disturbances of steady sliding"),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["floquet"]["columns"]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.stability.cycle import find_cycle

@@ -7,20 +7,9 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import PrivateAttr
 
-from disc_model.analysis.classify import ANSWER
-from disc_model.data.variables import Variable, value_with_unit
-from disc_model.studies.quantity import (
-    DIRECTION,
-    STATUS,
-    STATUSES,
-    Coordinate,
-    Point,
-    Quantity,
-    Range,
-)
+from disc_model.data.variables import OF_QUANTITIES, POINT_STATUSES, value_with_unit
+from disc_model.studies.quantity import DIRECTION, Coordinate, Point, Quantity, Range
 from disc_model.units import Seconds, Tolerance, Unit
-
-_DIMS = ("direction", "sweep_Omega")
 
 
 class Hysteresis(Quantity):
@@ -52,50 +41,10 @@ class Hysteresis(Quantity):
     )
     points_per_job: ClassVar = 3
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "sweep_status": STATUS._replace(dims=_DIMS),
-        "sweep_settled": ANSWER._replace(dims=_DIMS),
-        "stay": Variable(
-            "s", "length of the stay at a speed; the stretch that is described follows", dims=_DIMS
-        ),
-        "separation_rate": Variable(
-            "s-1", "separations per second at the end of the stay at a speed", dims=_DIMS
-        ),
-        "u_min": Variable(
-            "m",
-            "lowest position of the slider at the end of the stay at a speed, from static equilibrium",
-            dims=_DIMS,
-        ),
-        "u_max": Variable(
-            "m",
-            "highest position of the slider at the end of the stay at a speed, from static equilibrium",
-            dims=_DIMS,
-        ),
-        "range": Variable(
-            "m", "range of the slider's height at the end of the stay at a speed", dims=_DIMS
-        ),
-        "P_min": Variable("N", "least contact force at the end of the stay at a speed", dims=_DIMS),
-        "P_max": Variable(
-            "N", "greatest contact force at the end of the stay at a speed", dims=_DIMS
-        ),
-        "stick_fraction": Variable("1", "share of the time spent sticking", dims=_DIMS),
-        "slip_fraction": Variable("1", "share of the time spent slipping", dims=_DIMS),
-        "separation_fraction": Variable("1", "share of the time spent separated", dims=_DIMS),
-        "onset_speed": Variable(
-            "rad s-1",
-            "speed at which separation first is found on the way up, nan if at none or at the lowest",
-        ),
-        "offset_speed": Variable(
-            "rad s-1",
-            "lowest speed to which it persists without a gap on the way down, nan if it still does at the lowest",
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["hysteresis"]["columns"]
     COORDINATES: ClassVar = {
         "direction": DIRECTION,
-        "sweep_Omega": Coordinate(
-            "rad s-1", "speed of the drive point, in the sweep", lambda o: o.scan.values
-        ),
+        "sweep_Omega": Coordinate(lambda o: o.scan.values),
     }
 
     def go_along(self, parameter: str) -> None:
@@ -121,12 +70,13 @@ class Hysteresis(Quantity):
             self.evaluation_time,
             self.tol,
         )
+        answers = self.COLUMNS["sweep_settled"].flags
         for index, result, late, reached in steps:
             if late is None:
                 status = result.status.value
                 message = f"{value_with_unit(self._parameter, speeds[index[1]])}: {result.message}"
-            values["sweep_status"][index] = STATUSES.index(status)
-            values["sweep_settled"][index] = ANSWER.flags.index(reached.settling.answer)
+            values["sweep_status"][index] = POINT_STATUSES.index(status)
+            values["sweep_settled"][index] = answers.index(reached.settling.answer)
             values["stay"][index] = reached.stay
             stretch = {**asdict(late), "range": late.range} if late else {}
             for name in values.keys() & stretch.keys():
@@ -139,7 +89,7 @@ class Hysteresis(Quantity):
         down, as far as they are known: each lies beside a speed at which contact is kept."""
         speeds = self.scan.values
         edges = {}
-        done = values["sweep_status"] == STATUSES.index("ok")
+        done = values["sweep_status"] == POINT_STATUSES.index("ok")
         rising, falling = values["separation_rate"] > 0
         if rising.any() and not rising[0]:
             edges["onset_speed"] = speeds[rising.argmax()]

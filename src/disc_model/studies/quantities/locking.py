@@ -7,18 +7,15 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import OF_QUANTITIES
 from disc_model.simulation.case import Start, Window
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
+from disc_model.studies.quantity import Coordinate, Point, Quantity, Result
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.stability.locking import Lock
 
-MOTIONS = ("undecided", "locked", "without_stick", "in_contact")
 RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millisecond
-_release = along("release")
-_probe = along("probe")
 
 
 class Locking(Start, Quantity):
@@ -48,40 +45,10 @@ class Locking(Start, Quantity):
         ),
     )
     points_per_job: ClassVar = 90
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "motion": Variable("1", "what the record shows", MOTIONS),
-        "separations_per_release": Variable(
-            "1", "number of separations per release of stick: of a period, or of the whole record"
-        ),
-        "period_releases": Variable(
-            "1", "number of releases after which the motion repeats, 0 if not shown", whole=True
-        ),
-        "period_separations": Variable("1", "number of separations in that time", whole=True),
-        "period": Variable("s", "time after which the motion repeats"),
-        "period_residual": Variable(
-            "s", "largest difference of an interval between releases from that a period later"
-        ),
-        "record_time": Variable("s", "length of the record"),
-        "separation_interval": Variable("s", "mean interval between separations"),
-        "leading_multiplier": Variable("1", "largest absolute value of the multipliers"),
-        "growth_rate": Variable("s-1", "growth rate of disturbances of the repeating motion"),
-        "real_multiplier": Variable("1", "largest real multiplier"),
-        "swing_multiplier": Variable(
-            "1", "multiplier of the release phases by the slider's swings, for a given vibration"
-        ),
-        "release_phase": _release(
-            "1", "phase of a release: time since a separation over their mean interval"
-        ),
-        "release_separations": _release("1", "number of separations to the next release"),
-        "map_phase": _probe("1", "phase of a release that the slider was held for"),
-        "map_next_phase": _probe("1", "phase of the release after it"),
-        "map_separations": _probe("1", "number of separations between them"),
-        "map_slope": _probe("1", "derivative of the next phase by the phase"),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["locking"]["columns"]
     COORDINATES: ClassVar = {
-        "release": Coordinate("1", "number of the release", lambda o: range(o.releases)),
-        "probe": Coordinate("1", "number of the place", lambda o: range(o.probes)),
+        "release": Coordinate(lambda o: range(o.releases)),
+        "probe": Coordinate(lambda o: range(o.probes)),
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:

@@ -5,14 +5,11 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import Field
 
-from disc_model.data.variables import Variable
+from disc_model.data.variables import OF_QUANTITIES
 from disc_model.errors import SimulationError
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, State, along
+from disc_model.studies.quantity import Coordinate, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
-
-CONVERGED = ("unknown", "no", "yes")
-_each = along("exponent_number")
 
 
 class Lyapunov(Start, Quantity):
@@ -31,28 +28,8 @@ class Lyapunov(Start, Quantity):
     points_per_job: ClassVar = 60
     motions: ClassVar = 8
     motion: ClassVar = "After the transient."
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "exponent": _each(
-            "s-1", "Lyapunov exponent, the one along the motion left out; -inf where changes vanish"
-        ),
-        "exponent_error": _each(
-            "s-1", "the larger of its standard error and the difference between both halves"
-        ),
-        "converged": _each(
-            "1", "whether both halves give it, to a twentieth or 0.002 /s", CONVERGED
-        ),
-        "trivial_exponent": Variable(
-            "s-1", "exponent along the motion: 0 but for what the time is too short for"
-        ),
-        "averaging_time": Variable("s", "time over which the rates are averaged"),
-        "separations": Variable("1", "number of separations in that time", whole=True),
-    }
-    COORDINATES: ClassVar = {
-        "exponent_number": Coordinate(
-            "1", "number of the exponent, largest first", lambda o: range(o.exponents)
-        )
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["lyapunov"]["columns"]
+    COORDINATES: ClassVar = {"exponent_number": Coordinate(lambda o: range(o.exponents))}
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         from disc_model.simulation.result import STATUS_OF

@@ -1,4 +1,4 @@
-"""Outcome of one simulation within a horizon: the motion stays quiet, grows in contact, or
+"""Outcome of one simulation within a horizon: the motion stays on a cycle, grows in contact, or
 separates."""
 
 from dataclasses import asdict
@@ -6,12 +6,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from disc_model.data.variables import OUTCOMES_TO_HORIZON, SCALARS, Outcome, Variable
+from disc_model.data.variables import OF_QUANTITIES, Outcome
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import (
     COME_TO,
     COME_TO_BY,
-    STATUS,
     OutcomeResult,
     Point,
     Quantity,
@@ -49,43 +48,7 @@ class HorizonOutcome(Start, Quantity):
     motions: ClassVar = 4
     motion: ClassVar = COME_TO
     motion_by: ClassVar = COME_TO_BY
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "outcome": Variable(
-            "1", "what the motion comes to, or whether it separates", OUTCOMES_TO_HORIZON
-        ),
-        "first_separation": SCALARS["first_separation"],
-        "left_at": Variable(
-            "s", "time at which the motion was left, as its outcome was known, nan if it was not"
-        ),
-        "time_reached": SCALARS["time_reached"],
-        "cycle_distance": Variable(
-            "1", "relative distance from the cycle where the motion was left for it"
-        ),
-        "return_map_residual": Variable(
-            "1", "relative difference of successive cycles at the last probe"
-        ),
-        "return_map_residual_rate": Variable(
-            "s-1", "growth rate of the difference of successive cycles over the last probes"
-        ),
-        "P_min": Variable("N", "least contact force over the late stretch"),
-        "P_max": Variable("N", "greatest contact force over the late stretch"),
-        "u_min": Variable(
-            "m", "lowest position of the slider over the late stretch, from static equilibrium"
-        ),
-        "u_max": Variable(
-            "m", "highest position of the slider over the late stretch, from static equilibrium"
-        ),
-        "stick_fraction": Variable("1", "share of the late stretch spent sticking"),
-        "slip_fraction": Variable("1", "share of the late stretch spent slipping"),
-        "separation_fraction": Variable("1", "share of the late stretch spent separated"),
-        "separation_rate": Variable("s-1", "separations per second over the late stretch"),
-        "surface_speed": Variable(
-            "1",
-            "largest speed of the disc's surface at the slider relative to the drive's, over the late"
-            " stretch",
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["outcome"]["columns"]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         reached, result, late = _late(point, self)

@@ -4,22 +4,11 @@ ramp's rate."""
 import math
 from typing import Annotated, Any, ClassVar
 
+from disc_model.data.variables import OF_QUANTITIES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Ramp
-from disc_model.studies.quantity import (
-    STATUS,
-    Coordinate,
-    Point,
-    Quantity,
-    Range,
-    Result,
-    State,
-    along,
-    listed,
-)
+from disc_model.studies.quantity import Coordinate, Point, Quantity, Range, Result, State, listed
 from disc_model.units import Seconds, Speed, Tolerance, Unit
-
-_each = along("rate")
 
 
 class Ramps(Quantity):
@@ -42,23 +31,8 @@ class Ramps(Quantity):
     )
     points_per_job: ClassVar = 3
     scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "rate_status": STATUS._replace(dims=("rate",)),
-        "onset_speed": _each(
-            "rad s-1", "speed at the first separation on the way up, nan if there is none"
-        ),
-        "top_separation_rate": _each(
-            "s-1", "separations per second over the stay at the highest speed"
-        ),
-        "offset_speed": _each(
-            "rad s-1",
-            "speed at the last separation on the way down, nan if there is none, or it continues",
-        ),
-    }
-    COORDINATES: ClassVar = {
-        "rate": Coordinate("rad s-2", "rate of the speed's ramps", lambda o: o.rates.values)
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["ramps"]["columns"]
+    COORDINATES: ClassVar = {"rate": Coordinate(lambda o: o.rates.values)}
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         rows: list[dict[str, Any]] = []

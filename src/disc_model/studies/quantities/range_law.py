@@ -5,9 +5,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from disc_model.data.variables import PHASES
+from disc_model.data.variables import OF_QUANTITIES, PHASES
 from disc_model.simulation.case import Window
-from disc_model.studies.quantity import STATUS, Coordinate, Point, Quantity, Result, along
+from disc_model.studies.quantity import Coordinate, Point, Quantity, Result
 from disc_model.units import Positive, Seconds, Tolerance
 
 BEGINS = ("static", "displaced")
@@ -15,7 +15,6 @@ RATE = 8000.0
 """Samples per second: an extreme between two of them is missed by less than 0.2 % of the range up to
 300 Hz, and by far less in a window of many periods."""
 SEPARATION = PHASES.index("separation")
-_each = along("begin")
 
 
 class RangeLaw(Quantity):
@@ -43,23 +42,8 @@ class RangeLaw(Quantity):
         ),
     )
     points_per_job: ClassVar = 350
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "range": _each("m", "range of the slider's height, nan if contact is not lost"),
-        "pinned_range": _each("m", "range at which vibration at this frequency loses contact"),
-        "deviation": _each("1", "excess of the range over the pinned one, relative to it"),
-        "flight_excess": _each("1", "that excess as the share of the time apart predicts it"),
-        "vibration_frequency": _each("Hz", "frequency of the slider's vibration"),
-        "vibration_share": _each("1", "share of the height's variance at this frequency"),
-        "force_share": _each("1", "share of the contact force's variance at this frequency"),
-        "separation_rate": _each("s-1", "separations per second"),
-        "separation_fraction": _each("1", "share of the time spent separated"),
-        "stick_fraction": _each("1", "share of the time spent sticking"),
-        "loss_position": _each(
-            "1", "where contact is lost: 0 at the slider's lowest, 1 at its highest position"
-        ),
-    }
-    COORDINATES: ClassVar = {"begin": Coordinate("", "start of the motion", lambda options: BEGINS)}
+    COLUMNS: ClassVar = OF_QUANTITIES["range_law"]["columns"]
+    COORDINATES: ClassVar = {"begin": Coordinate(lambda options: BEGINS)}
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
         columns: dict[str, list[float]] = {name: [] for name in self.COLUMNS if name != "status"}

@@ -6,25 +6,9 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from disc_model.data.variables import Variable
-from disc_model.studies.quantity import (
-    COME_TO,
-    COME_TO_BY,
-    START_OUTCOME,
-    STATUS,
-    TIMED_SEPARATION,
-    Made,
-    Point,
-    Quantity,
-    State,
-)
+from disc_model.data.variables import OF_QUANTITIES
+from disc_model.studies.quantity import COME_TO, COME_TO_BY, Made, Point, Quantity, State
 from disc_model.units import Count, Seconds, Tolerance
-
-METHODS = ("none", "multipliers", "simulation", "inferred", "extrapolation")
-JOINED = ("no", "yes")
-_CONTINUES = "whether the cycle continues into the next point's along the plane's"
-CYCLES = ("no_cycle", "followed", "nearby_only", "steady_sliding", "at_rest", "unstable_sliding")
-"""The last one where stick ends for good, and sliding is unstable: the search for a cycle has not failed there."""
 
 
 class Regions(Quantity):
@@ -44,36 +28,7 @@ class Regions(Quantity):
     motion: ClassVar = COME_TO
     motion_by: ClassVar = COME_TO_BY
     tiled: ClassVar = True
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "outcome": START_OUTCOME,
-        "method": Variable(
-            "1",
-            "how the outcome is known; extrapolation: simulated from where a departure ceases to be linear; "
-            "inferred: separation, as at the cell's corners and middle",
-            METHODS,
-        ),
-        "first_separation": TIMED_SEPARATION,
-        "simulated_time": Variable("s", "simulated time"),
-        "cycle": Variable(
-            "1",
-            "whether the static start follows the cycle found; without one, what it does",
-            CYCLES,
-        ),
-        "growth_rate": Variable(
-            "s-1", "growth rate of disturbances of the cycle that the static start follows"
-        ),
-        "period": Variable("s", "period of the cycle"),
-        "releases": Variable("1", "number of stick releases in its period", whole=True),
-        "period_ratio": Variable(
-            "1", "period of the cycle over that of the lowest mode of disc and slider at rest"
-        ),
-        "branch_continues_first": Variable("1", f"{_CONTINUES} first dimension", JOINED),
-        "branch_continues_second": Variable("1", f"{_CONTINUES} second dimension", JOINED),
-        "other_cycles": Variable(
-            "1", "number of other cycles known, followed from neighbours", whole=True
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["regions"]["columns"]
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate

@@ -14,22 +14,12 @@ from pydantic import Field
 
 from disc_model.analysis.classify import share
 from disc_model.arrays import Words
-from disc_model.data.variables import (
-    EXCLUDED,
-    OUTCOMES_TO_HORIZON,
-    SAMPLE,
-    STABLE_CYCLES,
-    Variable,
-    flag_names,
-    with_advice,
-)
+from disc_model.data.variables import EXCLUDED, OF_QUANTITIES, SAMPLE, flag_names, with_advice
 from disc_model.errors import Fault, ParameterError, as_text, suggestion
 from disc_model.parameters import DEFAULTS, RATIOS, RELATED, Disc, Parameters, case_of
 from disc_model.studies.distributions import BLOCK, Distribution, quantile, unit_draws
 from disc_model.studies.quantity import (
     NUMBERS,
-    STATUS,
-    TIMED_SEPARATION,
     Blocks,
     Coordinate,
     Dataset,
@@ -43,17 +33,9 @@ from disc_model.units import Count, CycleTolerance, Seconds, Tolerance, Units, i
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
-SAMPLE_CYCLES = (FAILED, *STABLE_CYCLES, *UNSTABLE)
-SAMPLE_OUTCOMES = ("not_simulated", *OUTCOMES_TO_HORIZON)
 
 
 # ---- The quantity
-
-
-def _with_interval(name: str, words: str) -> dict[str, Variable]:
-    return with_ends(
-        name, (Variable("1", words + end) for end in ("", ", lower end", ", upper end"))
-    )
 
 
 class Sensitivity(Quantity):
@@ -93,37 +75,9 @@ class Sensitivity(Quantity):
     )
     points_per_job: ClassVar = 400
     over: ClassVar = SAMPLE
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "parameter_values": Variable(
-            "", "values of the distributed parameters, SI units", dims=("parameter",)
-        ),
-        "cycle": Variable("1", "class of the cycle near the static start", SAMPLE_CYCLES),
-        "growth_rate": Variable(
-            "s-1", "growth rate of disturbances of the stick-slip cycle, nan without one"
-        ),
-        "outcome": Variable(
-            "1", "what becomes of the static start within the horizon", SAMPLE_OUTCOMES
-        ),
-        "first_separation": TIMED_SEPARATION,
-    }
-    COORDINATES: ClassVar = {
-        "parameter": Coordinate("", "distributed parameter", lambda o: sorted(o.distributions))
-    }
-    SUMMARY_COLUMNS: ClassVar = {
-        "n_known_cycles": Variable("1", "number of samples whose cycle is known", whole=True),
-        "n_known_outcomes": Variable("1", "number of samples whose outcome is known", whole=True),
-        "n_failed_cycles": Variable(
-            "1", "number of failed searches for cycles, which intervals hold", whole=True
-        ),
-        "n_failed_outcomes": Variable(
-            "1", "number of failed simulations, which intervals hold", whole=True
-        ),
-        **_with_interval(
-            "probability_unstable", "probability that the static start is near no stable motion"
-        ),
-        **_with_interval("probability_separation", "probability of separation within the horizon"),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["sensitivity"]["columns"]
+    COORDINATES: ClassVar = {"parameter": Coordinate(lambda o: sorted(o.distributions))}
+    SUMMARY_COLUMNS: ClassVar = OF_QUANTITIES["sensitivity"]["summary"]
 
     @property
     def dimensions(self) -> Mapping[str, Blocks]:
@@ -246,7 +200,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
 
     cycle = find_cycle(p, tol)
     row: dict[str, Any] = {"cycle": cycle.motion, "growth_rate": cycle.growth_rate}
-    if cycle.motion in SAMPLE_CYCLES:
+    if cycle.motion in Sensitivity.COLUMNS["cycle"].flags:
         return row, ""
     return {**row, "cycle": FAILED}, with_advice(cycle.message, cycle.status)
 

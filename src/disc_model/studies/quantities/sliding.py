@@ -5,21 +5,11 @@ from typing import Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from disc_model.data.variables import Variable, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import (
-    STATUS,
-    Coordinate,
-    Free,
-    Point,
-    Quantity,
-    Range,
-    listed,
-    units_of,
-)
+from disc_model.studies.quantity import Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, Unit
 
-_ONE = ("value",)
 _EACH = ("value", "mode")
 
 
@@ -34,41 +24,11 @@ class Sliding(Quantity):
     """room for that many modes, numbered by frequency at the first value"""
     points_per_job: ClassVar = 60
     scans: ClassVar = ("parameter",)
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "n_modes": Variable("1", "number of modes", whole=True),
-        "unstable_modes": Variable("1", "number of unstable modes", dims=_ONE, whole=True),
-        "largest_growth_rate": Variable("s-1", "largest growth rate of steady sliding", dims=_ONE),
-        "contact_force": Variable("N", "contact force of steady sliding", dims=_ONE),
-        "frequency": Variable("Hz", "frequency of the mode in the slider's frame", dims=_EACH),
-        "mode_growth_rate": Variable("s-1", "growth rate of the mode", dims=_EACH),
-        "damping_ratio": Variable("1", "damping ratio of the mode", dims=_EACH),
-        "diameters": Variable(
-            "1", "nodal diameters of most energy, -1 in the plane", dims=_EACH, whole=True
-        ),
-        "forward_wave_fraction": Variable(
-            "1", "share of energy in waves that travel with the slider", dims=_EACH
-        ),
-        "mac": Variable(
-            "1",
-            "likeness to the mode at the value before: squared cosine of the shapes",
-            dims=_EACH,
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["sliding"]["columns"]
     COORDINATES: ClassVar = {
-        "value": Coordinate("{0.units}", "{0.parameter}", lambda o: o.scan.values),
-        "mode": Coordinate(
-            "1",
-            "number of the mode, lowest frequency first",
-            lambda o: range(1, o.modes + 1),
-            "modes",
-        ),
+        "value": Coordinate(lambda o: o.scan.values),
+        "mode": Coordinate(lambda o: range(1, o.modes + 1), "modes"),
     }
-
-    @property
-    def units(self) -> str:
-        """The unit of the parameter."""
-        return units_of(self.parameter)
 
     def _case_at(self, p: Parameters, value: float) -> Parameters:
         """The case of a point at a value of the parameter."""

@@ -7,26 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar
 
 from pydantic import Field
 
-from disc_model.data.variables import Variable
-from disc_model.studies.quantity import (
-    STATUS,
-    Coordinate,
-    Free,
-    Point,
-    Quantity,
-    Range,
-    along,
-    listed,
-)
+from disc_model.data.variables import OF_QUANTITIES
+from disc_model.studies.quantity import Coordinate, Free, Point, Quantity, Range, listed
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
 if TYPE_CHECKING:
     from disc_model.stability.curves import StabilityCurve
-
-KINDS = ("none", "neutral", "fold")
-SIDES = ("no", "yes")
-_one = along("curve")
-_each = along("curve", "curve_point")
 
 
 class StabilityCurves(Quantity):
@@ -59,36 +45,10 @@ class StabilityCurves(Quantity):
     )
     points_per_job: ClassVar = 1
     scans: ClassVar = ("x", "y")
-    COLUMNS: ClassVar = {
-        "status": STATUS,
-        "n_curves": Variable("1", "number of curves found", whole=True),
-        "n_continuation_failures": Variable(
-            "1", "number of places at which a curve could not be followed", whole=True
-        ),
-        "kind": _one(
-            "1", "neutral: a multiplier of modulus one; fold: two cycles meet and vanish", KINDS
-        ),
-        "x": _each("", "first parameter along the curve, SI units"),
-        "y": _each("", "second parameter along the curve, SI units"),
-        "adjoins_stable_cycle": _each("1", "whether the cycle is stable on one side", SIDES),
-        "period": _each("s", "period of the cycle on the curve"),
-        "multiplier_re": _each("1", "real part of the leading multiplier"),
-        "multiplier_im": _each("1", "imaginary part of the leading multiplier"),
-        "resonance_harmonic": _one("1", "n of the resonance n f_s = f + s l Omega / 2 pi"),
-        "resonance_frequency": _one("Hz", "f of that resonance, of a mode at rest"),
-        "resonance_diameters": _one("1", "l of that resonance", whole=True),
-        "resonance_sign": _one("1", "s of that resonance, -1, 0 or 1", whole=True),
-        "resonance_detuning": _one(
-            "Hz", "how far the cycle at the curve's middle is from that resonance"
-        ),
-    }
+    COLUMNS: ClassVar = OF_QUANTITIES["stability_curves"]["columns"]
     COORDINATES: ClassVar = {
-        "curve": Coordinate(
-            "1", "number of the curve", lambda o: range(o.max_curves), "max_curves"
-        ),
-        "curve_point": Coordinate(
-            "1", "number of the point along the curve", lambda o: range(2 * o.max_points)
-        ),
+        "curve": Coordinate(lambda o: range(o.max_curves), "max_curves"),
+        "curve_point": Coordinate(lambda o: range(2 * o.max_points)),
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
