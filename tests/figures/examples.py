@@ -219,7 +219,7 @@ RATES = np.array([[-0.2, -0.1, 0.05], [-0.1, 0.02, np.nan], [0.1, 0.2, 0.25]])  
 
 def regions() -> xr.Dataset:
     dims = ("N", "Omega", "normalization")
-    words = [["quiet", "quiet", "growing"], ["quiet", "growing", "undecided"], ["separation"] * 3]
+    words = [["stick_slip", "stick_slip", "growing"], ["stick_slip", "growing", "undecided"], ["separation"] * 3]
     followed = np.where(np.isfinite(RATES), "followed", "no_cycle")
     cycles = quantity_of("regions").COLUMNS["cycle"].flags
     data = {
@@ -275,13 +275,13 @@ def basins() -> Example:
     shares = np.array([[1.0, 0.0], [0.25, 0.75], [0.5, 0.5]])  # quiet and separating
     ranges = np.array([2e-5, 0.031, 0.029])
     critical = np.array([0.4, 0.1, 0.2])
-    classes = ["quiet", "separating"]
+    classes = ["stick_slip", "separating"]
     energies = [0.01]
     data = {
         "basin_fraction": (("Omega", "attractor_class"), shares),
         "basin_fraction_by_energy": (("Omega", "energy", "attractor_class"), shares[:, None]),
         "attractor_kind": flag(
-            ("Omega", "attractor"), [["quiet"], ["separating"], ["separating"]], LONG_TERM_OUTCOMES
+            ("Omega", "attractor"), [["stick_slip"], ["separating"], ["separating"]], LONG_TERM_OUTCOMES
         ),
         "attractor_starts": (("Omega", "attractor"), np.full((3, 1), 4)),
         "attractor_range": (

@@ -79,8 +79,8 @@ class Result(Summarised, EqualByValue):
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
         just after the event; made at its first use; ``events.attrs["units"]`` has the units
     first_separation : s, nan if contact was never lost
-    settled_since : s, from which all points of the first `Poincare` lie on the motion on which the run ends; nan if this
-        is not shown
+    settled_since : s, from which all points of the first `Poincare` lie on the motion on which the run ends; nan if
+        this is not shown
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
