@@ -219,7 +219,11 @@ RATES = np.array([[-0.2, -0.1, 0.05], [-0.1, 0.02, np.nan], [0.1, 0.2, 0.25]])  
 
 def regions() -> xr.Dataset:
     dims = ("N", "Omega", "normalization")
-    words = [["stick_slip", "stick_slip", "growing"], ["stick_slip", "growing", "undecided"], ["separation"] * 3]
+    words = [
+        ["stick_slip", "stick_slip", "growing"],
+        ["stick_slip", "growing", "undecided"],
+        ["separation"] * 3,
+    ]
     followed = np.where(np.isfinite(RATES), "followed", "no_cycle")
     cycles = quantity_of("regions").COLUMNS["cycle"].flags
     data = {

@@ -17,10 +17,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from disc_model.figures.words import label_of
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.figures.words import label_of
 from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
 from disc_model.studies.varied_arguments import Arguments

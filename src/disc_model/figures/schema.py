@@ -6,12 +6,10 @@ the keys of a figure in a study file.
 
 import inspect
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import product
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_args, get_type_hints
 
 from pydantic import AfterValidator, BeforeValidator, Field, create_model
 
-from disc_model.data.variables import SHOWN
 from disc_model.errors import Fault, as_text, raise_faults, suggestion
 from disc_model.figures.shown import key_of, si_unit
 from disc_model.simulation.case import Poincare, Window
@@ -83,43 +81,35 @@ def _marked(shows: Shows) -> Callable[[Function], Function]:
     return mark
 
 
-class CaseRole(NamedTuple):
-    """The mark of a parameter that takes one further case, or several."""
-
-    several: bool = False
-
-
-Case = Annotated[Any, CaseRole()]
-Cases = Annotated[Any, CaseRole(several=True)]
+Case = Annotated[Any, "case"]
+Cases = Annotated[Any, "cases"]
 
 
 # ---- Rules of windows: each returns the rule that a window breaks, or ""
 
 
-def as_samples(window: Window) -> str:
+def as_samples(window: Any) -> str:
     """The rule of a window that is drawn sample by sample."""
-    return "" if window.envelope is None else "must have no envelope"
+    is_plain = isinstance(window, Window) and window.envelope is None
+    return "" if is_plain else "must be a window without an envelope"
 
 
-def as_ranges(window: Window) -> str:
+def as_ranges(window: Any) -> str:
     """The rule of a window that is drawn as ranges."""
-    if window.envelope is None:
-        return "needs an envelope"
-    return "" if window.count >= 2 * window.envelope else "must be two envelopes long or more"
+    has_ranges = isinstance(window, Window) and window.envelope is not None
+    return as_either(window) if has_ranges else "must be a window that has an envelope"
 
 
-def as_either(window: Window) -> str:
+def as_either(window: Any) -> str:
     """The rule of a window that is drawn as samples or as ranges."""
-    enough = window.count >= 2 * (window.envelope or 1)
-    return "" if enough else "must be two samples, or two envelopes, long or more"
+    enough = isinstance(window, Window) and window.count >= 2 * (window.envelope or 1)
+    return "" if enough else "must be a window of two samples, or two envelopes, or more"
 
 
-def as_spectrum(window: Window) -> str:
+def as_spectrum(window: Any) -> str:
     """The rule of a window whose spectrum in time is drawn."""
-    wrong = as_samples(window)
-    if wrong or window.stop - window.start >= 1.1:
-        return wrong
-    return "must be 1.1 s long or more"
+    long_enough = as_samples(window) or window.stop - window.start >= 1.1
+    return as_samples(window) if long_enough else "must be 1.1 s long or more"
 
 
 Samples = Annotated[str, as_samples]
@@ -134,13 +124,11 @@ InTime = Annotated[str, as_spectrum]
 def known_units(units: dict[str, str]) -> dict[str, str]:
     """The units, if each is one of its parameter or variable; raises `ParameterError`."""
     faults: list[Fault] = []
-    known = [name for name in SHOWN if si_unit(name) not in ("", "1")]
     for name, unit in units.items():
-        if name in known:
-            in_si(f"1 {unit}", si_unit(name), faults, (name,))
+        if si_unit(name) in ("", "1"):
+            faults.append(Fault.of((name,), unit, "no parameter or variable with a unit"))
         else:
-            rule = f"no parameter or variable with a unit{suggestion(name, known)}"
-            faults.append(Fault.of((name,), unit, rule))
+            in_si(f"1 {unit}", si_unit(name), faults, (name,))
     raise_faults(faults)
     return units
 
@@ -225,70 +213,54 @@ class Plot(Kind):
                 yield Fault.of(("log",), True, f"is for numbers: {variable} has classes")
         wrong = [*self._wrong_axes(own)]
         yield from wrong or self._wrong_rest(own)
-        yield from self._wrong_overlays()
+        for role, wanted in self.roles.items():
+            if wanted.required and role not in self.overlays:
+                rule = f"is required: a study of the quantity {wanted.quantity}"
+                yield Fault(("overlays", role), "", rule)
+        for role in self.overlays.keys() - self.roles.keys():
+            rule = f"unknown role{suggestion(role, self.roles)}"
+            yield Fault.of(("overlays", role), self.overlays[role], rule)
 
     def _wrong_axes(self, own: Values) -> Iterator[Fault]:
         """Dimensions that the study lacks, or that cannot be axes."""
-        axes = self.axes
-        for name in self.shows.needs:
+        needed = [("kind", name) for name in self.shows.needs]
+        seen: set[str] = set()
+        for key, name in (*needed, *self.axes.items()):
+            along = own.get(name, ())
+            rule = ""
             if name not in own:
-                yield Fault.of(("kind",), self.kind, f"needs the dimension {name}")
-        for key, name in axes.items():
-            if key == "by" and name == NORM and name not in own:
-                continue
-            if name not in own:
-                rule = f"is no dimension of this figure's study{suggestion(name, own)}"
+                if (key, name) != ("by", NORM):
+                    rule = f"needs the dimension {name}{suggestion(name, own)}"
+            elif name in seen:
+                rule = "must differ from the other dimensions"
+            elif key in ("x", "y") and any(isinstance(value, str | tuple) for value in along):
+                rule = "must be one parameter, and a number"
+            elif key == "by" and len(along) > MOST_VALUES:
+                rule = f"has {len(along)} values, and there is room for {MOST_VALUES}"
+            seen.add(name)
+            if rule:
                 yield Fault.of((key,), name, rule)
-            elif key in ("x", "y") and any(isinstance(v, str | tuple) for v in own[name]):
-                yield Fault.of((key,), name, "must be one parameter, and a number")
-            elif [*axes.values()].count(name) > 1 and key != "x":
-                yield Fault.of((key,), name, "must differ from the other dimensions")
-            elif key == "by" and len(own[name]) > MOST_VALUES:
-                rule = f"has {len(own[name])} values, and there is room for {MOST_VALUES}"
-                yield Fault.of((key,), name, rule)
-        along = [str(value) for value in own.get(axes.get("by", ""), ())]
-        for value in self.names if along else ():
-            if value not in map(key_of, along):
-                rule = f"is no value of {axes['by']}{suggestion(value, along)}"
-                yield Fault.of(("names",), value, rule)
+        by = own.get(self.axes.get("by", ""), ())
+        for value in self.names if by else ():
+            if value not in map(key_of, by):
+                yield Fault.of(("names",), value, f"must be one of {as_text([*by])}")
 
     def _wrong_rest(self, own: Values) -> Iterator[Fault]:
         """Dimensions that are left over must have one value, or be chosen by `at` or `by`."""
         shown = {*self.axes.values(), *self.shows.needs}
         free = {name: along for name, along in own.items() if name not in shown}
-        for name, value in self.at.items():
+        for name in {**free, **self.at}:
+            along = free.get(name, ())
+            several = len(along) > 1 and not self.shows.takes
+            rule = ""
             if name not in free:
                 rule = f"is no dimension that remains{suggestion(name, free)}"
-                yield Fault.of(("at", name), value, rule)
-            elif free[name] and key_of(value) not in {key_of(x) for x in free[name]}:
-                yield Fault.of(("at", name), value, f"must be one of {as_text([*free[name]])}")
-        if self.shows.takes:
-            return
-        for name, along in free.items():
-            if len(along) > 1 and name not in self.at:
-                rule = f"is required, one of {as_text([*along])}"
-                if "by" in type(self).model_fields:
-                    rule += f"; or by: {name}"
-                yield Fault(("at", name), "", rule)
-
-    def _wrong_overlays(self) -> Iterator[Fault]:
-        """Parameters that the figure does not have, and lacks."""
-        for role in self.overlays.keys() - self.roles.keys():
-            rule = f"unknown role{suggestion(role, self.roles)}"
-            yield Fault.of(("overlays", role), self.overlays[role], rule)
-        for role, wanted in self.roles.items():
-            if wanted.required and role not in self.overlays:
-                rule = f"is required: a study of the quantity {wanted.quantity}"
-                yield Fault(("overlays", role), "", rule)
-
-
-class Need(NamedTuple):
-    """A window that a figure shows: the key that names it, its case and name, and its rule."""
-
-    key: str
-    case: str
-    name: str
-    rule: Callable[[Window], str] | None
+            elif name not in self.at:
+                rule = f"is required, or by: {name}; one of {as_text([*along])}" if several else ""
+            elif along and key_of(self.at[name]) not in map(key_of, along):
+                rule = f"must be one of {as_text([*along])}"
+            if rule:
+                yield Fault.of(("at", name), self.at.get(name, ""), rule)
 
 
 class CasePlot(Kind):
@@ -311,36 +283,25 @@ class CasePlot(Kind):
             found += [named] if isinstance(named, str) else named
         return tuple(filter(None, found))
 
-    def needs(self) -> Iterator[Need]:
-        """The windows that the figure shows."""
-        for case, (key, rule) in product(self.cases, self.rules.items()):
-            yield Need(key, case, getattr(self, key), rule)
-        for case, (name, rule) in product(self.cases, self.shows.windows.items()):
-            yield Need("case", case, name, rule)
-
     def faults(
         self, cases: Mapping[str, Mapping[str, Window | Poincare] | None]
     ) -> Iterator[Fault]:
         """What keeps it from being drawn, by the windows of each case; those of a case that has faults
         of its own are None."""
+        windows = [(key, getattr(self, key), rule) for key, rule in self.rules.items()]
+        windows += [("case", name, rule) for name, rule in self.shows.windows.items()]
         for case in self.cases:
+            recorded = cases.get(case, {})
             if case not in cases:
                 rule = f"no such case (known: {', '.join(cases) or 'none'})"
                 yield Fault.of(("case",), case, rule)
-        for need in self.needs():
-            recorded = cases.get(need.case)
-            if recorded is None:
-                continue
-            window = recorded.get(need.name)
-            if window is None:
-                rule = f"is not recorded by case {need.case}{suggestion(need.name, recorded)}"
-                yield Fault.of((need.key,), need.name, rule)
-            elif need.rule is not None:
-                wrong = "must be a window, not the section"
-                if isinstance(window, Window):
-                    wrong = need.rule(window)
-                if wrong:
-                    yield Fault.of((need.key,), need.name, wrong)
+            elif recorded is not None:
+                for key, name, broken in windows:
+                    rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
+                    if name in recorded:
+                        rule = broken(recorded[name])
+                    if rule:
+                        yield Fault.of((key,), name, rule)
 
 
 # ---- From signatures to models
@@ -358,13 +319,13 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
         key, hint, default = parameter.name, hints[parameter.name], parameter.default
         given: Any = ... if default is inspect.Parameter.empty else default
         marks = get_args(hint)[1:] if hasattr(hint, "__metadata__") else ()
-        role = next((mark for mark in marks if isinstance(mark, Role | CaseRole)), None)
-        if isinstance(role, Role):
-            roles[key] = role
-        elif isinstance(role, CaseRole):
+        mark = marks[0] if marks else None
+        if isinstance(mark, Role):
+            roles[key] = mark
+        elif mark in ("case", "cases"):
             further.append(key)
-            several = (tuple[str, ...], given or ())
-            fields[key] = several if role.several else (str, given or "")
+            one = mark == "case"
+            fields[key] = (str, given or "") if one else (tuple[str, ...], given or ())
         else:
             fields[key] = (hint, given)
             rules.update((key, mark) for mark in marks if inspect.isfunction(mark))
