@@ -168,11 +168,12 @@ def compare(axes: Sequence[Axes]) -> None:
 
 
 def is_geometric(values: NDArray[Any]) -> bool:
-    """Whether three or more positive values, over a decade or more, have equal ratios."""
+    """Whether three or more positive values, over a decade or more, have equal ratios, but for a few
+    extra ones."""
     if values.size < 3 or values.min() <= 0 or values.max() < 9.99 * values.min():
         return False
     steps = np.diff(np.log(values))
-    return bool(np.allclose(steps, steps[0], rtol=1e-6))
+    return bool(np.isclose(steps, np.median(steps), rtol=1e-6).mean() > 0.75)
 
 
 def edges(x: xr.DataArray) -> NDArray[np.float64]:

@@ -98,7 +98,7 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
         if name in data.dims:
             keys = [key_of(each) for each in data[name].values]
             data = data.isel({name: keys.index(key_of(value))})
-    kept = plot.axes.values()
+    kept = {*plot.axes.values(), *plot.shows.needs}
     single = [name for name, size in data.sizes.items() if size == 1 and name not in kept]
     data = shown(data.squeeze(single), plot.units)
     by = plot.axes.get("by", NORM)

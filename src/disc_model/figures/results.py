@@ -138,6 +138,8 @@ def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
     options: Any = {"sharex": True, "height_ratios": [3, 2]}
     figure, axes = plt.subplots(2, figsize=(6.4, 6.4), layout="constrained", **options)
     draw_campbell(axes, data, given.highest, given.multiples)
+    for ax in axes:
+        break_label(ax, 2)
     explain(figure, axes, LETTERS)
     return axes
 

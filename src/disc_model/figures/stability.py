@@ -175,28 +175,25 @@ def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
 
 
 def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
-    """Draw neutral curves and folds within their bounds, with their resonances: thick beside a stable
-    cycle, folds dashed."""
-    low, high = np.transpose([*curves.bounds.values()])
+    """Draw neutral curves and folds with their resonances: thick beside a stable cycle, folds
+    dashed."""
     [named] = ax.plot([], [], **wished(look, label=case_text(curves.parameters, *curves.bounds)))
     colour = named.get_color()
     for curve in curves:
-        outside = ((curve.values < low) | (curve.values > high)).any(axis=1)
-        values = np.where(outside[:, None], np.nan, curve.values).T
-        x, y = (column(name, each) for name, each in zip(curves.bounds, values, strict=True))
+        x, y = map(column, curves.bounds, curve.values.T)
         dashes, name = "-", "_nolegend_"
         if curve.kind == "fold":
             dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
         ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
         stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
         thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
-        _name_curve(ax, x[~outside], y[~outside], typeset(curve.resonance.label))
+        _name_curve(ax, x, y, typeset(curve.resonance.label))
     ax.set(xlabel=label(x), ylabel=label(y))
 
 
 def _name_curve(ax: Axes, x: xr.DataArray, y: xr.DataArray, name: str) -> None:
     """Write a name beside the middle of a curve, unless the axes have it already."""
-    if x.size and name not in [text.get_text() for text in ax.texts]:
+    if name not in [text.get_text() for text in ax.texts]:
         middle = (x[x.size // 2], y[x.size // 2])
         ax.annotate(name, middle, (4, 2), textcoords="offset points", fontsize="small")
 

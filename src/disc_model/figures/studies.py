@@ -58,6 +58,7 @@ NOTHING: dict[str, Any] = {}
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
 MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
 DASHES = ("-", "--", ":")
+LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
 CARRIED = 0.95  # share of height and force at one frequency, from which marks are filled
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
@@ -317,8 +318,9 @@ def sliding_outcome(
         ):
             word = f"sliding {stability}, {fate}"
             both = both.where(~(here & mask), word)
-            shares = [percent((part == word).mean()) for _, part in each_value(both, by)]
-            looks[word] = Look(f"{word}: {', '.join(shares)}", LOOKS[outcomes[0]].face, dots)
+            shares = [float((part == word).mean()) for _, part in each_value(both, by)]
+            said = ", ".join(f"{100 * share:.0f} %" for share in shares)
+            looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
     looks["undecided"] = LOOKS["undecided"]._replace(label="undecided, or no steady sliding")
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
@@ -326,11 +328,6 @@ def sliding_outcome(
         ax.set_title(titled(title, study))
         class_map(ax, part.transpose(y, x), looks)
     return figure
-
-
-def percent(share: Any) -> str:
-    """A share in whole percent."""
-    return f"{100 * float(share):.0f} %"
 
 
 def counted(chosen: Any) -> str:
@@ -363,7 +360,7 @@ def critical_speed(
         behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
     for ax in axes:
         onsets(ax, study)
-        mark_missing(ax, loads[(study["status"] != "ok").values], "failed", along="y")
+        mark_missing(ax, loads[study["critical_speed"].isnull().values], "_", along="y")
         ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
         ax.label_outer()
     axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
@@ -401,7 +398,8 @@ def onsets(ax: Axes, study: xr.Dataset) -> None:
     found = xr.concat([first, further], "crossing_number")
     at, loads = xr.broadcast(found, study["N"])
     look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 3, "mew": 0.6}
-    mark_points(ax, at.values.ravel(), loads.values.ravel(), "separation begins", **look)
+    name = "separation begins; × at edge: none found"
+    mark_points(ax, at.values.ravel(), loads.values.ravel(), name, **look)
 
 
 def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
@@ -444,7 +442,7 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
         ("offset_speed", "falling", "ends", "v", BLUE),
     ):
         speeds = study[name].assign_attrs(long_name="Speed Ω")
-        missing = f"{way}: {speeds.attrs['missing']}"
+        missing = f"{way}: {speeds.attrs.get('missing', 'no value')}"
         look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4}
         lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
     mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
@@ -480,12 +478,13 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     for i, (title, part) in enumerate(each_value(study, by)):
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
-        shares = np.arange(times.size + 1) / known.size
+        count = max(1, known.size)
+        shares = np.arange(times.size + 1) / count
         colour, dashes = LINE_COLOURS[i % 4], DASHES[i % 3]
         name = f"{title}: {counted(known.notnull())} starts"
         steps = [0, *times, horizon]
         ax.stairs(shares, steps, baseline=None, color=colour, ls=dashes, lw=1.4, label=name)
-        middle, half = wilson(times.size, known.size)
+        middle, half = wilson(times.size, count)
         end = horizon * (1.02 + 0.02 * i)
         ax.vlines(end, middle - half, middle + half, color=colour, lw=3, label="95 % confidence")
     ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
@@ -497,7 +496,7 @@ SETTLED = ("stick_slip", "other_cycle", "steady_sliding", "at_rest")
 """Outcomes that a longer time would not change."""
 
 
-@grid_figure("outcome", needs=("Omega", "N", "contact", "disc"))
+@grid_figure("outcome", needs=("Omega", "N", "contact"))
 def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     """Late range of the slider's height, and speed of the disc's surface under it, against the speed,
     with separation and with it ignored.
@@ -511,9 +510,11 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
     lost = f"R, at which contact is lost; separating: {extent(apart / data['limit'])} R"
 
-    figure, axes = panels([["late", "surface_speed"]], PAGE, 2.8, sharex=True)
+    names = [name for name in ("late", "surface_speed") if name in data]
+    figure, axes = panels([names], PAGE, 2.8, sharex=True)
     for (title, part), colour in zip(each_value(data, "N"), cycle(LINE_COLOURS), strict=False):
-        axes["late"].axhline(float(part["limit"]), color=colour, ls=":", label=lost)
+        if np.isfinite(part["limit"]):
+            axes["late"].axhline(float(part["limit"]), color=colour, ls=":", label=lost)
         for contact, style, more in (
             ("unilateral", "-", ""),
             ("bilateral", "--", ", separation ignored"),
@@ -527,8 +528,9 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     axes["late"].axhspan(beyond, 10 * beyond, color=SHADE, label="beyond linear plate theory")
     larger = extent(late.sel(contact="bilateral") / apart)
     axes["late"].set(yscale="log", title=f"separation ignored: {larger} times the range")
-    axes["surface_speed"].set_title("above 1, friction reverses")
-    axes["surface_speed"].axhline(1, color=GREY, lw=0.6, zorder=0)
+    for ax in [*axes.values()][1:]:
+        ax.set_title("above 1, friction reverses")
+        ax.axhline(1, color=GREY, lw=0.6, zorder=0)
     return figure
 
 
@@ -539,8 +541,11 @@ def extent(ratios: xr.DataArray) -> str:
 
 def lost_contact(study: xr.Dataset) -> xr.DataArray:
     """Range at which vibration loses contact at the frequency of the mode with the largest tangential
-    motion, which friction feeds, along the preload, in the unit of heights."""
-    disc = stated_in(study, "discs")[study["disc"].item()]
+    motion, which friction feeds, along the preload, in the unit of heights; nan for another disc."""
+    name = study["disc"].item() if "disc" in study else ""
+    disc = stated_in(study, "discs").get(name, {})
+    if "tangential" not in disc:
+        return study["N"] * np.nan
     fed = np.argmax(np.abs(disc["tangential"]))
     frequency = disc["omega"][fed] / (2 * np.pi)
     base = stated_in(study, "base")
@@ -580,12 +585,12 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
         ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
         ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
         ax.set_ylabel("Excess of the range over R")
-    times = np.linspace(0, float(apart.max()))
+    times = np.linspace(0, np.max(apart.values, initial=0.01))
     flights = [excess_of_flights(each) for each in times.tolist()]
     axes["apart"].plot(times, flights, color=BLACK, label="by flights: (π · time apart)²/8")
     axes["apart"].set_xlabel("Share of time apart")
     axes["apart"].xaxis.set_major_formatter(PercentFormatter(1, 0))
-    axes["all"].set(xscale="log", xlabel=f"R = 2N/|k − mω²| ({data['pinned_range'].units})")
+    axes["all"].set(xscale="log", xlabel=f"{LIMIT} ({data['pinned_range'].units})")
     return figure
 
 
@@ -616,6 +621,9 @@ def sensitivity(study: xr.Dataset) -> Figure:
 
     rows = np.arange(thirds.sizes["parameter"])
     name = f"all {cases.sizes['sample']} samples"
+    failed = int((cases["cycle"] == "failed").sum())
+    if failed:
+        name += f"; {failed} in all panels failed, and do not count"
     figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
     for i, ax in enumerate(axes):
         draw_thirds(ax, thirds.isel(case=i), rows)
@@ -626,9 +634,6 @@ def sensitivity(study: xr.Dataset) -> Figure:
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
     symbols = [presentation_of(name).symbol for name in thirds["parameter"].values]
     axes[0].set_yticks(rows, [typeset(symbol) for symbol in symbols])
-    failed = int((cases["cycle"] == "failed").sum())
-    if failed:
-        axes[0].plot([], [], " ", label=f"without {failed} failed samples")
     return figure
 
 
@@ -638,10 +643,11 @@ def thirds_of(cases: xr.Dataset) -> xr.Dataset:
     values = cases["parameter_values"]
     known = (cases["cycle"] != "failed") & (cases["status"] != "excluded")
     unstable = known & ~cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
-    low, high = (values.quantile(end, "sample") for end in (1 / 3, 2 / 3))
+    low, high = (values.quantile(end, "sample", skipna=False) for end in (1 / 3, 2 / 3))
     parts = []
     for inside in (values <= low, values >= high):
         count = (inside & known).sum("sample")
+        count = count.where(count > 0)
         hits = (inside & unstable).sum("sample")
         middle, half = wilson(hits, count)
         ends = {"low": middle - half, "high": middle + half}
