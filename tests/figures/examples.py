@@ -16,6 +16,7 @@ from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.data.variables import attributes
 from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
+from disc_model.studies.shares_of_starts import CLASSES
 from tests.figures.measured import Shown
 from tests.studies.conftest import computed
 from tests.studies.quantities.test_sensitivity import made_up
@@ -460,7 +461,7 @@ def range_law() -> Example:
         "force_share": shares,
     }
     study = study_of("range_law", {"N": LOADS}, columns, base={"Omega": 20})
-    law = "R = 2N/|k − mω²|"
+    law = "Range at which contact is lost, R = 2N/|k − mω²|"
     over_law = "Excess of the range over R"
     within = np.clip(excess, -0.25, 0.35)  # what lies beyond the panel stands at its edge
     return Example(
@@ -564,10 +565,11 @@ def starts() -> xr.Dataset:
     kinds[2, 0] = "separating"
     ranges = np.array([[2e-5, np.nan], [3e-5, 0.031], [np.nan, 0.029]])
     separating = (kinds == "separating").mean((1, 2))
-    shares = np.zeros((3, 9))
-    shares[:, 1], shares[:, 3] = 1 - separating, separating
-    by_energy = np.zeros((3, 2, 9))
-    by_energy[..., 3] = (kinds == "separating").mean(2)
+    small, apart = map(CLASSES.index, ("stick_slip", "separating"))
+    shares = np.zeros((3, len(CLASSES)))
+    shares[:, small], shares[:, apart] = 1 - separating, separating
+    by_energy = np.zeros((3, 2, len(CLASSES)))
+    by_energy[..., apart] = (kinds == "separating").mean(2)
     columns = {
         "kind": kinds,
         "lost_contact": np.where(kinds == "separating", "yes", "no"),
@@ -604,7 +606,12 @@ def basins() -> Example:
             Shown(2, "y", "Height range on the attractor", [2e-5, 3e-5, 0.031, 0.029], "m", "log"),
             Shown(3, "y", "Energy", [*CRITICAL, *ENERGIES], "J", "symlog"),
         ),
-        ("Energy = 0.01 J", "Energy = 0.5 J", "95 % interval: separating", "no start separates"),
+        (
+            "Energy = 0.01 J",
+            "Energy = 0.5 J",
+            "95 % interval: separating",
+            "no start is known to separate",
+        ),
     )
 
 
