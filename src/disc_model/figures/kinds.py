@@ -101,7 +101,7 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
             data = data.isel({name: keys.index(key_of(value))})
     kept = {*plot.axes.values(), *plot.shows.needs}
     if plot.shows.quantities:  # whose own dimensions the figure takes
-        kept |= {*data.dims} - {*data["status"].dims}
+        kept |= {str(name) for name in data.dims if name not in data["status"].dims}
     single = [name for name, size in data.sizes.items() if size == 1 and name not in kept]
     data = shown(data.squeeze(single), plot.units)
     by = plot.axes.get("by", NORM)
