@@ -4,6 +4,7 @@ shares; and the figures around them.
 What they draw is `shown`. Each artist has its name as its label, and a legend is what has a label.
 """
 
+import logging
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path as File
@@ -31,6 +32,8 @@ from disc_model.figures.shown import label, value_text, words
 
 COLUMN = 3.307  # width of a figure of one column, inch
 PAGE = 6.85  # of a page
+# the reports of fontTools on fonts would fill the logs of figures
+logging.getLogger("fontTools").setLevel(logging.WARNING)
 STYLE = File(__file__).with_name("style.mplstyle")
 BAR = "<colorbar>"  # what matplotlib calls the axes of a bar of colours
 LETTERS_PER_INCH = 17.0  # of a legend

@@ -299,7 +299,7 @@ class CasePlot(Kind):
                 for key, name, broken in windows:
                     rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
                     if name in recorded:
-                        rule = broken(recorded[name]) if broken else ""
+                        rule = "" if broken is None else broken(recorded[name])
                     if rule:
                         yield Fault.of((key,), name, rule)
 

@@ -59,7 +59,6 @@ LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
 MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
 DASHES = ("-", "--", ":")
 LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
-CARRIED = 0.95  # share of height and force at one frequency, from which marks are filled
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
 NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
@@ -257,11 +256,10 @@ def bounding(
 ) -> xr.DataArray:
     """Where a curve passes between an area in which the cycle is stable and one beyond, both two
     cells wide or more: no curves of another cycle, and none finer than the cells."""
-    unstable = rate > 0 if curve["kind"] == "neutral" else ~(rate < 0)
     near = up.notnull() & (curve["adjoins_stable_cycle"] == "yes")
     known = near.values.copy()
     places = dict(zip(rate.dims, (up[known], across[known]), strict=True))
-    for area in (rate < 0, unstable):
+    for area in (rate < 0, ~(rate < 0)):
         padded = np.pad(area, 1, mode="edge")
         wide = binary_opening(padded, np.ones((2, 2)))[1:-1, 1:-1]
         around = area.copy(data=binary_dilation(wide, np.ones((3, 3))))
@@ -321,7 +319,6 @@ def sliding_outcome(
             shares = [float((part == word).mean()) for _, part in each_value(both, by)]
             said = ", ".join(f"{100 * share:.0f} %" for share in shares)
             looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
-    looks["undecided"] = LOOKS["undecided"]._replace(label="undecided, or no steady sliding")
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
     for ax, (title, part) in zip(axes, parts, strict=True):
@@ -567,7 +564,7 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
     data = data.isel(motion=data["deviation"].notnull().values)
     excess, apart = data["deviation"], data["separation_fraction"]
     shares = np.minimum(data["vibration_share"].values, data["force_share"].values)
-    single = shares >= CARRIED
+    single = shares >= 0.95
     groups = groups_of(data, set_apart)
     inside = (abs(excess) <= BAND).values
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
@@ -586,10 +583,9 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
         ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
         ax.set_ylabel("Excess of the range over R")
     times = np.linspace(0, np.max(apart.values, initial=0.01))
-    flights = [excess_of_flights(each) for each in times.tolist()]
+    flights = np.vectorize(excess_of_flights)(times)
     axes["apart"].plot(times, flights, color=BLACK, label="by flights: (π · time apart)²/8")
     axes["apart"].set_xlabel("Share of time apart")
-    axes["apart"].xaxis.set_major_formatter(PercentFormatter(1, 0))
     axes["all"].set(xscale="log", xlabel=f"{LIMIT} ({data['pinned_range'].units})")
     return figure
 
