@@ -68,7 +68,7 @@ def _frequencies(ax: Axes, modes: xr.Dataset, highest: float | None) -> None:
     """Frequencies of modes up to the highest shown, with their names, and how many have higher
     ones."""
     _lines_of_modes(ax, modes, "frequency")
-    end = highest or ROOM * float(modes["frequency"].max())
+    end = highest or ROOM * float(modes["frequency"].max().fillna(1.0))
     ax.set_ylim(0, end)
     _name_ends(ax, modes, "frequency")
     above = (modes["frequency"] > end).groupby("mode").any(...).sum().item()

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from pydantic import Field
 
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.figures.draw import (
     PAGE,
@@ -296,7 +297,7 @@ def _shares(ax: Axes, part: xr.Dataset, x: str) -> None:
     name = f"{100 * options['confidence']:g} % interval: separating"
     around = [withStroke(linewidth=2.5, foreground="white")]
     ax.vlines(along, low, high, color=BLACK, lw=0.9, path_effects=around, label=name)
-    ax.set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g} s")
+    ax.set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s")
 
 
 def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
@@ -305,13 +306,14 @@ def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
     starts = study["attractor_starts"]
     areas = LARGEST * starts / (study["kind"].size / study.sizes[x])
     at = study[x].broadcast_like(areas)
+    ax.set_yscale("log")
     for word in STACKED:
         ranges = study["attractor_range"].where(study["attractor_kind"] == word)
         look = LOOKS[word]
         shape = "D" if look.hatch else "o"
         ax.scatter(at, ranges, areas, color=look.face, marker=shape, ec=BLACK, lw=0.4)
     ax.set_title("attractors; area: share of starts")
-    ax.set(yscale="log", xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
+    ax.set(xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
 
 
 def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
@@ -320,7 +322,7 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
         ax,
         study["critical_energy"],
         x,
-        missing="no start separates",
+        missing="no start is known to separate",
         label="least energy, by bisection",
         color=RED,
         marker="v",
@@ -424,6 +426,8 @@ def phase_map(study: xr.Dataset) -> Figure:
     figure, axes = panels([["whole", "near"]], PAGE, 3.0)
     whole, near = axes.values()
     own = study["release_phase"].dropna("release").values
+    if not own.size or study["map_phase"].isnull().all():
+        raise Missing("has no release of stick")
     margin = 0.15 * np.ptp(own)
     low = own.min() - margin
     high = own.max() + margin
