@@ -13,13 +13,22 @@ from docs.sentences import NUMBER, ROOT, Value, numbers_of
 import disc_model as dm
 from disc_model.data.dataset import Missing, MissingFile, load
 from disc_model.data.variables import flag_names
-from disc_model.figures.late_range import lost_contact
-from disc_model.figures.selection import common_points
-from disc_model.figures.sensitivity import probabilities
-from disc_model.figures.sliding_outcome import agreement
+from disc_model.figures.shown import shown
+from disc_model.figures.studies import lost_contact, thirds_of
 from docs import brake_stress, plate_stiffening
 from workflow.paper import ledger, measures, survival
 
+FATES = {
+    "separation": "separates",
+    "growing": "grows",
+    "other_cycle": "grows",
+    "stick_slip": "quiet",
+    "steady_sliding": "quiet",
+    "at_rest": "quiet",
+}
+"""What becomes of a motion beside steady sliding, by its outcome."""
+ROUNDING = 1e-9
+"""Growth rate of undamped modes by rounding, 1/s."""
 THICKNESS = 0.012
 """Thickness of the ring of the brake-like disc, m."""
 
@@ -272,14 +281,17 @@ class Sources:
         Parameters
         ----------
         normalization : of the modes
-        word : how they agree, a key of `AGREEMENTS`; all points if empty
+        word : how they agree, such as "unstable_separates"; all points if empty
         """
         moved = self.grid("map_c_p").sel(normalization=normalization)
         slid = self.grid("sliding").rename(value="c_p").sel(normalization=normalization)
-        axes = ("N", "c_p")
-        plane, linear = common_points(moved.transpose(*axes, ...), slid.transpose(*axes, ...), axes)
-        words = agreement(linear["largest_growth_rate"].values, flag_names(plane["outcome"]))
-        return int((words == word).sum()) if word else words.size
+        fate = xr.apply_ufunc(np.vectorize(FATES.get), shown(moved)["outcome"])
+        rate = slid["largest_growth_rate"].reindex_like(fate, method="nearest", tolerance=1e-9)
+        unstable = xr.where(rate > ROUNDING, "unstable_", "stable_").astype(object)
+        common = rate.notnull()
+        if not word:
+            return int(common.sum())
+        return int((common & (unstable + fate == word)).sum())
 
     def critical_speed(self, N: float, horizon: float = 1000) -> float:
         """Return the lowest speed with separation at a preload, within a horizon in s, rad/s."""
@@ -336,8 +348,11 @@ class Sources:
         return f"{value:.2f} ({low:.2f} to {high:.2f})"
 
     def thirds(self, study: str, N: float, parameter: str) -> np.ndarray:
-        """Return the probability of instability in thirds of a parameter's range."""
-        return probabilities(self.uncertain(study, N), parameter)[:, 0]
+        """Return the probability of instability in the lowest and in the highest third of a
+        parameter's range."""
+        samples = shown(self.uncertain(study, N)).expand_dims("case")
+        shares = thirds_of(samples)["share"].sel(parameter=parameter)
+        return shares.isel(case=0).values
 
     def most_changing(self, study: str, N: float) -> str:
         """Return the largest changes of the probability of instability, as text.
@@ -372,8 +387,8 @@ class Sources:
     def brake_multiples(self) -> xr.DataArray:
         """Return the ranges with separation over those at which vibration at the frequency of the
         mode with the largest tangential motion loses contact."""
-        study = self.grid("brake_outcome").sel(disc="surface", contact="unilateral")
-        multiples = (study["u_max"] - study["u_min"]) / lost_contact(study, "surface")
+        study = shown(self.grid("brake_outcome").sel(disc="surface", contact="unilateral"))
+        multiples = (study["u_max"] - study["u_min"]) / lost_contact(study)
         return multiples.where(study["first_separation"].notnull())
 
     def brake_separation(self, N: float, Omega: float) -> float:

@@ -45,7 +45,7 @@ def run(**options: Any) -> None:
 
 start.__signature__ = inspect.signature(dm.State)  # type: ignore[attr-defined]
 run.__signature__ = inspect.signature(dm.Execution)  # type: ignore[attr-defined]
-PICTURE = {"ax": "None", "legend": "True", "labels": "None", "title": "text None True"}
+PICTURE = {"ax": "None", "units": "None"}
 CALLS = {"workers": "huge", "processes": "True", "executor": "None", "progress": "True"}
 SHAPES = {"case": P, "states": RUN.final_state, "r": 0.1, "theta": 0.0}
 #: Functions, right arguments, and by argument those of `WRONG` that are right as well.
@@ -92,37 +92,19 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         },
         CALLS | {"source": "text dict"},
     ),
-    (dm.plot_modes, {"case": P}, PICTURE | {"most": "huge"}),
+    (dm.plot_modes, {"case": P}, {"most": "huge"}),
     (dm.fit, {"case": P, "vary": ["E"], "data": FREQUENCY}, {"bounds": "None"}),
-    (
-        dm.plot_sweep,
-        {"study": GRID},
-        PICTURE
-        | {
-            "log": "True None",
-            "points": "True",
-            "variable": "None",
-            "x": "None",
-            "lines": "None",
-            "cmap": "None",
-            "limits": "None",
-            "units": "None",
-        },
-    ),
+    (dm.plot_sweep, {"study": GRID}, PICTURE),
     (RUN.plot, {"windows": "all"}, PICTURE | {"windows": "None"}),
     (RUN.plot_phase_portrait, {"window": "all"}, PICTURE | {"window": "None"}),
     (
         RUN.plot_spectrum,
         {"window": "all", "highest": 2e4},
-        PICTURE | {"window": "None", "highest": "None huge"},
+        PICTURE | {"window": "None", "highest": "None"},
     ),
     (RUN.plot_poincare, {}, PICTURE | {"window": "None"}),
     *((found.plot, {}, PICTURE) for found in (dm.floquet(P), dm.steady_sliding(P))),
-    (
-        dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot,
-        {},
-        PICTURE | {"looks": "None", "units": "None"},
-    ),
+    (dm.continue_cycle(P, "Omega", (19.9, 20.1)).plot, {}, PICTURE),
     (RUN.__getitem__, {}, {}),
     (DISC.to_csv, {}, {"path": "text"}),
     (dm.Disc.from_csv, {"path": "none.csv"}, {"path": "text"}),
@@ -204,7 +186,7 @@ ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")
     for function, others, right in SURFACE
     for name in inspect.signature(function).parameters
-    if name != "unnamed" and not name.startswith("_")
+    if name not in ("unnamed", "look") and not name.startswith("_")
 ]
 
 

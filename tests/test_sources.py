@@ -25,7 +25,7 @@ BODY = "import os\n\ndef f(x, *, y=1.0):\n    return [x, 'text', None] + y\n"
 ASIDE = {  # imported by the physics, but deciding no result, with the reason
     "data.coded": "words of tables of text",
     "data.complex_parts": "numbers of tables of text",
-    "data.described": "says what variables are when results are read",
+    "data.described": "says what variables are where files are read",
     "data.swept_branches": "reads branches of sweeps, of which studies make none",
     "display": "shows to a reader",
     "sources": "is this module",

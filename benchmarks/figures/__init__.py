@@ -6,13 +6,13 @@ They show speed against accuracy, failures of methods, costs of answers, and eff
 from collections.abc import Callable, Iterable
 
 import xarray as xr
+from matplotlib.figure import Figure
 
 from benchmarks.figures.maps import answer_maps, failure_maps
 from benchmarks.figures.replies import answers, prices
 from benchmarks.figures.speed import overview, scaling
 from benchmarks.figures.truncation import contact_truncation
-from disc_model.figures.style import styled
-from disc_model.figures.types import Figure
+from disc_model.figures.draw import styled
 
 FIGURES: dict[str, Callable[..., Figure]] = {
     "overview": overview,

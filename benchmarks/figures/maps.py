@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from benchmarks.figures.looks import SETTINGS, TEXTS, Look, row_panels
-from disc_model.figures.drawing import BLACK, GREY, letter
-from disc_model.figures.types import Axes, Figure
+from benchmarks.figures.looks import SETTINGS, TEXTS, Look, letter, row_panels
+from disc_model.figures.looks import BLACK, GREY
 
 
 def failure_maps(*maps: xr.Dataset) -> Figure:

@@ -7,15 +7,26 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 from matplotlib import colormaps
+from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import NullFormatter
 
-from benchmarks.figures.looks import LINES, OUTLINE, SETTINGS, TEXTS, Look, row_panels
-from disc_model.figures.drawing import BLACK, PAGE, letter, panels
-from disc_model.figures.types import Axes, Figure
+from benchmarks.figures.looks import (
+    LINES,
+    OUTLINE,
+    SETTINGS,
+    TEXTS,
+    Look,
+    letter,
+    panels,
+    row_panels,
+)
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import BLACK
 
 ANSWERS: dict[str, str] = TEXTS["answers"]
 HEADS: dict[str, str] = TEXTS["heads"]

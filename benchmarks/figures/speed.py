@@ -4,12 +4,14 @@ import math
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter, NullLocator
 
-from benchmarks.figures.looks import LINES, TEXTS, Look, row_panels
-from disc_model.figures.drawing import GREY, PAGE, letter, panels, say
-from disc_model.figures.types import Axes, Figure
+from benchmarks.figures.looks import LINES, TEXTS, Look, letter, panels, row_panels, say
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import GREY
 
 # ---- Speed against accuracy
 

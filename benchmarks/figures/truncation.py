@@ -7,23 +7,15 @@ from typing import NamedTuple
 
 import numpy as np
 import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import NullFormatter
 
-from benchmarks.figures.looks import TEXTS, Look
+from benchmarks.figures.looks import TEXTS, Look, letter, panels
 from disc_model.data.variables import values_text
-from disc_model.figures.drawing import (
-    BLACK,
-    BLUE,
-    GREEN,
-    GREY,
-    ORANGE,
-    PAGE,
-    PURPLE,
-    letter,
-    panels,
-)
-from disc_model.figures.types import Axes, Figure
+from disc_model.figures.draw import PAGE
+from disc_model.figures.looks import BLACK, BLUE, GREEN, GREY, ORANGE, PURPLE
 
 _CASES: list[Look] = [
     {"color": BLUE, "marker": "o"},

@@ -3,7 +3,7 @@
 from benchmarks.figures import draw
 from disc_model.data.dataset import load
 from disc_model.errors import script
-from disc_model.figures.style import save
+from disc_model.figures.kinds import save
 
 
 @script

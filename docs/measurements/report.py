@@ -8,11 +8,11 @@ import numpy as np
 from docs.measurements import load, robustness, stick_slip, wheel
 from docs.measurements.comparison import Comparison
 from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 from disc_model.errors import script
-from disc_model.figures.drawing import BLACK, SEPARATED, sample
-from disc_model.figures.legends import figure_legend
-from disc_model.figures.style import styled
+from disc_model.figures.draw import styled
+from disc_model.figures.looks import BLACK, RED
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
@@ -179,11 +179,11 @@ def draw_slips() -> Figure:
     """Draw measured and predicted medians of the runs, with quartiles of the measured slips."""
     mu_s, mu_k = stick_slip.friction()
     measured = {"color": BLACK, "marker": "o", "ms": 3.5, "linewidth": 0.8}
-    computed = {"color": SEPARATED, "marker": "D", "ms": 4, "mfc": "none", "linestyle": "none"}
+    computed = {"color": RED, "marker": "D", "ms": 4, "mfc": "none", "linestyle": "none"}
     with styled():
         figure = Figure(figsize=(6.9, 3.1), layout="constrained")
         axes = figure.subplots(1, 3)
-        above = {"textcoords": "offset points", "ha": "center", "fontsize": 6, "color": SEPARATED}
+        above = {"textcoords": "offset points", "ha": "center", "fontsize": 6, "color": RED}
         labels = ("Duration of a slip (ms)", "Period (ms)", "Fall of the force over the weight")
         ticks = ((5, 10, 20, 30), (20, 50, 100, 500, 2000), (0.03, 0.05, 0.1, 0.2))
         for place, run in enumerate(stick_slip.runs()):
@@ -215,10 +215,10 @@ def draw_slips() -> Figure:
             axis.set_xticklabels(names, fontsize=6, rotation=90)  # of up to ten characters each
             axis.set_xlabel("Stiffness (N/m), speed (µm/s)")
         named = [
-            sample(label="measured: median and quartiles", **measured),
-            sample(label="predicted", **computed),
+            Line2D([], [], label="measured: median and quartiles", **measured),
+            Line2D([], [], label="predicted", **computed),
         ]
-        figure_legend(figure, named, loc="outside lower right")
+        figure.legend(handles=named, loc="outside lower right", ncols=2)
     return figure
 
 

@@ -26,7 +26,6 @@ _NAMES = {
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
-    "figures.pictures": "plot_campbell plot_modes plot_sweep",
     "errors": (
         "Status DiscModelError ParameterError ModeError SimulationError PainleveParadox StepLimit Stalled NonFinite "
         "ImplausibleValue"
@@ -34,6 +33,7 @@ _NAMES = {
     "fit": "fit",
     "mode_choice": "choose_modes",
     "parameters": "Parameters Disc",
+    "figures": "plot_campbell plot_modes plot_sweep",
     "simulation.api": "simulate snapshots Execution",
     "simulation.case": "Window Poincare Ramp",
     "simulation.result": "Result",
@@ -85,7 +85,7 @@ if TYPE_CHECKING:
         Status,
         StepLimit,
     )
-    from disc_model.figures.pictures import plot_campbell, plot_modes, plot_sweep
+    from disc_model.figures import plot_campbell, plot_modes, plot_sweep
     from disc_model.fit import fit
     from disc_model.mode_choice import choose_modes
     from disc_model.parameters import Disc, Parameters

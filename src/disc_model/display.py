@@ -4,7 +4,7 @@ long."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
 from importlib.util import find_spec
@@ -68,49 +68,12 @@ def brought(module: str, extra: str) -> Any:
 
 
 def drawings() -> ModuleType:
-    """Return `disc_model.figures.results`, the functions that draw, imported when something is
-    drawn; raises `ModuleNotFoundError`, with the command to install it, without matplotlib."""
+    """Return `disc_model.figures.results`, the pictures of results, imported when something is drawn;
+    raises `ModuleNotFoundError`, with the command to install it, without matplotlib."""
     brought("matplotlib", "plot")
     from disc_model.figures import results
 
     return results
-
-
-def draw(picture: str, *inputs: Any, **options: Any) -> Any:
-    """Draw by a function of `disc_model.figures.results`, which is given by its name."""
-    function = getattr(drawings(), picture)
-    return function(*inputs, **options)
-
-
-class Drawn:
-    """A result with a picture, which a function of `disc_model.figures.results` draws."""
-
-    _picture: str
-
-    def plot(
-        self,
-        *,
-        ax: Any = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
-        title: str | bool | None = None,
-    ) -> Any:
-        """Draw the picture that the class describes, on axes of matplotlib or in a new figure;
-        returns the axes.
-
-        `ax`, `legend`, `labels` and `title` are as in `Result.plot`. Several cases of `floquet`,
-        `steady_sliding`, `lyapunov_exponents` or `neutral_curves` on the same axes have a look and
-        a name each. Raises
-        `ParameterError` if one of them cannot be understood, or there is nothing to draw, and
-        `CycleError` without a cycle.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
-        'Re κ'
-        """
-        return draw(self._picture, self, ax=ax, legend=legend, labels=labels, title=title)
 
 
 # ---- Progress

@@ -6,15 +6,24 @@ import numpy as np
 import pytest
 import xarray as xr
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 from benchmarks import figures
 from benchmarks.figures.looks import TEXTS
 from benchmarks.methods import METHODS
 from benchmarks.scenes import Verdict
-from disc_model.figures.classes import lightness
-from tests.figures.reading import labels
 
 GREY_APART = 0.12  # difference of lightness that a grey print shows
+
+
+def lightness(colour: str) -> float:
+    """Lightness in grey print, from 0 for black to 1 for white."""
+    return float(np.dot(to_rgb(colour), [0.299, 0.587, 0.114]))
+
+
+def labels(figure: Figure) -> list[str]:
+    """Entries of the legends of a figure."""
+    return [text.get_text() for legend in figure.legends for text in legend.get_texts()]
 
 
 @pytest.mark.parametrize("table", ["verdicts", "answered"])

@@ -11,7 +11,7 @@ DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", ROOT / "results" / "README.md"]
 PAGES += sorted(path for path in DOCS.rglob("*.md") if "_build" not in path.parts)
 SOURCES = [*sorted((ROOT / "src").rglob("*.py")), *sorted((ROOT / "workflow").rglob("*.*"))]
-TEXTS = PAGES + [path for path in SOURCES if "__pycache__" not in path.parts]
+TEXTS = PAGES + [path for path in SOURCES if path.suffix not in (".pyc", ".png")]
 ARCHITECTURE = (DOCS / "architecture.md").read_text(encoding="utf-8")
 PATHS = sorted(set(re.findall(r"`([\w./-]+(?:/|\.(?:py|yaml|smk|toml)))`", ARCHITECTURE)))
 NO_MODULES = {"yaml", "mplstyle", "post", "egg"}

@@ -177,7 +177,7 @@ def grid(
         attrs = {}
         if values.dtype.kind == "U":
             values = np.vectorize(WORDS.index)(values)
-            attrs = {"flag_meanings": " ".join(WORDS)}
+            attrs = {"flag_meanings": " ".join(WORDS), "flag_values": [*range(len(WORDS))]}
         dims = list(axes)[: values.ndim]
         found[name] = (dims, values, attrs)
     return found

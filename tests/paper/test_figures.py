@@ -1,5 +1,6 @@
-"""The paper's figures, as config/paper.yaml describes them."""
+"""The paper's figures, as config/paper.yaml describes them: values in the units of their labels."""
 
+import functools
 import re
 from pathlib import Path
 
@@ -8,149 +9,170 @@ import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 
-from disc_model import Parameters, Window, simulate
-from disc_model.data.variables import flag_names
-from disc_model.figures.kinds import CasePlot
-from disc_model.figures.render import render
-from disc_model.figures.sizes import COLUMN, PAGE
+from disc_model import Parameters, Poincare, Window, simulate
+from disc_model.data.variables import PHASES
+from disc_model.figures.kinds import render
+from disc_model.figures.schema import CasePlot, Plot
+from disc_model.figures.shown import shown, shown_case
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
-from tests.figures.reading import assert_fit_for_print, labels
-from tests.figures.test_cases import RECORDED, said_in, simulated
 from tests.paper import evidence
-from workflow.paper.figures.motion_around import motion_of
+from workflow.paper import figures
 
-STUDY = load_study(Path(__file__).parents[2] / "config" / "paper.yaml")
-FIGURES = {name: plot for name, plot in STUDY.figures.items() if isinstance(plot, CasePlot)}
-ONE_OF_EACH = list({plot.kind: name for name, plot in FIGURES.items()}.values())
-"""A figure of each kind."""
+ROOT = Path(__file__).parents[2]
 MOVED = {
     "fig26": {"zooms": (("spectrum_c", 54.0), ("spectrum_d", 57.0))},
     "fig28": {"zooms": (("spectrum_d", 56.5), ("spectrum_d", 57.0))},
     "composite": {"force": ("spectrum_d", 57.0)},
 }
 """Closer looks at times that the case has."""
+FIGURES = {
+    name: plot.model_copy(update=MOVED.get(name, {}))
+    for name, plot in load_study(ROOT / "config" / "paper.yaml").figures.items()
+}
+OF_CASES = {name: plot for name, plot in FIGURES.items() if isinstance(plot, CasePlot)}
 
 
-def drawn(name: str, case: xr.DataTree) -> Figure:
-    plot = FIGURES[name].model_copy(update=MOVED.get(name, {}))
-    return render(plot, dict.fromkeys(plot.cases, case))
+@functools.cache
+def case() -> xr.DataTree:
+    """A minute with the windows that the figures look for; contact is first lost at 54.4 s."""
+    starts = {"a": 0.0, "b": 20.0, "c": 53.0, "d": 56.0}
+    windows = {
+        "history": Window(stop=60, rate=200, envelope=100),
+        "zoom": Window(start=56, stop=56.035, rate=1e5),
+        "orbit": Window(start=59, rate=5e3),
+        "poincare": Poincare(),
+        **{f"spectrum_{x}": Window(start=t, stop=t + 3, rate=4e3) for x, t in starts.items()},
+        **{f"around{j}": Window(start=56, stop=56.035, rate=1e4, theta=0.7 * j) for j in range(9)},
+    }
+    return simulate(Parameters(N=385, Omega=15.1), 60, windows).to_tree()
+
+
+def drawn(name: str, tree: xr.DataTree | None = None) -> Figure:
+    plot = OF_CASES[name]
+    figure = render(plot, dict.fromkeys(plot.cases, case() if tree is None else tree))
+    figure.draw_without_rendering()
+    return figure
+
+
+@pytest.mark.parametrize("name", OF_CASES)
+def test_axes_have_names_and_units(name: str) -> None:
+    for ax in drawn(name).axes:
+        if ax.axison and ax.name != "polar":
+            assert re.search(r"\(\w.*\)$|^Power", ax.get_ylabel() or "(b)"), ax.get_ylabel()
+            assert re.search(r"\(\w.*\)$", ax.get_xlabel() or "(b)"), ax.get_xlabel()
+
+
+@pytest.mark.parametrize("damage", DAMAGES)
+@pytest.mark.parametrize("name", {plot.kind: name for name, plot in OF_CASES.items()}.values())
+def test_a_case_that_lacks_what_is_shown_says_so(name: str, damage: str) -> None:
+    figure = drawn(name, damaged(case(), DAMAGES[damage]))
+    said = [text.get_text().replace("\n", " ") for ax in figure.axes for text in ax.texts]
+    if damage == "failed":
+        assert said == ["not shown: the case failed"]
+    elif damage in ("nothing recorded", "empty windows"):
+        assert said[0].startswith("not shown: the case ")
+
+
+# ---- Values
+
+
+def test_one_separation_is_in_millimetres_micrometres_and_milliseconds() -> None:
+    both, gap = drawn("fig03").axes
+    start, stop = figures.first_complete(shown_case(case())["zoom"].to_dataset()) or (0, 0)
+    assert f"Time after {start:.9g} s (ms)" == gap.get_xlabel()
+    samples = case()["zoom"].to_dataset().sel(time=slice(start, stop))
+    rest = float(case()["u_0"])
+    disc, slider = both.lines[:2]
+    inside = (disc.get_xdata() >= 0) & (disc.get_xdata() <= 1e3 * (stop - start) + 1e-6)
+    np.testing.assert_allclose(disc.get_ydata()[inside], 1e3 * (samples["w"] - rest))
+    np.testing.assert_allclose(slider.get_ydata()[inside], 1e3 * (samples["u"] - rest))
+    largest = 1e6 * float((samples["u"] - samples["w"]).max())
+    assert gap.lines[0].get_ydata().max() == pytest.approx(largest)
+    assert gap.get_ylabel() == "Gap (μm)"
+
+
+def test_the_thickness_is_to_scale() -> None:
+    [bar] = [line for line in drawn("fig10").axes[0].lines if "thickness" in str(line.get_label())]
+    assert np.ptp(bar.get_ydata()) == pytest.approx(2.0)
+    assert bar.get_label() == "thickness of the disc, 2 mm"
+
+
+def test_spectra_in_time_show_the_stick_slip_frequency() -> None:
+    figure = drawn("fig25")
+    panels = [ax for ax in figure.axes if ax.get_ylim() == (0, 300) and ax.collections]
+    mesh = panels[0].collections[0]
+    frequency = mesh.get_coordinates()[:-1, 0, 1] + 0.5
+    level = np.asarray(mesh.get_array()).mean(axis=1)
+    peak = frequency[frequency > 20][int(np.argmax(level[frequency > 20]))]
+    # a cycle lasts 14.8 ms, 67.7 Hz; a multiple of it, or beside it by a turn
+    assert min(abs(peak - n * 67.7) for n in (1, 2, 3, 4)) < 4
+
+
+def test_the_disc_between_the_angles_is_the_disc() -> None:
+    """At the angle of a window that it is not made from, and clamped inside."""
+    p = Parameters(N=300, Omega=50, n_diameters=2, normalization="orthonormal")
+    angles = {f"around{j}": 1.2 * j for j in range(5)} | {"elsewhere": 2 * np.pi / 3}
+    windows = {
+        name: Window(start=0.5, stop=0.52, rate=2e4, theta=angle) for name, angle in angles.items()
+    }
+    tree = shown_case(simulate(p, 0.52, windows).to_tree())
+    there = tree["elsewhere/w_point"]
+    w = figures.deflection_around(tree, p, there["time"])
+    assert w.attrs["units"] == "mm"
+    found = w.sel(r=p.r_0).sel(theta=2 * np.pi / 3, method="nearest")
+    np.testing.assert_allclose(found, there, atol=1e-10 * float(abs(there).max()))
+    assert float(abs(w.isel(r=0)).max()) < 1e-9 * float(abs(w).max())
+
+
+# ---- Separations in a window
+
+FLAGS = {"flag_meanings": " ".join(PHASES), "flag_values": [*range(len(PHASES))]}
 
 
 @pytest.mark.parametrize(
-    ("name", "separates"),
-    [*((name, True) for name in FIGURES), *((name, False) for name in ONE_OF_EACH)],
+    ("marks", "spans", "complete"),
+    [
+        ("x..xxx..x", [(2.0, 2.0), (2.3, 2.5), (2.8, 2.8)], (2.3, 2.5)),
+        ("xx..xx.", [(2.0, 2.1), (2.4, 2.5)], (2.4, 2.5)),
+        ("xx...xx", [(2.0, 2.1), (2.5, 2.6)], None),  # both are cut off
+        ("....", [], None),
+    ],
 )
-def test_figures_are_fit_for_print(name: str, separates: bool) -> None:
-    figure = drawn(name, simulated(separates))
-    assert figure.get_figwidth() in (COLUMN, PAGE)
-    assert figure.get_suptitle() == "", "the caption says it"
-    assert_fit_for_print(figure)
+def test_separations_are_from_their_first_to_their_last_sample(
+    marks: str, spans: list[tuple[float, float]], complete: tuple[float, float] | None
+) -> None:
+    apart, slip = PHASES.index("separation"), PHASES.index("slip")
+    codes = np.array([apart if mark == "x" else slip for mark in marks], np.int8)
+    time = 2 + 0.1 * np.arange(len(marks))
+    samples = shown(xr.Dataset({"phase": ("time", codes, FLAGS)}, {"time": time}))
+    np.testing.assert_allclose(np.ravel(figures.separations(samples)), np.ravel(spans))
+    assert figures.first_complete(samples) == (complete and pytest.approx(complete))
 
 
-@pytest.mark.filterwarnings("error")
-@pytest.mark.parametrize("damage", DAMAGES)
-@pytest.mark.parametrize("name", ONE_OF_EACH)
-def test_what_a_case_does_not_hold_leaves_panels_empty(name: str, damage: str) -> None:
-    """A failed case, a window without what a figure needs, a section without points: all ended the
-    figure before."""
-    figure = drawn(name, damaged(simulated(True), DAMAGES[damage]))
-    figure.draw_without_rendering()
-    reasons = [text for text in said_in(figure) if text.startswith("not shown: the case ")]
-    if damage in ("failed", "nothing recorded"):
-        assert all(ax.texts for ax in figure.axes if not ax.has_data())
-        lacks = (f"did not record {window}" for window in (*RECORDED, "poincare", "events"))
-        if damage == "failed":
-            known = {"failed"}
-        else:
-            known = {*lacks}
-        assert set(reasons) <= {f"not shown: the case {reason}" for reason in known}
+# ---- Both normalisations
 
 
-def test_the_composite_has_phases_from_events() -> None:
-    """From samples at 4 kHz sticks of 0.94 and 0.78 ms had 0.7 to 1.1 ms, in no order."""
-    case = simulated(True)
-    force = drawn("composite", case).axes[2]
-    events = case["events"].to_dataset()
-    kinds = flag_names(events["kind"])
-    times = events["time"].values
-    begins = times[(kinds == "separation") & (times > 57) & (times < 57.04)]
-    ends = times[(kinds == "reattachment") & (times > 57) & (times < 57.04)]
-    shown = {1e3 * (time - 57) for time in (*begins, *ends)}
-    bars = {
-        x for patch in force.patches for x in (patch.get_x(), patch.get_x() + patch.get_width())
-    }
-    assert len(shown) >= 8
-    for time in shown:
-        assert min(abs(time - bar) for bar in bars) < 1e-9
-
-
-def test_captions_say_nothing_that_a_legend_finds_out() -> None:
-    """A caption said "not shown to have settled" of points that the legend called settled."""
-    for name, plot in STUDY.figures.items():
-        if plot.kind == "poincare":
-            assert not re.search(r"settled|in contact|crosses|dots|triangles", plot.caption), name
-
-
-def test_areas_of_the_figure_on_both_scales_have_names() -> None:
-    """Two names stood on white, which was a third area."""
-    plot = STUDY.figures["figB2"]
-    maps = evidence.scans()
-    figure = render(
-        plot,
-        {"study": xr.DataTree(maps["map_N"]), **{n: xr.DataTree(maps[n]) for n in plot.overlays}},
-    )
-    named = ["with neither", "only as published", "only by Eq. (17)", "with both"]
-    assert labels(figure)[:4] == named
-    assert not [text for text in figure.axes[1].texts if "only" in text.get_text()]
-
-
-# ---- the whole disc
-
-
-@pytest.fixture(scope="module")
-def case() -> xr.DataTree:
-    """A light disc that turns and separates soon; three modes, five angles."""
-    p = Parameters(N=300, Omega=50, n_diameters=2, normalization="orthonormal")
-    windows = [Window(start=0.5, stop=0.52, rate=2e4, theta=1.2 * j) for j in range(5)]
-    windows.append(Window(start=0.5, stop=0.52, rate=2e4, theta=2.1))
-    names = [*(f"around{j}" for j in range(5)), "elsewhere"]
-    return simulate(p, 0.52, dict(zip(names, windows, strict=True))).to_tree()
-
-
-@pytest.mark.compiled
-def test_the_disc_between_the_angles_is_the_disc(case: xr.DataTree) -> None:
-    """Under the slider, and at an angle that the shape is not made from; to rounding of the
-    displacement itself."""
-    motion = motion_of(case)
-    r_0 = np.array([motion.parameters.r_0])
-    elsewhere = case["elsewhere"].to_dataset()
-    size = float(np.abs(elsewhere["w"]).max())
-    for i in range(0, motion.time.size, 20):
-        under, there = motion.deflection(i, r_0, np.array([motion.slider[i], 2.1]))[0]
-        assert under == pytest.approx(float(elsewhere["w"][i]), abs=1e-12 * size)
-        assert there == pytest.approx(float(elsewhere["w_point"][i]), abs=1e-12 * size)
-
-    p = motion.parameters
-    w = np.abs(
-        motion.deflection(10, np.array([p.a, p.a + 1e-3 * (p.b - p.a), p.b]), np.linspace(0, 6, 7))
-    ).max(axis=1)
-    assert w[0] < 1e-9 * w[2], "it is clamped inside"
-    assert 0 < w[1] < 1e-5 * w[2]  # it leaves its plane with the square of the distance
-
-
-def test_the_figure_on_both_scales_counts_what_vanishes() -> None:
+@pytest.mark.parametrize("lost", [0, 2])
+def test_the_figure_on_both_scales_counts_what_vanishes(lost: int) -> None:
     """In the maps as told all nine separate with both; then two do with the published scale
     only."""
-    plot = STUDY.figures["figB2"]
     changes = {name: {"first_separation": [[[90]], [[np.nan]]]} for name in ("map_m", "map_D_star")}
-    for lost, maps in ((0, evidence.scans()), (2, evidence.scans(**changes))):
-        figure = render(
-            plot,
-            {
-                "study": xr.DataTree(maps["map_N"]),
-                **{n: xr.DataTree(maps[n]) for n in plot.overlays},
-            },
-        )
-        notes = [text.get_text() for text in figure.axes[2].texts if "arrows" in text.get_text()]
-        assert notes == [f"arrows: no separation\nby Eq. (17), {lost} of 9"][:lost]
+    maps = evidence.scans(**(changes if lost else {}))
+    plot = FIGURES["figB2"]
+    assert isinstance(plot, Plot)
+    inputs = {"study": maps["map_N"], **{name: maps[name] for name in plot.overlays}}
+    figure = render(plot, {name: xr.DataTree(each) for name, each in inputs.items()})
+    amplitudes, regions, times = figure.axes
+    title = " ".join(amplitudes.get_title(loc="left").split())
+    assert title == "(a) ratio 14 at l = 1"
+    assert (regions.get_xlabel(), regions.get_ylabel()) == ("Speed Ω (rad/s)", "Preload N (N)")
+    counts = {str(line.get_label()) for line in times.lines if "horizon" in str(line.get_label())}
+    assert counts == {f"none by Eq. (17) up to the horizon, {lost} of 9"} if lost else not counts
+
+
+def test_the_drawing_of_the_model_has_the_radii_of_table_1() -> None:
+    text = (ROOT / "workflow" / "paper" / "figures_model.svg").read_text("utf-8")
+    p = Parameters(N=385, Omega=15.1)
+    for name, radius in (("a", p.a), ("b", p.b), ("r_0", p.r_0)):
+        assert f"${name}$ = {1e3 * radius:g} mm" in text

@@ -114,7 +114,7 @@ def test_the_branch_of_a_block_ends_at_its_hopf_point_and_where_stick_slip_ends(
     assert branch.period[there] == pytest.approx(own.period, rel=1e-11)
     assert branch.state(there).psi == pytest.approx(own.state.psi, rel=1e-9)
     marks = [line.get_label() for line in branch.plot("period").lines]
-    assert "Hopf point at 1.5937 rad/s" in marks
+    assert "Hopf point" in marks
 
 
 def test_the_branch_of_a_disc_ends_where_steady_sliding_loses_stability() -> None:

@@ -9,8 +9,7 @@ import xarray as xr
 
 from disc_model.studies.merge import MergeError, _excluded, merge_batches, merge_cases
 from disc_model.studies.point_lists import _status_text, failures, point_text, remarks
-from disc_model.studies.quantities.bifurcation import Bifurcation
-from disc_model.studies.run import coordinates_of, run_batch
+from disc_model.studies.run import run_batch
 from tests.studies.conftest import computed
 from tests.studies.refused import parse_grid
 

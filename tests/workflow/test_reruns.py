@@ -116,7 +116,7 @@ def test_spelling_order_times_and_comments_run_nothing(project: Project) -> None
         ("src/disc_model/studies/merge.py", lambda _: MAP_TAIL | GROWTH_TAIL | {"merge_cases"}),
         ("src/disc_model/studies/study.py", lambda _: set()),
         ("src/disc_model/figures/history.py", lambda _: FIGURES | PLOT),
-        ("workflow/paper/figures/scales.py", lambda _: {"check_claims"} | TABLES),
+        ("workflow/paper/figures.py", lambda _: {"check_claims"} | TABLES),
         ("src/disc_model/figures/drawing.mplstyle", lambda _: FIGURES | PLOT),
         ("workflow/scripts/draw_figure.py", lambda _: FIGURES | PLOT),
         ("workflow/scripts/simulate_case.py", lambda _: SIMULATIONS | FIGURES | OF_F13 | MERGED),

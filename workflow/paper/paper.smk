@@ -61,6 +61,23 @@ rule make_table:
     shell:
         "job ../paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
+rule show_model:
+    # A drawing that was made once, with the radii of Table 1.
+    input:
+        WORKFLOW / "paper" / "figures_model.svg",
+    output:
+        report(
+            f"{RESULTS}/figures/model.svg",
+            caption="report/model.rst",
+            category="Figures",
+            subcategory="2 The model",
+            labels={"figure": "Fig.  1: The model"},
+        ),
+    log:
+        f"{RESULTS}/logs/show_model.log",
+    shell:
+        "cp {input:q} {output:q} > {log} 2>&1"
+
 
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
@@ -121,5 +138,5 @@ rule judge_survival:
 
 
 if STUDY.claims:
-    PRODUCTS += [*rules.check_claims.output]
+    PRODUCTS += [*rules.check_claims.output, *rules.show_model.output]
     PRODUCTS += collect(rules.make_table.output, table=MADE)

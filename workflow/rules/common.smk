@@ -52,7 +52,7 @@ if LOCAL and sys.platform == "linux":
     finalize(workflow, warm.kill)
 
 try:
-    from disc_model.figures.kinds import Plot
+    from disc_model.figures.schema import Plot
     from disc_model.errors import DiscModelError
     from disc_model.sources import (
         BATCHES,

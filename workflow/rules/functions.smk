@@ -28,7 +28,8 @@ def files_of(wildcards):
 def drawing_of(wildcards):
     """Sources of a figure: those of the package, and those of the part that its kind belongs to."""
     part = figure_of(wildcards).plot.kind.rpartition(".")[0]
-    return ["figures", "data", *([WORKFLOW / part / "figures"] if part else [])]
+    own = sorted((WORKFLOW / part).glob("figures*")) if part else []
+    return ["figures", "data", *own]
 
 
 def motions_of(study):

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
+from disc_model.figures.kinds import KINDS
 from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.study import Study
 
@@ -41,14 +42,18 @@ def schema_text() -> str:
     """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules
     between keys."""
     options = {name: quantity_of(name) for name in quantity_names()}
-    models: tuple[type[BaseModel], ...] = (Study, *options.values())
+    models: tuple[type[BaseModel], ...] = (Study, *options.values(), *KINDS.values())
     refs, content = models_json_schema(
         [(model, "validation") for model in models], schema_generator=_Plain
     )
+    study = content["$defs"].pop(Study.__name__)
+    of_kinds = [refs[kind, "validation"] for _, kind in sorted(KINDS.items())]
+    others = {"type": "object", "properties": {"kind": {"pattern": r"^\w+\.\w+$"}}}
+    study["properties"]["figures"]["additionalProperties"] = {"anyOf": [*of_kinds, others]}
     schema = {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
         "title": "A study of disc_model",
-        **content["$defs"].pop(Study.__name__),
+        **study,
         "anyOf": [{"required": [key]} for key in ("cases", "quantity", "studies")],
         "allOf": [
             {

@@ -5,9 +5,7 @@ import json
 
 from disc_model.data.dataset import load_result
 from disc_model.errors import script
-from disc_model.figures.kinds import kind_of
-from disc_model.figures.render import render
-from disc_model.figures.style import save
+from disc_model.figures.kinds import kind_of, render, save
 
 
 @script

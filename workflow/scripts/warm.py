@@ -54,7 +54,7 @@ def prepare():
     from io import BytesIO
 
     # the first of those that import numba sets the cache's folder
-    for name in ("simulation.api", "studies.run", "data.texts", "figures.kinds"):
+    for name in ("simulation.api", "studies.run", "data.texts", "figures.schema"):
         import_module(f"disc_model.{name}")
     yield 0
     # numba reads its tables of types when it first compiles or loads something, for 0.4 s
@@ -64,16 +64,15 @@ def prepare():
     sources.source_hash(*sources.BATCHES)  # which every batch states
     yield 0
     backends = [f"matplotlib.backends.backend_{form}" for form in ("agg", "pdf")]
-    drawings = "disc_model.figures.render"
+    drawings = "disc_model.figures.kinds"
     for name in ("scipy.special", "scipy.signal", "pint", "cmcrameri.cm", *backends, drawings):
         import_module(name)
         yield 0
-    from disc_model.figures.drawing import panels
-    from disc_model.figures.style import styled
+    from disc_model.figures.draw import panels, styled
 
     for form in ("png", "pdf"):
         with styled():
-            panels(1, 1)[0].savefig(BytesIO(), format=form)
+            panels([["a"]])[0].savefig(BytesIO(), format=form)
         yield 0
 
 

@@ -1,36 +1,392 @@
-"""Pictures that results draw of themselves, by the names under which they ask for them."""
+"""Pictures that results draw of themselves, and of sweeps: on `ax` if they have one panel, and else in
+a new figure.
 
-from disc_model.figures.branch import plot_branch
-from disc_model.figures.campbell_picture import plot_campbell
-from disc_model.figures.critical import plot_critical
-from disc_model.figures.eigenvalues import plot_eigenvalues
-from disc_model.figures.exponents import plot_exponents
-from disc_model.figures.film import animate, film_writer
-from disc_model.figures.history import plot_run
-from disc_model.figures.modes import plot_modes
-from disc_model.figures.multipliers import plot_multipliers
-from disc_model.figures.neutral_curves import plot_neutral_curves
-from disc_model.figures.poincare import plot_poincare
-from disc_model.figures.portrait import plot_phase_portrait
-from disc_model.figures.runs import window_of
-from disc_model.figures.spectrum import plot_spectrum
-from disc_model.figures.sweep import plot_sweep
+A second picture on the same axes is drawn in the next colour, with `label` as its name. What a reader
+wishes otherwise is said to the axes that come back.
+"""
 
-__all__ = [
-    "animate",
-    "film_writer",
-    "plot_branch",
-    "plot_campbell",
-    "plot_critical",
-    "plot_eigenvalues",
-    "plot_exponents",
-    "plot_modes",
-    "plot_multipliers",
-    "plot_neutral_curves",
-    "plot_phase_portrait",
-    "plot_poincare",
-    "plot_run",
-    "plot_spectrum",
-    "plot_sweep",
-    "window_of",
-]
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from typing import Annotated, Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.transforms import Bbox
+from pydantic import AfterValidator, Field
+
+from disc_model.data.dataset import Missing
+from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.disc.plate import mode_arrays, radial_range
+from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
+from disc_model.figures import runs, stability
+from disc_model.figures.draw import (
+    bar_of,
+    break_label,
+    cells,
+    class_map,
+    colours_of,
+    explain,
+    is_rate,
+    is_words,
+    lines,
+    number_map,
+    rate_axis,
+    shares,
+    unresolved,
+    wished,
+)
+from disc_model.figures.looks import Look
+from disc_model.figures.modes import draw_campbell
+from disc_model.figures.schema import MOST_VALUES, known_units
+from disc_model.figures.shown import label, parameter_of, shown, shown_case, value_text
+from disc_model.figures.studies import in_doubt, rate_map, why_missing
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.units import Count, Positive, Strict, Unit
+
+USUAL = (
+    "basin_fraction_by_energy",
+    "basin_fraction",
+    "value",
+    "growth_rate",
+    "outcome",
+    "critical_speed",
+    "separation_rate",
+    "scan_first_separation",
+    "exponent",
+    "exponents",
+    "largest_growth_rate",
+    "n_separations",
+    "omega",
+    "psi",
+    "kind",
+)
+"""Variables of sweeps that are drawn unless another one is asked for: the first that there is."""
+CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
+OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
+ROW = 1.4  # height of a row of histories, inch
+LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
+
+
+# ---- Arguments and axes
+
+
+class Wishes(Strict):
+    """What a reader may ask of pictures, checked."""
+
+    units: Annotated[dict[str, str], AfterValidator(known_units)] | None = None
+    highest: Annotated[Positive, Unit("Hz")] | None = None
+    multiples: tuple[Positive, ...] = ()
+    most: Annotated[Count, Field(ge=1)] = 1
+    variables: Annotated[tuple[str, ...], Field(min_length=1)] = ("P",)
+    windows: Annotated[tuple[str, ...], Field(min_length=1)] = ("",)
+    variable: str = ""
+    x: str = ""
+
+
+def axes_for(ax: Any) -> Axes:
+    """The axes of a reader, or those of a new figure."""
+    require((isinstance(ax, Axes | None), "ax", ax, "must be axes of matplotlib"))
+    return plt.subplots(layout="constrained")[1] if ax is None else ax
+
+
+def explained(ax: Axes, below: bool = False) -> Axes:
+    """Axes with a legend of what has a label, in them or below, and with a long label in lines."""
+    break_label(ax, 3)
+    if below:
+        explain(ax.figure, [ax], LETTERS)
+    elif ax.get_legend_handles_labels()[1]:
+        ax.legend()
+    return ax
+
+
+def on_axes(draw: Callable[..., None]) -> Callable[..., Axes]:
+    """A picture by a function that draws on axes: on those of a reader or new ones, with a legend."""
+
+    def picture(ax: Any, *drawn: Any, **look: Any) -> Axes:
+        ax = axes_for(ax)
+        draw(ax, *drawn, **look)
+        return explained(ax)
+
+    return picture
+
+
+# ---- Stability
+
+multipliers = on_axes(stability.draw_multipliers)
+eigenvalues = on_axes(stability.draw_eigenvalues)
+exponents = on_axes(stability.draw_exponents)
+critical = on_axes(stability.draw_critical)
+curves = on_axes(stability.draw_curves)
+
+
+def branch(ax: Any, found: Any, y: str, units: Any, **look: Any) -> Axes:
+    """Draw a branch, as `Branch.plot` describes."""
+    return on_axes(stability.draw_branch)(ax, found, y, Wishes(units=units).units, **look)
+
+
+def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
+    """Draw a Campbell diagram, as `disc_model.plot_campbell` describes."""
+    is_study = isinstance(study, xr.Dataset) and "crossing_Omega" in study
+    require((is_study, "study", study, "must be a study of the quantity campbell"))
+    given = Wishes(highest=highest, multiples=multiples, units=units)
+    data = shown(study.squeeze(), given.units)
+    further = [dim for dim in data.dims if dim not in ("Omega", "mode", "crossing")]
+    rule = f"must vary along Omega alone: choose a value, as by {selection(further)}"
+    require((not further, "study", ", ".join(map(str, further)), rule))
+    options: Any = {"sharex": True, "height_ratios": [3, 2]}
+    figure, axes = plt.subplots(2, figsize=(6.4, 6.4), layout="constrained", **options)
+    draw_campbell(axes, data, given.highest, given.multiples)
+    for ax in axes:
+        break_label(ax, 2)
+    explain(figure, axes, LETTERS)
+    return axes
+
+
+def modes(case: Any, most: Any) -> Any:
+    """Draw the shapes of modes, as `disc_model.plot_modes` describes."""
+    raise_faults(foreign_case(case))
+    radial_range(case)  # raises an error without shapes
+    count = min(Wishes(most=most).most, len(mode_arrays(case).omega))
+    require((count > 0, "n_diameters", case.n_diameters, "must be >= 0 for modes"))
+    columns = min(count, 5)
+    rows = -(-count // columns)
+    size = (2 * columns, 2.2 * rows)
+    options: Any = {"squeeze": False, "subplot_kw": {"projection": "polar"}}
+    _, axes = plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
+    for spare in axes.flat[count:]:
+        spare.set_axis_off()
+    stability.draw_modes(axes.flat[:count], case)
+    return axes.ravel()
+
+
+# ---- Runs
+
+
+@contextmanager
+def refused(name: str, value: object) -> Iterator[None]:
+    """What a run does not hold is a fault of an argument."""
+    try:
+        yield
+    except Missing as reason:
+        raise ParameterError(Fault.of((name,), value, f"the run {reason}")) from None
+
+
+def window_of(case: xr.DataTree, name: Any, which: str = "window", **variables: Any) -> xr.Dataset:
+    """A window of a shown run; raises `ParameterError`.
+
+    which : the argument that names the window
+    variables : those whose samples it must hold, by the arguments that name them
+    """
+    with refused(which, name):
+        samples = runs.window_of(case, str(name))
+    for argument, variable in variables.items():
+        held = isinstance(variable, str) and variable in samples
+        require((held, argument, variable, f"is not among the samples of the window {name}"))
+    return samples
+
+
+def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: Any) -> Any:
+    """Draw variables of a run, a row each, in windows, a column each."""
+    given = Wishes(windows=windows, variables=variables, units=units)
+    case = shown_case(case, given.units)
+    samples = [window_of(case, name, "windows") for name in given.windows]
+    shape = (len(given.variables), len(samples))
+    size = (1.4 + 3.4 * shape[1], 0.9 + ROW * shape[0])
+    options: Any = {"sharex": "col", "sharey": "row", "squeeze": False}
+    figure, axes = plt.subplots(*shape, figsize=size, layout="constrained", **options)
+    with refused("variables", variables):
+        for column, each in zip(axes.T, samples, strict=True):
+            runs.draw_history(column, each, given.variables)
+    runs.mark_first_separation(axes.flat, case)
+    for ax in axes.flat:
+        ax.label_outer()
+        break_label(ax, ROW)
+    figure.align_ylabels()
+    explain(figure, [*axes.flat], LETTERS)
+    return axes.squeeze()[()]
+
+
+def portrait(
+    case: xr.DataTree, name: Any, x: str, y: str, ax: Any, units: Any, **look: Any
+) -> Axes:
+    """Draw one variable of a run over another, coloured by phase, or in one colour beside others."""
+    samples = window_of(shown_case(case, Wishes(units=units).units), name, x=x, y=y)
+    ax = axes_for(ax)
+    if look or ax.lines:
+        ax.plot(samples[x], samples[y], **look)
+        ax.set(xlabel=label(samples[x]), ylabel=label(samples[y]))
+    else:
+        runs.draw_portrait(ax, samples, x, y)
+    return explained(ax)
+
+
+def spectrum(
+    case: xr.DataTree, name: Any, variable: str, highest: Any, ax: Any, units: Any, **look: Any
+) -> Axes:
+    """Draw the amplitude of a variable of a run over the frequency."""
+    given = Wishes(highest=highest, units=units)
+    samples = window_of(shown_case(case, given.units), name, variable=variable)
+    ax = axes_for(ax)
+    before, limits = len(ax.lines), ax.viewLim.frozen()
+    with refused("window", name):
+        runs.draw_spectrum(ax, samples, variable, given.highest)
+    for line in ax.lines[before:]:
+        line.set(**wished(look, color=f"C{before}"))
+    if before:
+        whole = Bbox.union([limits, ax.viewLim])
+        ax.set(xlim=whole.intervalx, ylim=whole.intervaly)
+    return explained(ax)
+
+
+def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
+    """Draw the Poincaré sections of slider and disc."""
+    case = shown_case(case, Wishes(units=units).units)
+    figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
+    with refused("window", name):
+        runs.draw_sections(axes, case, name)
+    figure.suptitle(", ".join(runs.fate_of(case)))
+    explain(figure, axes, LETTERS)
+    return axes
+
+
+def film(p: Parameters, states: Any, case: xr.DataTree, name: str) -> Any:
+    """Make a film of states of a run beside the contact force in a window."""
+    return runs.animate(p, states, window_of(shown_case(case), name))
+
+
+# ---- Sweeps: what is drawn of them
+
+
+def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -> Axes:
+    """Draw a variable of a sweep, as `disc_model.plot_sweep` describes."""
+    is_study = isinstance(study, xr.Dataset | xr.DataTree)
+    require((is_study, "study", study, "must be an xarray.Dataset"))
+    units = Wishes(variable=variable, x=x, units=units).units
+    data = study.to_dataset() if isinstance(study, xr.DataTree) else study
+    if is_of_sweep(data):
+        each = f"disc_model.Branch.from_dataset({selected_text(data, 'study')})"
+        raise ParameterError(Fault(("study",), "", f"holds branches: draw one by {each}.plot()"))
+    data = swapped(data.squeeze().compute(), x)
+    name = chosen(data, variable, x)
+    numbers = number_axes(data, name)
+    data = shown(data.sortby(numbers), units)
+    named = [str(dim) for dim in data[name].dims if dim in data.coords and dim != CLASSES]
+    across = str(x or [*numbers, *named, *data[name].dims][0])
+    below = ax is None
+    ax = axes_for(ax)
+    if across != CLASSES in data[name].dims:
+        shares(ax, data[across], data[name], CLASSES)
+        ax.set_ylabel(label(data[name]))
+    elif x or len(numbers) < 2:
+        below = False
+        draw_lines(ax, data, name, across, joined=across in study.dims, **look)
+    else:
+        draw_map(ax, data.transpose(*reversed(numbers), ...), name, **look)
+    return explained(ax, below)
+
+
+def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
+    """A study along a column of values that vary together, such as paired samples: `x`, or the first of
+    numbers along a dimension without values of its own."""
+    columns = {name: each.dims[0] for name, each in study.coords.items() if each.ndim == 1}
+    numbers = [name for name in columns if study[name].dtype.kind in "fiu"]
+    for name in (x, *numbers):
+        dim = columns.get(name, name)
+        if dim in study.dims and dim != name and (name == x or dim not in study.coords):
+            study = study.swap_dims({dim: name})
+    if {"exponents_index", "converged_index"} <= {*study.dims}:  # of `lyapunov_exponents`
+        along = study["converged"].rename(converged_index="exponents_index")
+        study = study.assign(converged=along)
+    return study
+
+
+def chosen(study: xr.Dataset, variable: str, x: str) -> str:
+    """The name of the variable that is drawn; raises `ParameterError`."""
+    known = [str(name) for name in study.data_vars]
+    plain = [name for name in known if "flag_meanings" not in study[name].attrs]
+    numbers = [name for name in plain if study[name].dtype.kind in "fiu"]
+    varying = [name for name in (*USUAL, *numbers, *known) if name in known and study[name].ndim]
+    name = variable or [*varying, ""][0]
+    require((name in known, "variable", name, f"unknown variable{suggestion(name, known)}"))
+    dims = [str(dim) for dim in study[name].dims]
+    others = [dim for dim in dims if dim != x][2 - (x in dims) :]
+    rule = f"varies along {', '.join(dims) or 'nothing'}, but must vary along one or two dimensions"
+    if others:
+        rule += f": choose values of others, as by {selection(others)}"
+    real = study[name].dtype.kind != "c"
+    require(
+        (real, "variable", name, "is complex: draw a part of it, such as abs(...)"),
+        (dims and not others, "variable", name, rule),
+        (not x or x in dims, "x", x, f"must be one of its dimensions{suggestion(x, dims)}"),
+    )
+    return name
+
+
+def selection(dims: Iterable[Any]) -> str:
+    """How values along dimensions are chosen."""
+    return f"study.sel({', '.join(f'{dim}=...' for dim in dims)})"
+
+
+def number_axes(study: xr.Dataset, name: str) -> list[str]:
+    """Dimensions of a variable that have numbers, which do not only count values at a point of the grid,
+    as those of samples do."""
+    dims = [str(dim) for dim in study[name].dims if dim in study.coords]
+    points = study.get("status", study[name]).dims
+    kinds = {dim: study[dim].dtype.kind for dim in dims}
+    return [dim for dim, kind in kinds.items() if kind == "f" or (kind in "iu" and dim in points)]
+
+
+# ---- Sweeps: drawing
+
+
+def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
+    """Draw classes, or numbers in colours, over two dimensions (up, across)."""
+    plane, doubt = study[name], in_doubt(study, name)
+    if is_words(plane):
+        class_map(ax, plane)
+        unresolved(ax, plane)
+        return
+    colours = {**colours_of(plane), **look}
+    paint = rate_map if is_rate(plane) else number_map
+    mesh = paint(ax, plane, why_missing(study, name), **colours)
+    bar_of(ax.figure, ax, mesh, plane)
+    if doubt is not None:
+        why = f"circles: {doubt.attrs['long_name']}"
+        cells(ax, plane, doubt.values, Look(why, "none", "oo"))
+
+
+def draw_lines(
+    ax: Axes, study: xr.Dataset, name: str, across: str, *, joined: bool, **look: Any
+) -> None:
+    """Draw a line for each value of a second dimension, or points where there are many of these.
+
+    joined : whether lines join the points, which are not paired values
+    """
+    array, doubt = study[name], in_doubt(study, name)
+    by = next((str(dim) for dim in array.dims if dim != across), "")
+    usual: dict[str, Any] = {"markersize": 3}
+    if not by:
+        chosen_values = [x for x in array.coords.values() if x.ndim == 0 and parameter_of(x)]
+        usual["label"] = ", ".join(map(value_text, chosen_values))
+    if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
+        array = flattened(array, across)
+        doubt = None if doubt is None else flattened(doubt, across)
+        usual |= {"marker": ".", "linestyle": "", "missing": ""}
+    if not joined:
+        usual["linestyle"] = ""
+    if doubt is not None:
+        usual["doubt"] = doubt.attrs["long_name"]
+    if name in OF_CYCLES and study.attrs.get("function") != "steady_sliding":
+        usual["jump"] = 1.0
+    lines(ax, array, across, doubtful=doubt, **wished(look, **usual))
+    if is_rate(array):
+        rate_axis(ax)
+
+
+def flattened(array: xr.DataArray, across: str) -> xr.DataArray:
+    """All values at each place along a dimension, in one line."""
+    x = array[across].broadcast_like(array)
+    along = xr.DataArray(np.ravel(x), dims=across, attrs=x.attrs)
+    return xr.DataArray(np.ravel(array), {across: along}, name=array.name, attrs=array.attrs)

@@ -1,224 +1,370 @@
-"""What pictures of a run have in common: its windows and phases, and how a sampled
-variable is drawn.
+"""Figures of single runs: time histories, phase portraits, Poincaré sections, spectra, and films.
+
+What they draw on axes are windows of a `shown` case, see `window_of`.
 """
 
-import json
-from collections.abc import Mapping, Sequence
-from typing import Any, Literal
+from collections.abc import Iterable, Sequence
+from typing import Annotated, Any
 
 import numpy as np
 import xarray as xr
+from cmcrameri import cm
+from matplotlib.animation import FuncAnimation
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patheffects import withStroke
+from pydantic import Field
 
-from disc_model.data import dataset
-from disc_model.data.variables import PHASES, axis_of, flag_names, ranged_variable
-from disc_model.errors import Fault, ParameterError, require, suggestion
-from disc_model.figures import selection
-from disc_model.figures.drawing import BLACK, DISC, FORCE, SEPARATED, SLIDER, halo, large, say, wide
-from disc_model.figures.stated_case import size_of
-from disc_model.figures.still_motions import ends_shown, show_ends
-from disc_model.figures.types import Array, Axes
+from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
+from disc_model.data.dataset import Missing
+from disc_model.disc.plate import radial_range
+from disc_model.figures.draw import COLUMN, PAGE, bar_of, compare, number_map, panels
+from disc_model.figures.looks import BLACK, OF_PHASE, OF_VARIABLE, RED, SKY
+from disc_model.figures.schema import Cases, Either, InTime, Sampled, Samples, case_figure
+from disc_model.figures.shown import key_of, label, value_text, words
+from disc_model.parameters import Parameters
+from disc_model.simulation.states import deflection
+from disc_model.units import Positive, Unit
 
-Span = tuple[float, float]  # s, begin and end
-Spans = Mapping[str, Sequence[Span]]  # by phase
-
-TIME = "Time (s)"
-ABOVE = 1.04  # height of a bar above a panel, as a share of it,
-RIGHT = 1.02  # and place of one beside it
-
-# ---- Windows
+NO_BREAK = "\N{NO-BREAK SPACE}"
+HALO = [withStroke(linewidth=2, foreground="white")]
+Look = dict[str, Any]
+"""Options of matplotlib."""
+Hertz = Annotated[Positive, Unit("Hz")]
 
 
-def window_of(
-    case: xr.DataTree,
-    name: object,
-    *variables: tuple[str, object],
-    which: str = "window",
-    samples: bool = False,
-) -> xr.Dataset:
-    """A window of a run, if it holds what is needed; raises `ParameterError`.
+# ---- Windows of a case
 
-    Parameters
-    ----------
-    name : of the window
-    variables : what it must hold, each after the argument that names it
-    which : the argument that names the window
-    samples : whether it must hold samples instead of ranges
-    """
-    known = [str(child) for child in case.children if child not in ("events", "poincare")]
-    if not (isinstance(name, str) and name in case.children):
-        raise ParameterError(Fault.of((which,), name, f"was not recorded{suggestion(name, known)}"))
-    window = dataset.group(case, name)
-    held = [ranged_variable(str(x)) for x in window if x != "phase"]
-    for argument, variable in variables:
-        if not (isinstance(variable, str) and variable in held):
-            rule = f"is not in the window {name}{suggestion(variable, dict.fromkeys(held))}"
-            raise ParameterError(Fault.of((argument,), variable, rule))
-    require(("phase" in window or not samples, which, name, "must hold samples, not their ranges"))
+
+def window_of(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
+    """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
+    if it has fewer samples."""
+    if name not in case.children:
+        failed = str(case["status"].item()) == "failed"
+        raise Missing("failed" if failed else f"did not record {name}")
+    window: xr.Dataset = case.children[name].to_dataset(inherit=False)
+    size = window.sizes["time"]
+    if size < at_least:
+        raise Missing(f"has {size} samples in {name}, at least {at_least} are needed")
+    for of_point in (x for x in window if str(x).startswith("w_point")):
+        place = f"θ = {window.attrs['theta']:g} rad".replace(" ", NO_BREAK)
+        window[of_point].attrs["long_name"] += f", {place}"
     return window
 
 
-def span_of(window: xr.Dataset) -> float:
-    """Time from the first to the last sample of a window, s."""
-    times = window["time"].values
-    return float(np.ptp(times)) if times.size else 0.0
+def number_of(case: xr.DataTree, name: str) -> float:
+    """A number of a whole run, nan if it does not have it."""
+    return float(case.dataset.get(name, np.nan))
 
 
-# ---- Phases
+def mark_first_separation(axes: Iterable[Axes], case: xr.DataTree) -> None:
+    """Mark the first separation on axes of time that show it."""
+    first = number_of(case, "first_separation")
+    for ax in axes:
+        low, high = ax.get_xlim()
+        if low < first < high:
+            look: Look = {"color": RED, "ls": (0, (4, 2)), "lw": 0.8, "path_effects": HALO}
+            ax.axvline(first, label=f"first separation, {first:.2f} s", **look)
 
 
-def spans_between(case: xr.DataTree, start: float, stop: float) -> Spans:
-    """Stretches of each phase between two times in s, from the events; raises `Missing` unless the
-    case keeps all events there, and one before.
+# ---- Histories
 
-    A study's case keeps those of a span. A run that is drawn at once has all of them.
-    """
-    events = dataset.group(case, "events")
-    times = events["time"].values
-    phases = flag_names(events["phase"])
-    kept_from = events.attrs.get("kept_from", -np.inf)
-    kept_until = events.attrs.get("kept_until", np.inf)
-    inside = (times > start) & (times < stop)
-    before = np.flatnonzero(times <= start)
-    if start < kept_from or stop > kept_until or not before.size:
-        raise dataset.Missing(f"keeps no events from {start:g} to {stop:g} s")
-    words = [phases[before[-1]], *phases[inside]]
-    borders = [start, *times[inside].tolist(), stop]
-    spans: dict[str, list[Span]] = {phase: [] for phase in PHASES}
-    for word, begin, end in zip(words, borders[:-1], borders[1:], strict=True):
-        same = spans[word]
-        if same and same[-1][1] == begin:  # the phase goes on, as at a reversal of slip
-            same[-1] = (same[-1][0], end)
+MOST_SHADED = 60
+"""Stretches of a phase that are shaded; more would be as dense as a fill."""
+OPACITY = {"stick": 0.22, "separation": 0.5}
+"""Of phases behind a history, which differ in darkness."""
+
+
+@case_figure()
+def history(
+    case: xr.DataTree,
+    window: Either,
+    variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w"),
+) -> Figure:
+    """Variables against time, one above the other; a window with an envelope as ranges."""
+    figure, axes = panels([[name] for name in variables], COLUMN, 1.2, sharex=True)
+    draw_history([*axes.values()], window_of(case, window), variables)
+    mark_first_separation(axes.values(), case)
+    return figure
+
+
+def draw_history(axes: Sequence[Axes], samples: xr.Dataset, variables: Sequence[str]) -> None:
+    """Draw variables against time, a panel for each, or their ranges, over stick and separation.
+    Raises `Missing` if the window lacks one."""
+    time = samples["time"]
+    for ax, name in zip(axes, variables, strict=True):
+        colour = OF_VARIABLE.get(name.removesuffix("_velocity"), BLACK)
+        if name in samples:
+            x = samples[name]
+            ax.plot(time, x, color=colour, lw=0.8)
+        elif f"{name}_max" in samples:
+            x = samples[f"{name}_max"]
+            draw_range(ax, samples, name, color=colour)
         else:
-            same.append((begin, end))
-    return spans
+            raise Missing(f"did not record {name} in this window")
+        ax.set_ylabel(label(x))
+        shade_phases(ax, samples)
+    axes[-1].set_xlabel(label(time))
 
 
-def spans_in(case: xr.DataTree, window: xr.Dataset) -> Spans:
-    """Stretches of each phase in a window; borders lie halfway between samples where the case
-    keeps no events. Nothing for a window that holds ranges."""
-    if "phase" not in window or window.sizes["time"] < 2:
-        return {phase: [] for phase in PHASES}
-    time = window["time"].values
-    words = flag_names(window["phase"])
+def draw_range(ax: Axes, samples: xr.Dataset, name: str, **look: Any) -> None:
+    """Draw the range of a variable against time, as a band that is seen where it is thin."""
+    low, high = (samples[f"{name}_{end}"] for end in ("min", "max"))
+    ax.fill_between(samples["time"], low, high, lw=0.5, **look)
+
+
+def shade_phases(ax: Axes, samples: xr.Dataset, phases: Iterable[str] = OPACITY) -> None:
+    """Shade stick and separation behind a history of samples, unless they alternate too often; slip
+    is left white."""
+    if "phase" not in samples:
+        return
+    said = words(samples["phase"])
+    to_page = ax.get_xaxis_transform()
+    for phase in phases:
+        inside = said == phase
+        if not 0 < np.diff(inside, prepend=False).sum() <= 2 * MOST_SHADED:
+            continue
+        inside[1:] |= inside[:-1]  # a phase lasts up to the next sample
+        look: Look = {"color": OF_PHASE[phase], "alpha": OPACITY[phase], "lw": 0, "zorder": 0}
+        ax.fill_between(samples["time"], 0, 1, inside, transform=to_page, label=phase, **look)
+
+
+# ---- Phase portraits
+
+LINES: dict[str, Look] = {
+    "slip": {"lw": 0.5},
+    "stick": {"lw": 2.0, "path_effects": [withStroke(linewidth=2.8, foreground=BLACK)]},
+    "separation": {"lw": 1.4, "ls": (0, (2.0, 0.8))},
+}
+"""Of phases: thin, edged and dashed, and so told apart in grey print."""
+
+
+@case_figure()
+def portrait(
+    case: xr.DataTree, window: Samples, x: Sampled = "psi", y: Sampled = "psi_velocity"
+) -> Figure:
+    """One variable over another, coloured by phase."""
+    figure, axes = panels([["a"]], COLUMN, 2.5)
+    draw_portrait(axes["a"], window_of(case, window), x, y)
+    return figure
+
+
+def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
+    """Draw one variable over another, coloured by phase, open where this changes."""
+    for phase, look in LINES.items():
+        part = samples.where(samples["phase"] == phase)
+        if part[x].notnull().any():
+            ax.plot(part[x], part[y], color=OF_PHASE[phase], label=phase, rasterized=True, **look)
+    ax.set(xlabel=label(samples[x]), ylabel=label(samples[y]))
+
+
+# ---- Poincaré sections
+
+POINTS: dict[str, Look] = {
+    "before the first separation": {"marker": "x", "color": SKY, "ms": 2.5, "mew": 0.4},
+    "not yet settled": {"marker": "o", "color": "#b0b0b0", "mfc": "none", "ms": 2.5, "mew": 0.4},
+    "in contact": {"marker": "o", "color": BLACK, "ms": 1.8, "mew": 0},
+    "separated": {"marker": "^", "color": RED, "ms": 2.8, "mew": 0},
+}
+"""Marks of the stages of a run; transient points are light."""
+SECTIONS = ("psi", "w_point")
+MANY = 2000
+"""Points from which marks are drawn as pixels."""
+
+
+@case_figure({"poincare": None})
+def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
+    """The Poincaré sections of slider and disc: velocity over displacement, of the disc at r_0.
+
+    below : further cases, each in a row of its own on the same axes
+    """
+    cases = [case, *dict(below).values()]
+    rows = [[f"{name}{i}" for name in SECTIONS] for i in range(len(cases))]
+    figure, axes = panels(rows, PAGE, 2.4)
+    for (slider, disc), each, heading in zip(rows, cases, differences(cases), strict=True):
+        draw_sections([axes[slider], axes[disc]], each)
+        axes[slider].set_title(", ".join(filter(None, dict.fromkeys([heading, *fate_of(each)]))))
+        axes[disc].set_title(f"disc of thickness {value_text(each['h'])}")
+    for column in zip(*rows, strict=True):
+        compare([axes[name] for name in column])
+    return figure
+
+
+def draw_sections(axes: Sequence[Axes], case: xr.DataTree, name: str = "poincare") -> None:
+    """Draw the section of the slider and that of the disc, in marks of the stages of a run.
+
+    Light: before the first separation, and until the motion has settled, if that is known.
+    """
+    samples = window_of(case, name, at_least=1)
+    time = samples["time"]
+    early = time < number_of(case, "first_separation")
+    on_the_way = ~early & (time < number_of(case, "settled_since"))
+    late = ~early & ~on_the_way
+    apart = samples["phase"] == "separation"
+    stages = (early, on_the_way, late & ~apart, late & apart)
+    for ax, variable in zip(axes, SECTIONS, strict=True):
+        x, y = samples[variable], samples[f"{variable}_velocity"]
+        for (stage, look), inside in zip(POINTS.items(), stages, strict=True):
+            if inside.any():
+                pixels = bool(inside.sum() > MANY)
+                ax.plot(x[inside], y[inside], ls="", rasterized=pixels, label=stage, **look)
+        ax.set(xlabel=label(x), ylabel=label(y))
+
+
+def fate_of(case: xr.DataTree) -> list[str]:
+    """What a run comes to, in words: its first separation, and when it has settled."""
+    first, since = (number_of(case, name) for name in ("first_separation", "settled_since"))
+    fate = f"first separation at {first:.2f}{NO_BREAK}s"
+    if np.isnan(first):
+        ignored = str(case["contact"].item()) == "bilateral"
+        fate = "separation ignored" if ignored else "no separation"
+    if np.isnan(since):
+        return [fate, "not shown to settle"]
+    return [fate, f"settled since {since:.0f}{NO_BREAK}s"]
+
+
+def differences(cases: Sequence[xr.DataTree]) -> list[str]:
+    """What tells each of several cases from the others: the values that they do not share."""
+    roots = [case.dataset for case in cases]
+    names = [name for name in Parameters.model_fields if name in roots[0]]
+    varied = [name for name in names if len({key_of(root[name].item()) for root in roots}) > 1]
+    return [", ".join(value_text(root[name]) for name in varied) for root in roots]
+
+
+# ---- Spectra
+
+NAMED = 5
+"""Strongest lines of a spectrum, which have their frequency beside them."""
+
+
+@case_figure()
+def spectrum(
+    case: xr.DataTree, window: Samples, variable: Sampled = "w_point", highest: Hertz | None = None
+) -> Figure:
+    """Amplitude of a variable over the frequency, in the whole of a window.
+
+    highest : highest frequency shown, Hz; without it up to where the lines end
+    """
+    figure, axes = panels([["a"]], COLUMN, 2.4)
+    draw_spectrum(axes["a"], window_of(case, window), variable, highest)
+    return figure
+
+
+def draw_spectrum(
+    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
+) -> None:
+    """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
+    strongest; raises `Missing` if there are none."""
+    time, x = samples["time"].values, samples[variable]
+    found = lines(time, x.values, below=highest or np.inf, floor=0.01)
+    if not found:
+        raise Missing("did not vibrate, or too briefly to tell")
+    end = highest or 1.15 * found[-1].frequency
+    apart = lines(time, x.values, below=end, apart=end / 12)
+    strongest = sorted(apart, key=lambda line: -line.amplitude)[:NAMED]
+    for line in strongest:
+        ax.text(*line, f"{line.frequency:.1f}", ha="center", va="bottom", fontsize=6)
+    frequency, amplitude = amplitude_spectrum(time, x.values)
+    ax.semilogy(frequency, amplitude, color=BLACK, lw=0.7)
+    greatest = strongest[0].amplitude
+    ax.set(xlim=(0, end), ylim=(1e-5 * greatest, 4 * greatest))
+    named = x.assign_attrs(long_name=f"{x.attrs['long_name']}, amplitude")
+    ax.set(xlabel="Frequency (Hz)", ylabel=label(named))
+
+
+@case_figure()
+def spectrogram(
+    case: xr.DataTree, window: InTime, variable: Sampled = "w_point", highest: Hertz = 1000.0
+) -> Figure:
+    """Power of a variable over time and frequency, in dB below its strongest line, by Hann windows
+    of 1 s."""
+    figure, axes = panels([["a"]], COLUMN, 2.5)
+    samples = window_of(case, window)
+    [level] = levels_of([samples], variable)
+    bar_of(figure, axes["a"], draw_spectrogram(axes["a"], level, highest), level)
+    axes["a"].set_title(samples[variable].attrs["long_name"])
+    mark_first_separation(axes.values(), case)
+    return figure
+
+
+def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray]:
+    """Power of a variable in windows over frequency (Hz) and time, in dB below the strongest line of
+    all; raises `Missing` if one is too short."""
     try:
-        return spans_between(case, float(time[0]), float(time[-1]))
-    except dataset.Missing:
-        return {phase: selection.spans(time, words == phase) for phase in PHASES}
-
-
-# ---- Sampled variables of a case
-
-NO_BREAK = "\N{NO-BREAK SPACE}"
-
-
-def sampled(name: str, *windows: xr.Dataset) -> tuple[str, float, str]:
-    """Axis label of a sampled variable, with the angle of the disc's fixed point, factor to its
-    unit, and colour."""
-    where = ""
-    if name.startswith("w_point"):
-        angles = {float(window.attrs["theta"]) for window in windows if "theta" in window.attrs}
-        shown = " and ".join(f"{angle:g}" for angle in sorted(angles))
-        angle_text = rf"$\theta$ = {shown} rad".replace(" ", NO_BREAK)
-        where = f", {angle_text}"
-    label, factor = axis_of(name, where)
-    colour = SLIDER
-    if name == "P":
-        colour = FORCE
-    elif name.partition("_")[0] == "w":
-        colour = DISC
-    return label, factor, colour
-
-
-def envelope(ax: Axes, ranges: xr.Dataset, name: str, color: str = "", label: str = "") -> None:
-    """Draw the range of a variable against time, as a band that stays visible where it is thin."""
-    time = ranges["time"].values
-    _, factor, usual_colour = sampled(name)
-    low, high = (ranges[f"{name}_{end}"].values * factor for end in ("min", "max"))
-    ax.fill_between(time, low, high, color=color or usual_colour, linewidth=0.5, label=label)
-    ax.set_xlim(0, end_of_ranges(time))
-
-
-def end_of_ranges(time: Array) -> float:
-    """Where the last of the ranges ends whose middles these times are, s."""
-    bin_width = time[-1] - time[-2]
-    return float(round(time[-1] + bin_width / 2, 2))
-
-
-def show(ax: Axes, case: xr.DataTree, window: xr.Dataset, name: str, *, named: bool = True) -> None:
-    """Draw a variable against time, as a line or as ranges, and mark the first separation, with its
-    time if `named`."""
-    label, factor, colour = sampled(name, window)
-    if f"{name}_min" in window:
-        envelope(ax, window, name)
-        values = np.stack([window[f"{name}_{end}"].values for end in ("min", "max")]) * factor
-    else:
-        values = window[name].values * factor
-        ax.plot(window["time"], values, color=colour, linewidth=wide(0.6))
-        ax.set_xlim(*window["time"].values[[0, -1]])
-    if np.isfinite(values).any():
-        ends = ends_shown(values, size_of(name, case) * factor)
-        show_ends(ax, window["time"].values[[0, -1]], np.array(ends))
-    ax.set_xlabel(TIME)
-    ax.set_ylabel(label)
-    mark_first_separation(ax, case, named=named)
-
-
-def show_thickness(ax: Axes, case: xr.DataTree, along: Literal["x", "y"]) -> None:
-    """Draw a bar as long as the disc is thick, beside a panel whose axis is a displacement in mm,
-    if it finds room."""
-    thickness = json.loads(case.attrs.get("parameters", "{}")).get("h")
-    if not thickness:
-        return
-    low, high = {"x": ax.get_xlim, "y": ax.get_ylim}[along]()
-    share = 1e3 * thickness / (high - low)
-    if share > 0.8:
-        return
-    start: tuple[float, float] = (RIGHT, 0)
-    end: tuple[float, float] = (RIGHT, share)
-    offset = (3, 1)
-    rotation = 90
-    if along == "x":
-        start = (1 - share, ABOVE)
-        end = (1, ABOVE)
-        offset = (-3, 0)
-        rotation = 0
-    ax.plot(
-        *zip(start, end, strict=True),
-        color=BLACK,
-        linewidth=2.5,
-        solid_capstyle="butt",
-        transform=ax.transAxes,
-        clip_on=False,
-    )
-    say(
-        ax,
-        f"thickness {1e3 * thickness:g} mm",
-        start,
-        offset,
-        xycoords="axes fraction",
-        fontsize=large(6),
-        rotation=rotation,
-    )
-
-
-def mark_first_separation(ax: Axes, case: xr.DataTree, *, named: bool = True, **look: Any) -> None:
-    """Mark the first separation by a line with its time above it; nothing if the time shown has
-    none."""
-    time = float(case["first_separation"])
-    low, high = ax.get_xlim()
-    if not low <= time <= high:
-        return
-    usual: dict[str, Any] = {"color": SEPARATED, "linewidth": wide(0.8), "linestyle": (0, (4, 2))}
-    usual["path_effects"] = halo(wide(2.0))  # on ranges of nearly its grey
-    usual.update(look)
-    ax.axvline(time, **usual)
-    if named:
-        say(
-            ax,
-            f"first separation {time:.2f} s",
-            (time, 1),
-            (0, 2),
-            color=SEPARATED,
-            xycoords=("data", "axes fraction"),
-            fontsize=large(7),
+        found = [time_frequency(each["time"].values, each[variable].values) for each in windows]
+    except ValueError as error:
+        raise Missing(f"recorded too little: {error}") from None
+    strongest = max(float(each.power.max()) for each in found) or 1.0
+    levels = []
+    for each in found:
+        level = xr.DataArray(
+            10 * np.log10(np.maximum(each.power / strongest, 1e-30)),
+            {"frequency": each.frequency, "time": each.time},
+            attrs={"long_name": "Power", "units": "dB re strongest line"},
         )
+        level["frequency"].attrs = {"long_name": "Frequency", "units": "Hz"}
+        level["time"].attrs = {"long_name": "Time", "units": "s"}
+        levels.append(level)
+    return levels
+
+
+def draw_spectrogram(ax: Axes, level: xr.DataArray, highest: float) -> Any:
+    """Draw levels of power up to a frequency, Hz; returns the mesh, for a bar."""
+    colours = {"cmap": cm.lipari, "norm": Normalize(-100, 0)}
+    return number_map(ax, level.sel(frequency=slice(0, highest)), **colours)
+
+
+# ---- The whole disc
+
+LEVELS = np.array([-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75])
+"""Of lines of equal deflection, over the end of the scale."""
+
+
+def draw_disc(ax: Any, w: xr.DataArray, norm: Normalize) -> Any:
+    """Draw the disc from above on polar axes: blue below its plane at rest, where lines of equal
+    deflection are dashed, and red above it. Returns the mesh, for a bar.
+
+    w : deflection over r (m) and theta (rad), in the unit of `norm`
+    """
+    r, theta = w["r"].values, w["theta"].values
+    shade: Look = {"cmap": cm.vik, "norm": norm, "shading": "gouraud"}
+    mesh = ax.pcolormesh(theta, r, w, rasterized=True, **shade)
+    ax.contour(theta, r, w, (norm.vmax or 0.0) * LEVELS, colors=BLACK, linewidths=0.5)
+    ax.set_xticks([0, np.pi / 2], ["θ = 0", "π/2"])
+    ax.tick_params(pad=0)
+    ax.set(ylim=(0, r[-1]), yticks=[])
+    ax.grid(visible=False)
+    return mesh
+
+
+def mark_slider(ax: Axes, x: float, y: float, phase: str) -> None:
+    """Mark the slider in the colour of its phase."""
+    look: Look = {"ms": 5, "mfc": OF_PHASE[phase], "mec": BLACK, "mew": 0.6}
+    ax.plot([x], [y], "s", label=f"slider, {phase}", **look)
+
+
+def animate(case: Parameters, states: Sequence[Any], samples: xr.Dataset) -> FuncAnimation:
+    """A film of the disc from above, in mm, and of the contact force.
+
+    states : of the pictures, in time
+    samples : shown window that covers them
+    """
+    r, theta = np.linspace(*radial_range(case), 25), np.linspace(0, 2 * np.pi, 181)
+    w = 1e3 * deflection(case, states, r, theta)
+    end = float(abs(w).max()) or 1.0
+    layout: Look = {"per_subplot_kw": {"disc": {"projection": "polar"}}}
+    figure, axes = panels([["disc", "force"]], PAGE, 2.6, **layout)
+
+    def draw(i: int) -> list[Axes]:
+        for ax in axes.values():
+            ax.cla()
+        draw_disc(axes["disc"], w[i], Normalize(-end, end))
+        draw_history([axes["force"]], samples, ["P"])
+        state = states[i]
+        mark_slider(axes["disc"], state.material_angle(case), case.r_0, state.phase)
+        axes["force"].axvline(state.time, color=RED)
+        axes["force"].set_title(f"{state.time:.4f} s, {state.phase}")
+        return [*axes.values()]
+
+    return FuncAnimation(figure, draw, frames=len(states))

@@ -79,8 +79,8 @@ class Result(Summarised, EqualByValue):
     events : DataFrame with time (s), kind, phase (entered), psi (rad), f (rad/s), u (m), u_velocity (m/s), P (N), all
         just after the event; made at its first use; ``events.attrs["units"]`` has the units
     first_separation : s, nan if contact was never lost
-    settled_since : s, from which all points of the first `Poincare` lie on the motion on which the run ends; nan if this
-        is not shown
+    settled_since : s, from which all points of the first `Poincare` lie on the motion on which the run ends; nan if
+        this is not shown
     final_state : `State` at the end
     u_0 : m, static height of the slider
     samples : by window, its arrays by name; ``result["late"]`` is a Dataset of those of the window "late"
@@ -382,56 +382,48 @@ class Result(Summarised, EqualByValue):
         windows: str | Sequence[str] | None = None,
         *,
         variables: Sequence[str] = ("P", "w", "psi_velocity"),
-        ax: Axes | Sequence[Axes] | None = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
-        title: str | bool | None = None,
+        units: Mapping[str, str] | None = None,
     ) -> Axes | NDArray[Any]:
         """Draw variables against time: the range in the whole run, and its last cycles over stick
         and separation.
-
-        Runs on the same axes have a look and a name in the legend each, and neither shades of phases and ramps nor
-        marks of first separations, which are those of one run.
 
         Parameters
         ----------
         windows : names of recorded windows, to draw these instead, a column each
         variables : of P, u, w, w_point, psi, psi_velocity; a window without an envelope has u_velocity and
             w_point_velocity too
-        ax : axes to draw on, one for each variable and column; settings of matplotlib (rcParams)
-            hold there, and in a new figure those that are not the usual ones. Axes with another quantity
-            or unit of a picture of this package are refused; labels that you have set yourself stay
-        legend : False for none, or options of `Axes.legend`, such as ``{"loc": "upper left"}``. Without one, all
-            entries are those of ``ax.get_legend_handles_labels()``, so that ``ax.legend()`` and ``figure.legend()``
-            write them
-        labels : other words for labels of axes, by "x" and "y", and for entries of the legend, by
-            the usual ones; by "case" the name of the run among several, otherwise what differs between them
-        title : another title; "" or False for none; True for the values of the case also above axes of your own
+        units : by the names of variables, such as ``{"P": "kN"}``
 
         Returns
         -------
         Axes, or array of Axes
-            Of shape (variables, columns); of one dimension if there is one window or one variable, and axes alone if
-            there is one of both, as by `pyplot.subplots`.
+            Of a new figure, of shape (variables, columns); of one dimension if there is one window or one variable, and
+            axes alone if there is one of both, as by `pyplot.subplots`.
 
         Raises
         ------
         ParameterError
-            If a window was not recorded, lacks a variable, or `ax` does not fit.
+            If a window was not recorded, or lacks a variable.
 
         Examples
         --------
         >>> import disc_model as dm
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot().shape
         (3, 2)
+
+        Runs beside each other, by xarray:
+
+        >>> from matplotlib import pyplot as plt
+        >>> _, ax = plt.subplots()
+        >>> for N in (300, 385):
+        ...     run = dm.simulate(dm.Parameters(N=N, Omega=15), 1, {"end": dm.Window(last=0.05, rate=2e4)})
+        ...     line = run["end"]["u"].plot(ax=ax, label=f"{N} N")
         """
         from disc_model.simulation.shown import shown_windows
 
         pictures = drawings()
         case, names = shown_windows(self, windows)
-        return pictures.plot_run(
-            case, names, variables, ax=ax, legend=legend, labels=labels, title=title
-        )
+        return pictures.history(case, names, variables, units)
 
     def plot_phase_portrait(
         self,
@@ -440,14 +432,13 @@ class Result(Summarised, EqualByValue):
         x: str = "psi",
         y: str = "psi_velocity",
         ax: Axes | None = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
-        title: str | bool | None = None,
+        units: Mapping[str, str] | None = None,
+        **look: Any,
     ) -> Axes:
-        """Draw one variable over another, coloured by phase, or by run if there are several on the same
-        axes; of the last cycles if no window is named.
+        """Draw one variable over another, coloured by phase; of the last cycles if no window is named.
 
-        `ax`, `legend`, `labels` and `title` are as in `plot`. Returns the axes. Raises
+        With `look`, options of matplotlib such as ``label="385 N"``, and beside lines that are on `ax`
+        already, it has one colour. `units` are as in `plot`. Returns the axes. Raises
         `ParameterError` as `plot`, and for a window that holds ranges instead of samples.
 
         Examples
@@ -460,36 +451,27 @@ class Result(Summarised, EqualByValue):
 
         pictures = drawings()
         case, name = shown_window(self, window, "end")
-        return pictures.plot_phase_portrait(
-            case, name, x, y, ax=ax, legend=legend, labels=labels, title=title
-        )
+        return pictures.portrait(case, name, x, y, ax, units, **look)
 
     def plot_spectrum(
         self,
         window: str | None = None,
         *,
         variable: str = "w_point",
-        highest: float | None = None,
+        highest: float | str | None = None,
         ax: Axes | None = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
-        title: str | bool | None = None,
+        units: Mapping[str, str] | None = None,
+        **look: Any,
     ) -> Axes:
-        """Draw the amplitude of a variable over the frequency, up to `highest` in Hz, or to where
-        its lines fall below a hundredth of the strongest, and at least to the last of the five
-        strongest.
-
-        Up to five lines have their frequency beside the peak, or above it with a line to the peak: the
-        strongest, and of the next four those that find room beside the names of stronger ones. A weaker
-        line has none, nor has any of several spectra on the same axes, which have a colour and a width each.
+        """Draw the amplitude of a variable over the frequency, up to `highest` in Hz or with a unit, or
+        to where its lines end, with the frequencies of the strongest.
 
         Without a named window it is that of the last 8 s, or of the second half of a shorter run,
         with 16 samples in a period of the highest mode. What vibrates faster than half a window's
-        rate appears at wrong frequencies. The resolution is 1 over the length of the window: frequencies
-        beside peaks have no more digits, and peaks below 4 times it have none, since the window cannot
-        tell them from a drift. `ax`, `legend`, `labels` and `title` are as in `plot`.
-        Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is too
-        short or nothing vibrates in it.
+        rate appears at wrong frequencies. The resolution is 1 over the length of the window. `look` has
+        options of matplotlib; a second spectrum on the same `ax` has the next colour. `units` are as in
+        `plot`. Returns the axes. Raises `ParameterError` as `plot_phase_portrait`, and if the window is
+        too short or nothing vibrates in it.
 
         Examples
         --------
@@ -499,24 +481,18 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.simulation.shown import draw_spectrum
 
-        wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-        return draw_spectrum(self, window, variable, highest, **wishes)
+        options = {"ax": ax, "units": units, **look}
+        return draw_spectrum(self, window, variable, highest, **options)
 
     def plot_poincare(
-        self,
-        window: str | None = None,
-        *,
-        ax: Sequence[Axes] | None = None,
-        legend: bool | Mapping[str, Any] = True,
-        labels: Mapping[str, str] | None = None,
-        title: str | bool | None = None,
+        self, window: str | None = None, *, units: Mapping[str, str] | None = None
     ) -> NDArray[Any]:
-        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes,
-        which it returns; of a `Poincare` that was recorded, or of the whole run if none is named.
-        Marks tell stages of the run apart, or runs if there are several on the same axes.
+        """Draw the Poincaré sections of slider and disc, once a turn of the drive, on two axes of a new
+        figure, which it returns; of a `Poincare` that was recorded, or of the whole run if none is
+        named. Marks tell stages of the run apart.
 
-        `legend`, `labels` and `title` are as in `plot`. Raises `ParameterError` if the window was not
-        recorded as a `Poincare` or has no sample, and unless `ax` is two axes.
+        `units` are as in `plot`. Raises `ParameterError` if the window was not recorded as a `Poincare`
+        or has no sample.
 
         Examples
         --------
@@ -529,7 +505,7 @@ class Result(Summarised, EqualByValue):
 
         pictures = drawings()
         case, name = shown_section(self, window)
-        return pictures.plot_poincare(case, name, ax=ax, legend=legend, labels=labels, title=title)
+        return pictures.poincare(case, name, units)
 
     def animate(
         self,

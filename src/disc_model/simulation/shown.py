@@ -16,7 +16,7 @@ from disc_model.simulation.api import simulate, snapshots
 from disc_model.simulation.case import Poincare, Window, Windows
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State
-from disc_model.units import is_whole
+from disc_model.units import is_number, is_whole
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -29,7 +29,7 @@ RATE = 4000.0  # samples of the envelope per second, at least
 FOLDED = 16  # samples for a spectrum per period of the highest mode: what is beyond its eighth multiple is weak
 FINE = 4000  # samples of the last cycles
 UNNAMED = (
-    "none is named, and the end of the run {}; simulate longer, or record a window, as by"
+    "none is named, and {} at the end; simulate longer, or record a window, as by"
     " simulate(case, 20, windows={{'late': Window(last=8, rate=8000)}})"
 )
 """What is said of the stretch that is drawn if no window is named."""
@@ -148,13 +148,13 @@ def states_between(run: Result, first: float, last: float, number: int) -> tuple
 
 
 def draw_spectrum(
-    run: Result, window: str | None, variable: str, highest: float | None, **wishes: Any
+    run: Result, window: str | None, variable: str, highest: Any, **options: Any
 ) -> Any:
     """Draw the spectrum of a window, see `Result.plot_spectrum`."""
     pictures = drawings()
     case, name = shown_window(run, window, "late")
     try:
-        return pictures.plot_spectrum(case, name, variable, highest, **wishes)
+        return pictures.spectrum(case, name, variable, highest, **options)
     except ParameterError as error:
         for fault in error.faults:
             if window is None and fault.path == ("window",):
@@ -166,11 +166,22 @@ def film(run: Result, path: str | Path | None, window: str | None, frames: int, 
     """Make a film of a window, see `Result.animate`."""
     pictures = drawings()
     # what cannot be written is refused before anything is computed
-    require((is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"))
-    pictures.film_writer(path, fps)
-
+    file = Path("film.gif")
+    if isinstance(path, str | Path):
+        file = Path(path)
+    known = path is None or isinstance(path, str | Path)
+    suffix = "must end in .gif or .mp4; a window is given by window="
+    require(
+        (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"),
+        (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
+        (known and file.suffix in (".gif", ".mp4"), "path", str(path), suffix),
+        (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
+    )
     case, name = shown_window(run, window, "end")
-    samples = pictures.window_of(case, name)
-    time = samples["time"]
+    time = pictures.window_of(case, name)["time"]
     states = states_between(run, float(time[0]), float(time[-1]), frames)
-    return pictures.animate(run.parameters, states, samples, path, fps)
+    made = pictures.film(run.parameters, states, case, name)
+    if path is not None:
+        writer = "pillow" if file.suffix == ".gif" else "ffmpeg"
+        made.save(path, writer=writer, fps=fps, dpi=100)
+    return made

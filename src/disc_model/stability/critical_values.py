@@ -16,7 +16,7 @@ from disc_model.data.variables import (
     unit_of_parameter,
     value_with_unit,
 )
-from disc_model.display import Drawn, counted
+from disc_model.display import counted, drawings
 from disc_model.parameters import Parameters
 from disc_model.sources import versions_text
 from disc_model.stability.cycle import STICK_SLIP
@@ -33,12 +33,11 @@ SAVED = ("value", "border", "crossings", "resolution")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Critical(Drawn, EqualByValue):
+class Critical(EqualByValue):
     """Values of a parameter at which a motion gains or loses stability: the one near the static
     start, or steady sliding.
 
-    `plot` draws the growth rate over the parameter, with the intervals in which the motion is
-    unstable; `to_dataset` makes a dataset, which `disc_model.save` writes.
+    `to_dataset` makes a dataset, which `disc_model.save` writes.
 
     Attributes
     ----------
@@ -71,7 +70,6 @@ class Critical(Drawn, EqualByValue):
     12.00 and 18.79 rad/s
     """
 
-    _picture = "plot_critical"
     parameters: Parameters
     name: str
     value: float
@@ -180,6 +178,11 @@ class Critical(Drawn, EqualByValue):
             unstable_at_first = not self.unstable_above[0]
         grows = np.array([unstable_at_first, *self.unstable_above])
         return np.column_stack([edges[:-1], edges[1:]])[grows]
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the growth rate over the parameter, shaded where the motion is unstable, on axes or in a
+        new figure; returns the axes. `look` is as in `FloquetResult.plot`."""
+        return drawings().critical(ax, self, **look)
 
 
 # ---- As a dataset

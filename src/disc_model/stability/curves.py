@@ -10,9 +10,16 @@ import numpy as np
 
 from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
-from disc_model.display import Drawn, counted
+from disc_model.display import counted, drawings
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, ParameterError, raise_faults, violations, with_known_names
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    raise_faults,
+    require,
+    violations,
+    with_known_names,
+)
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation import (
@@ -66,9 +73,8 @@ class StabilityCurve:
 
 
 @dataclass(frozen=True, repr=False)
-class NeutralCurves(Drawn):
-    """Curves in the plane of two parameters; iterating yields them, `plot` draws them, thick beside
-    a stable cycle.
+class NeutralCurves:
+    """Curves in the plane of two parameters; iterating yields them.
 
     Attributes
     ----------
@@ -78,7 +84,6 @@ class NeutralCurves(Drawn):
         something else, such as a grazing, which is not followed
     """
 
-    _picture = "plot_neutral_curves"
     parameters: Parameters
     bounds: Mapping[str, tuple[float, float]]
     curves: tuple[StabilityCurve, ...] = field(repr=False)
@@ -94,6 +99,16 @@ class NeutralCurves(Drawn):
         ranges = [f"{name} from {low:g} to {high:g}" for name, (low, high) in self.bounds.items()]
         plane = " and ".join(ranges)
         return f"NeutralCurves({counted(len(self), 'curve')} over {plane}, {len(self.failures)} not followed)"
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the curves with their resonances, thick beside a stable cycle and dashed where cycles end
+        in a fold, on axes or in a new figure; returns the axes.
+
+        `look` is as in `FloquetResult.plot`. Raises `ParameterError` without a curve.
+        """
+        rule = "there is nothing to draw: no curve was found, try other lines"
+        require((len(self), "curves", 0, rule))
+        return drawings().curves(ax, self, **look)
 
 
 class _Seed(NamedTuple):

@@ -9,12 +9,13 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
 from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import GIVE_A_GUESS, CycleStatus, values_text, with_advice
-from disc_model.display import Drawn, Summarised, counted, number_text
+from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.errors import DiscModelError, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
@@ -46,9 +47,8 @@ class CycleError(DiscModelError):
 
 
 @dataclass(frozen=True, eq=False)
-class FloquetResult(Summarised, Drawn, EqualByValue):
-    """A cycle of a case; `plot` draws the multipliers in the complex plane, and the
-    unit circle.
+class FloquetResult(Summarised, EqualByValue):
+    """A cycle of a case.
 
     Attributes
     ----------
@@ -73,7 +73,6 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         where they are asked for
     """
 
-    _picture = "plot_multipliers"
     parameters: Parameters
     tol: float
     status: CycleStatus
@@ -157,6 +156,21 @@ class FloquetResult(Summarised, Drawn, EqualByValue):
         if self.status is not CycleStatus.OK:
             raise CycleError(with_advice(self.message, self.status))
         return self
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the multipliers in the complex plane, with the unit circle and rings around those that
+        grow, on axes or in a new figure; returns the axes.
+
+        A second picture on the same axes has the next colour; `look` has options of matplotlib, such
+        as ``label="soft spring"``. Raises `CycleError` without a cycle.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.floquet(dm.Parameters(N=385, Omega=15)).plot().get_xlabel()
+        'Re κ'
+        """
+        return drawings().multipliers(ax, self.raise_for_status(), **look)
 
 
 def guess_faults(guess: object, releases: object, kind: object) -> list[str]:

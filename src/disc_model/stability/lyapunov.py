@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from disc_model.arrays import EqualByValue, Indices, Mask
-from disc_model.display import Drawn
+from disc_model.display import drawings
 from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
@@ -41,8 +41,8 @@ CONVERGED = (0.05, 0.002)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Lyapunov(Drawn, EqualByValue):
-    """The largest Lyapunov exponents; `plot` draws them with their errors.
+class Lyapunov(EqualByValue):
+    """The largest Lyapunov exponents.
 
     Attributes
     ----------
@@ -60,7 +60,6 @@ class Lyapunov(Drawn, EqualByValue):
     parameters : as given to `lyapunov_exponents`
     """
 
-    _picture = "plot_exponents"
     status: Status
     exponents: Array
     errors: Array
@@ -74,6 +73,11 @@ class Lyapunov(Drawn, EqualByValue):
     def __repr__(self) -> str:
         exponents = " and ".join(f"{exponent:.3g}" for exponent in self.exponents)
         return f"Lyapunov({self.status}, over {self.duration:g} s: {exponents} 1/s)"
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the exponents with their errors, hollow where they have not converged, on axes or in a
+        new figure; returns the axes. `look` is as in `FloquetResult.plot`."""
+        return drawings().exponents(ax, self, **look)
 
 
 @compiling()

@@ -24,8 +24,8 @@ from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
-from disc_model.display import Drawn, Summarised, number_text
-from disc_model.errors import StatusBase, raise_faults
+from disc_model.display import Summarised, drawings, number_text
+from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
 from disc_model.stability.python_laws import LAWS
@@ -55,8 +55,8 @@ class SlidingStatus(StatusBase):
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class SteadySliding(Summarised, Drawn, EqualByValue):
-    """The sliding equilibrium; `plot` draws its eigenvalues, frequency over growth rate.
+class SteadySliding(Summarised, EqualByValue):
+    """The sliding equilibrium.
 
     Attributes
     ----------
@@ -72,7 +72,6 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
     parameters : as given to `steady_sliding`
     """
 
-    _picture = "plot_eigenvalues"
     status: SlidingStatus
     message: str
     contact_force: float = math.nan
@@ -128,6 +127,22 @@ class SteadySliding(Summarised, Drawn, EqualByValue):
         conjugate pair the upper one."""
         rests = growth_rates(self.eigenvalues) == 0
         return self.eigenvalues[rests & (self.eigenvalues.imag >= 0)]
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the frequencies of the modes over their growth rates, with rings around those that
+        grow, on axes or in a new figure; returns the axes.
+
+        `look` is as in `FloquetResult.plot`. Raises `ParameterError` without steady sliding.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> dm.steady_sliding(dm.Parameters(N=385, Omega=15)).plot().get_ylabel()
+        'Frequency (Hz)'
+        """
+        rule = f"there are no eigenvalues: {self.message}"
+        require((self.eigenvalues.size, "status", self.status.value, rule))
+        return drawings().eigenvalues(ax, self, **look)
 
 
 def _rounding(eigenvalues: ComplexArray) -> float:

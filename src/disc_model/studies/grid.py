@@ -15,10 +15,10 @@ from typing import Annotated, Any, ClassVar, NamedTuple
 import pydantic
 from pydantic import Field, Tag, WithJsonSchema, create_model
 
-from disc_model.data.variables import OF_QUANTITIES, PERTURBATIONS, attributes, values_text
+from disc_model.data.variables import PERTURBATIONS, attributes, values_text
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.kinds import General, Kind, Plot, RegionMap
-from disc_model.figures.words import factors_of
+from disc_model.figures.schema import Kind, Plot
+from disc_model.figures.shown import factors_of
 from disc_model.parameters import NUMBER_OR_WORD, PLATE, RATIOS, RELATED, Parameters, case_of
 from disc_model.simulation.case import SomeParameters
 from disc_model.studies.batch import Batch, GridAxis, MergePlan, TileSides
@@ -313,7 +313,7 @@ class GridStudy:
 
     def _marked(self) -> list[dict[str, float]]:
         """Points of the plane that figures mark, by the names of its dimensions."""
-        maps = [plot for plot in self.plots.values() if isinstance(plot, RegionMap)]
+        maps: list[Any] = [plot for plot in self.plots.values() if hasattr(plot, "marks")]
         return [{plot.x: mark.x, plot.y: mark.y} for plot in maps for mark in plot.marks.values()]
 
     def _case_at(self, point: Mapping[str, Value]) -> Parameters:
@@ -563,19 +563,18 @@ class GridStudy:
     # ---- its figures
 
     def faults_of(self, plot: Plot) -> Iterable[Fault]:
-        """What keeps a figure from showing this study; general ones look at the quantity's
-        variables and dimensions."""
+        """What keeps a figure from showing this study."""
         values = self._values_of_figures()
         for field in ("x", "y"):
             name = getattr(plot, field, None)
             if math.inf in values.get(name, ()):
                 return [Fault.of((field,), name, "has the value inf, which no axis can show")]
-        if isinstance(plot, General):
-            return self._faults_of_general(plot, values)
-        quantities = plot.quantities or (plot.kind,)
-        if self.quantity not in quantities:
+        quantities = plot.shows.quantities
+        if quantities and self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
-        return plot.faults(values)
+        columns = {**self.options.COLUMNS, **self.options.SUMMARY_COLUMNS}
+        classes = [name for name, column in columns.items() if column.has_classes]
+        return plot.faults(values, self._variables(values), classes)
 
     def _values_of_figures(self) -> dict[Any, list[Any]]:
         """Return the values along each dimension, those of a zip as tuples."""
@@ -584,35 +583,18 @@ class GridStudy:
             values[dim.name] = [value[0] if len(value) == 1 else value for value in dim.values]
         return values
 
-    def _faults_of_general(self, plot: General, along: Mapping[str, list[Any]]) -> Iterable[Fault]:
-        """What keeps a figure of any variable from showing the quantity's, with these values along
-        the grid's dimensions."""
+    def _variables(self, along: Mapping[str, list[Any]]) -> dict[str, dict[str, list[Any]]]:
+        """Values along the dimensions of each variable of the quantity."""
         quantity = self.options
-        varied_itself = [*self._axes_of_quantity(plot)]
-        if varied_itself:
-            return varied_itself
         values = dict(along)
-        variables: dict[str, tuple[str, ...]] = {}
-        for name, column in quantity.COLUMNS.items():
-            variables[name] = (*along, *column.dims)
-        for name, column in quantity.SUMMARY_COLUMNS.items():
-            others = [dim for dim in along if dim != quantity.over]
-            variables[name] = (*others, *column.dims)
         for coordinates in (quantity.COORDINATES, quantity.SUMMARY_COORDINATES):
             for name, coordinate in coordinates.items():
                 values[name] = [*coordinate.values(quantity)]
-        columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
-        classes = [name for name, column in columns.items() if column.has_classes]
-        return plot.faults_among(values, variables, classes)
-
-    def _axes_of_quantity(self, plot: General) -> Iterator[Fault]:
-        """Axes that name a parameter which the quantity varies by itself, along a dimension of another
-        name."""
-        for axis, name in plot.axes.items():
-            for dim, known in OF_QUANTITIES[self.quantity].get("coordinates", {}).items():
-                if name == getattr(self.options, known.parameter, known.parameter):
-                    rule = f"varies along the dimension {dim} of this study: write {axis}: {dim}"
-                    yield Fault.of((axis,), name, rule)
+        summed = [name for name in along if name != quantity.over]
+        dims = {name: (*along, *column.dims) for name, column in quantity.COLUMNS.items()}
+        for name, column in quantity.SUMMARY_COLUMNS.items():
+            dims[name] = (*summed, *column.dims)
+        return {name: {dim: values[dim] for dim in of} for name, of in dims.items()}
 
     def entry_of(self, name: str, plot: Plot) -> FigureEntry:
         """A figure of the grid, whose caption states the values that differ from Table 1 and do not

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property, reduce
 from glob import glob
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, Union
+from typing import Annotated, Any, Literal, Self
 
 import pydantic
 from pydantic import (
@@ -25,7 +25,7 @@ from pydantic import (
 from disc_model.data.variables import BESIDE_WINDOWS, SCALARS, rule_of_taken, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.figures.kinds import KINDS, NORM, CasePlot, Kind, Plot, kind_of
+from disc_model.figures.schema import NORM, CasePlot, Kind, Plot, Role
 from disc_model.parameters import RATIOS, Disc, Parameters
 from disc_model.simulation.case import (
     CaseSpec,
@@ -232,18 +232,19 @@ def _with_ratios_of(p: Parameters, start: Start) -> Start:
 def _figure(raw: Any) -> Kind:
     if isinstance(raw, Kind):
         return raw
+    from disc_model.figures.kinds import kind_of  # brings in matplotlib
+
     return kind_of(_mapping(raw).get("kind")).model_validate(raw)
 
 
-_OTHER_NAME = {"kind": {"type": "string", "pattern": r"^\w+\.\w+$"}}
-_OTHER_KIND = Annotated[
-    Any, WithJsonSchema({"type": "object", "properties": _OTHER_NAME, "required": ["kind"]})
+_KIND = Annotated[
+    Any,
+    WithJsonSchema(
+        {"type": "object", "properties": {"kind": {"type": "string"}}, "required": ["kind"]}
+    ),
 ]
-_KIND: Any = Annotated[
-    Union[*(kind for _, kind in sorted(KINDS.items()))], Field(discriminator="kind")
-]
-Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND | _OTHER_KIND)]
-"""A figure of any kind; the schema for editors knows the keys of the library's kinds, and not those of the paper's."""
+Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
+"""A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
 
 
 def _given_figures(raw: Any) -> Any:
@@ -613,22 +614,16 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, GridStudy]) -> list[Fau
         faults += study.faults_of(plot)
     for role in plot.overlays.keys() & plot.roles.keys():
         other = grids[plot.overlays[role]]
-        rule = _rule_of_overlay(plot, plot.roles[role], study, other)
+        rule = _rule_of_overlay(plot.roles[role], study, other)
         if rule:
             faults.append(Fault.of(("overlays", role), other.name, rule))
     return faults
 
 
-def _rule_of_overlay(plot: Plot, wanted: Any, study: GridStudy, other: GridStudy) -> str:
+def _rule_of_overlay(wanted: Role, study: GridStudy, other: GridStudy) -> str:
     """The rule that a study breaks as an overlay of a figure of another one, or ""."""
-    needs = set(plot.dims if wanted.dims is None else wanted.dims)
-    options = {name: getattr(other.options, name, None) for name in wanted.options}
     if other.quantity != wanted.quantity:
         return f"must be a study of the quantity {wanted.quantity}"
-    if options != wanted.options:
-        return f"must have the options {wanted.options}"
-    if other.values.keys() - {NORM} != needs:
-        return f"must vary {', '.join(sorted(needs)) or 'nothing'} beside {NORM}"
     if not _normalizations(study) <= _normalizations(other):
         return f"must be computed for the same {NORM}"
     return ""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -11,8 +12,8 @@ import xarray as xr
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
 from disc_model.data.variables import OF_RESULTS, attributes_of_number, unit_of_parameter
-from disc_model.display import counted, draw
-from disc_model.errors import Fault, raise_faults, require
+from disc_model.display import counted, drawings
+from disc_model.errors import Fault, raise_faults, require, rule_of_choice
 from disc_model.parameters import Parameters, Quantity
 from disc_model.simulation.states import State, is_finite
 from disc_model.sources import versions_text
@@ -355,34 +356,21 @@ class Branch:
         y: str = "growth_rate",
         *,
         ax: Any = None,
-        legend: bool | dict[str, Any] = True,
-        labels: dict[str, str] | None = None,
-        title: str | bool | None = None,
-        looks: dict[str, dict[str, Any]] | None = None,
-        units: dict[str, str] | None = None,
+        units: Mapping[str, str] | None = None,
+        **look: Any,
     ) -> Any:
         """Draw growth_rate, period, stick_fraction, or of the slider's height the range, u_min or u_max
         (extremes over static equilibrium) over the parameter, thick where the cycle is stable, and
-        the special points. Dots are cycles that were computed; of those that would touch on the page
-        only some are drawn.
-
-        The period is drawn in ms, range and extremes in mm, all else in the units of its name: labels of your
-        own need the same unit, such as `labels={"y": "Range (mm)"}`. The axis of growth rates is
-        linear near 0 and logarithmic beyond, on both sides. A wide range is drawn on a logarithmic axis.
+        the special points; returns the axes.
 
         Stability changes at special points, which are located to rounding; in the bends of a very
         stiff contact it may do so between two points, and the line is thin there. A branch in two
-        parameters is drawn as the second over the first. `ax`, `legend`, `labels` and `title` are
-        as in `Result.plot`. Several branches on the same axes have a colour each, and are named in
-        the legend by what differs between their cases, or as `labels={"branch": "upper sheet"}` says.
-        `looks` has properties of matplotlib's lines for what is "stable", for what is "unstable", and for the dots,
-        "cycles": ``looks={"stable": {"linestyle": "-"}, "unstable": {"linestyle": "--"}}`` draws as AUTO does, and
-        ``"cycles": {"marker": ""}`` leaves the dots out. The legend shows the same. Where dashes tell the stability,
-        branches on the same axes differ in colour alone. `units` are as in `plot_sweep`, such as
-        ``{"Omega": "rpm"}``.
+        parameters is drawn as the second over the first. Periods are in ms and heights in mm, unless
+        `units` says otherwise of a parameter, such as ``{"Omega": "rpm"}``.
 
-        Returns the axes; raises `ParameterError` if `y` is another name, or an option cannot be
-        understood.
+        Further branches on the same `ax` have a colour each. Their usual name is the case; `look` has
+        options of matplotlib, such as ``label="upper sheet"``, or ``linestyle="--"`` for dashes where
+        the cycle is unstable. Raises `ParameterError` if `y` is another name.
 
         Examples
         --------
@@ -390,8 +378,9 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        wishes = {"ax": ax, "legend": legend, "labels": labels, "title": title}
-        return draw("plot_branch", self, y, looks=looks, units=units, **wishes)
+        known = isinstance(y, str) and y in self.variables
+        require((known, "y", y, rule_of_choice(y, self.variables)))
+        return drawings().branch(ax, self, y, units, **look)
 
 
 def _dataset_of(branch: Branch) -> xr.Dataset:

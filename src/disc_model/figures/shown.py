@@ -1,0 +1,185 @@
+"""Datasets as readers see them: in their units, with labels, and flags as words. What draws them
+knows nothing of SI."""
+
+import re
+from collections.abc import Mapping
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+import xarray as xr
+
+from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset
+from disc_model.data.variables import attributes as attributes_in_files
+from disc_model.parameters import Parameters
+from disc_model.units import size_of_unit
+
+THOUSANDTHS = {"m": "mm", "s": "ms"}
+"""Units of ranges and periods for readers, by those of files."""
+IN_WORDS = {
+    "as_published": "modes as published",
+    "orthonormal": "orthonormal modes",
+    "given": "modes of a table",
+    "unilateral": "with separation",
+    "bilateral": "separation ignored",
+    "vertical": "vertical contact force",
+    "normal": "normal contact force",
+}
+"""Words along a dimension that need a noun."""
+
+
+def shown(data: xr.Dataset, units: Mapping[str, str] | None = None) -> xr.Dataset:
+    """A dataset in the units of all figures, or in those of a reader, such as ``{"Omega": "rpm"}``.
+
+    Each variable has the attributes `long_name` and `units` of its label, and `factor`, which turns a
+    value in SI units into what is shown. Flags are words.
+    """
+    wishes = factors_of(units or {})
+    changed = {name: _shown(data[name], wishes).variable for name in data.variables}
+    coordinates = {name: changed.pop(name) for name in list(changed) if name in data.coords}
+    return data.assign(changed).assign_coords(coordinates)
+
+
+def shown_case(case: xr.DataTree, units: Mapping[str, str] | None = None) -> xr.DataTree:
+    """The tree of a case, with all of its groups as readers see them."""
+    groups = {node.path: node.to_dataset(inherit=False) for node in case.subtree}
+    tree = xr.DataTree.from_dict({path: shown(each, units) for path, each in groups.items()})
+    tree.attrs = case.attrs
+    return tree
+
+
+def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
+    """A reader's units, with the factors from SI to them."""
+    return {name: (unit, 1 / size_of_unit(unit, si_unit(name))) for name, unit in units.items()}
+
+
+def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataArray:
+    """A variable with values, name and unit for readers."""
+    attributes = {**x.attrs, "long_name": name_of(x), "units": "", "factor": 1.0}
+    if "flag_meanings" in x.attrs:
+        attributes = {k: x for k, x in attributes.items() if not k.startswith("flag_")}
+        return x.copy(data=flag_names(x).astype(object)).assign_attrs(attributes)
+    if x.dtype.kind not in "fiu":
+        return x.assign_attrs(attributes)
+    known = parameter_of(x)
+    unit, factor = readable(x.attrs.get("units", "")), 1.0
+    if known:
+        attributes["parameter"] = known
+        unit, factor = SHOWN[known].unit, SHOWN[known].factor
+    elif str(x.name).endswith(("range", "period")) and unit in THOUSANDTHS:
+        unit, factor = THOUSANDTHS[unit], 1e3
+    unit, factor = units.get(known, (unit, factor))
+    attributes.update(units=unit, factor=factor)
+    values = x.values if factor == 1.0 else x.values * factor
+    plain = xr.DataArray(values, dims=x.dims, name=x.name)
+    plain.attrs = attributes
+    return plain
+
+
+def parameter_of(x: xr.DataArray) -> str:
+    """The parameter or sampled variable that an array has values of, "" if it has a meaning or a unit
+    of its own."""
+    stated = x.attrs.get("parameter", "")
+    if stated in SHOWN:
+        return str(stated)
+    own = ranged_variable(str(x.name).removeprefix("scan_").removeprefix("sweep_"))
+    if own not in SHOWN or "units" not in x.attrs:
+        return ""
+    usual = attributes_in_files(own)["units"]
+    has_another = readable(x.attrs["units"]) != readable(usual)
+    return "" if has_another else own
+
+
+def si_unit(name: str) -> str:
+    """The SI unit of a parameter or of a sampled variable, "" without one."""
+    unit = Parameters.unit(name)
+    if not unit and name in SERIES:
+        unit = SERIES[name].units.replace(" s-1", "/s")
+    return unit
+
+
+def readable(units: str) -> str:
+    """A unit of CF as text: ``N m-2`` is ``N/m²``, and ``1`` is nothing."""
+    raised = {"": "", "2": "²", "3": "³"}
+    above, below = "", ""
+    for part in units.split():
+        name, sign, power = re.fullmatch(r"(.*?)(-?)(\d?)", part).groups()  # type: ignore[union-attr]
+        if sign:
+            below += f"/{name}{raised.get('' if power == '1' else power, power)}"
+        else:
+            above += f" {name}{raised.get(power, power)}" if name else ""
+    if below and not above:
+        above = "1"
+    return (above + below).strip()
+
+
+def name_of(x: xr.DataArray) -> str:
+    """What labels call an array: name and symbol of a parameter, else its long name."""
+    known = parameter_of(x)
+    if known:
+        return typeset(f"{SHOWN[known].name} {SHOWN[known].symbol}".strip())
+    said = str(x.attrs.get("long_name", x.name)).replace("_", " ")
+    return said if len(said) == 1 else said[:1].upper() + said[1:]
+
+
+def label(x: xr.DataArray) -> str:
+    """The label of an axis or of a bar of colours, of an array as it is shown."""
+    unit = x.attrs.get("units", "")
+    name = str(x.attrs.get("long_name", x.name))
+    return f"{name} ({unit})" if unit else name
+
+
+def value_text(x: xr.DataArray) -> str:
+    """One shown value along a dimension, ``N = 385 N``, or its word; by the attribute `names` of its
+    coordinate, if that has it."""
+    value = x.item()
+    names: Mapping[str, str] = x.attrs.get("names", {})
+    factor = 1 if isinstance(value, str) else x.attrs.get("factor", 1.0)
+    stated = key_of(value if factor == 1 else value / factor)  # as a study file has it
+    if stated in names:
+        return names[stated]
+    if isinstance(value, str):
+        return _word_text(str(x.name), value)
+    if not isinstance(value, int | float):
+        return str(value)
+    known = parameter_of(x)
+    symbol = str(x.attrs.get("long_name", x.name))
+    if known:
+        symbol = SHOWN[known].symbol or SHOWN[known].name
+    return f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
+
+
+def _word_text(name: str, word: str) -> str:
+    """A word along a dimension; beside its parameter if that has numbers, too, which then are words."""
+    if name not in SHOWN:
+        return IN_WORDS.get(word, word.replace("_", " "))
+    own = SHOWN[name]
+    with suppress(ValueError):
+        word = with_unit(f"{float(word) * own.factor:.5g}", own.unit)
+    return f"{typeset(own.symbol or own.name)} = {word}"
+
+
+def with_unit(number: str, unit: str) -> str:
+    """A number with its unit, which may begin with a power of ten."""
+    if unit.startswith("10"):
+        return f"{number}·{unit}"
+    return f"{number} {unit}".strip()
+
+
+def key_of(value: Any) -> str:
+    """The text by which a value along a dimension is known, the same for all ways to write a
+    number."""
+    try:
+        return f"{float(value):.12g}"
+    except ValueError:
+        return str(value)
+
+
+def placed(x: xr.DataArray, value: float) -> float:
+    """A value in SI units, such as a study file has, in the unit in which an array is shown."""
+    return value * float(x.attrs["factor"])
+
+
+def words(x: xr.DataArray) -> np.ndarray:
+    """Words of a shown flag as texts; "" where there is none."""
+    return np.where(x.isnull(), "", x.values).astype(str)

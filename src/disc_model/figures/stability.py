@@ -1,0 +1,218 @@
+"""Pictures of stability: branches, multipliers, eigenvalues, exponents, critical values, neutral
+curves, and shapes of modes."""
+
+from collections.abc import Iterable
+from textwrap import fill
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from cmcrameri import cm
+from matplotlib.axes import Axes
+from matplotlib.patches import Circle
+from matplotlib.ticker import MaxNLocator
+from numpy.typing import NDArray
+
+from disc_model.data.variables import OF_RESULTS, attributes_of_number, typeset, values_text
+from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
+from disc_model.figures.draw import (
+    BELOW_ANY,
+    lines,
+    mark_missing,
+    mark_points,
+    once,
+    rate_axis,
+    wished,
+)
+from disc_model.figures.looks import BLACK, GREY, ORANGE, RED
+from disc_model.figures.shown import label, placed, shown
+from disc_model.parameters import Parameters
+
+# ---- Results of one case: what their methods `plot` draw on axes. The first line has the next
+# ---- colour and a reader's look; what belongs to it has its colour
+
+THIN = 0.8  # width of lines, points
+THICK = 2.4  # where they are stable
+EDGE = 0.02  # share of a ring's width beside its clamped edge, which is no nodal line
+SPECIAL = {
+    "fold": ("s", "fold"),
+    "period_doubling": ("D", "period doubling"),
+    "neimark_sacker": ("o", "Neimark-Sacker bifurcation"),
+    "branch_point": ("*", "branch point"),
+    "grazing": ("X", "grazing"),
+    "hopf": ("^", "Hopf point"),
+    "max_points": ("P", "continued no further: max_points"),
+    "lost": ("p", "continued no further: no step succeeds"),
+}
+"""Marks and names of special points of branches."""
+
+
+def case_text(case: Parameters | None, *varied: str) -> str:
+    """N, Omega and what differs from the paper's case, without what varies in a picture."""
+    values = {name: x for name, x in dict(case or {}).items() if name not in varied}
+    return fill(values_text(values), 40)
+
+
+def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> xr.DataArray:
+    """Values of a number of a case, or of what has these attributes, SI units, as readers see them,
+    shape (point,)."""
+    held = xr.Dataset({name: ("point", values, attributes or attributes_of_number(name))})
+    return shown(held, units)[name]
+
+
+def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
+    """Draw a variable of the cycles along a branch over its parameter, or its second parameter over
+    the first: thick where they are stable, with the special points."""
+    first, *second = branch.parameters
+    values = branch.refined("values")
+    x = column(first, values[:, 0], units=units)
+    if second:
+        up = column(second[0], values[:, 1], units=units)
+    else:
+        known = OF_RESULTS["Branch"][y].attributes
+        up = column(y, branch.refined(y), known, units)
+        up.attrs["long_name"] = known["long_name"].capitalize()
+    own = {"linewidth": THIN, "label": case_text(branch.case, *branch.parameters)}
+    [line] = ax.plot(x, up.where(np.isfinite(up)), **wished(look, **own))
+    colour = line.get_color()
+    stable = stable_between(branch.refined_growth_rate())
+    thicken(ax, x, up, stable, "thick: stable", color=colour)
+    mark_missing(ax, x[np.isneginf(up)], BELOW_ANY, colour, marker="v")
+    for kind, (marker, name) in SPECIAL.items():
+        found = [point for point in branch.special if point.kind == kind]
+        places = [placed(x, point.values[0]) for point in found]
+        heights = [placed(up, point.values[1] if second else getattr(point, y)) for point in found]
+        marks = {"marker": marker, "markerfacecolor": colour, "markersize": 5}
+        mark_points(ax, places, heights, name, color=colour, **marks)
+    ax.set(xlabel=label(x), ylabel=label(up))
+    if y == "growth_rate" and not second:
+        rate_axis(ax)
+
+
+def stable_between(growth: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Whether a branch is stable between each point and the next one, shape (n - 1,), from growth
+    rates at n points, which are 0 where stability changes."""
+    stable = np.maximum(growth[:-1], growth[1:]) <= 0
+    for i in np.flatnonzero((growth[:-1] == 0) & (growth[1:] == 0)):
+        stable[i] = i > 0 and not stable[i - 1]
+    return stable
+
+
+def thicken(ax: Axes, x: Any, y: Any, between: Any, why: str, **look: Any) -> None:
+    """Draw a line once more, thick, between some of its n points and the next ones.
+
+    between : bool, shape (n - 1,)
+    """
+    if np.any(between):
+        cut = np.flatnonzero(~between) + 1
+        points = [np.insert(np.asarray(each, dtype=float), cut, np.nan) for each in (x, y)]
+        ax.plot(*points, lw=THICK, solid_capstyle="butt", label=once(ax, why), **look)
+
+
+def draw_multipliers(ax: Axes, cycle: Any, **look: Any) -> None:
+    """Draw Floquet multipliers in the complex plane, with rings around those that grow."""
+    ax.add_patch(Circle((0, 0), 1, fill=False, ec=GREY, lw=THIN))
+    values = cycle.multipliers
+    own = {"marker": "o", "linestyle": "", "label": case_text(cycle.parameters)}
+    ax.plot(values.real, values.imag, **wished(look, **own))
+    _ring(ax, values[np.abs(values) > 1], "grows")
+    ax.set(xlabel="Re κ", ylabel="Im κ", aspect="equal")
+
+
+def draw_eigenvalues(ax: Axes, sliding: Any, **look: Any) -> None:
+    """Draw frequencies over growth rates of the modes of steady sliding, with rings around those that
+    grow, and their frequencies."""
+    upper = sliding.eigenvalues[sliding.eigenvalues.imag >= 0]
+    grows, rests = (np.isin(upper, each) for each in (sliding.growing, sliding.neutral))
+    places = upper.real + 1j * upper.imag / (2 * np.pi)
+    ax.axvline(0, color=BLACK, lw=0.6)
+    own = {"marker": "o", "linestyle": "", "label": case_text(sliding.parameters)}
+    ax.plot(places.real, places.imag, **wished(look, **own))
+    _ring(ax, places[grows], "grows")
+    _ring(ax, places[rests], "neutral", GREY)
+    for x, y in zip(places[grows].real, places[grows].imag, strict=True):
+        ax.annotate(f"{y:.0f} Hz", (x, y), (6, 3), textcoords="offset points")
+    ax.set(xlabel="Growth rate (1/s)", ylabel="Frequency (Hz)")
+
+
+def _ring(ax: Axes, places: NDArray[np.complex128], name: str, colour: str = RED) -> None:
+    """Rings around points of the complex plane."""
+    look = {"marker": "o", "markersize": 9, "color": colour, "markerfacecolor": "none"}
+    mark_points(ax, places.real, places.imag, name, **look)
+
+
+def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
+    """Draw Lyapunov exponents with their errors, hollow where they have not converged."""
+    attributes = {"long_name": "Lyapunov exponent", "units": "1/s"}
+    number = {"Number": np.arange(1, len(found.exponents) + 1)}
+    values = xr.DataArray(found.exponents, number, attrs=attributes)
+    own = wished(look, linestyle="", label=case_text(found.parameters))
+    unsure = values.copy(data=~found.converged)
+    lines(ax, values, "Number", doubtful=unsure, doubt="not converged", **own)
+    x, finite = values["Number"], values.where(np.isfinite(values))
+    colour = ax.lines[-1].get_color()
+    ax.errorbar(x, finite, found.errors, fmt="none", capsize=3, ecolor=colour)
+    ax.axhline(0, color=GREY, lw=0.6, zorder=0)
+    ax.xaxis.set_major_locator(MaxNLocator(integer=True))
+
+
+def draw_critical(ax: Axes, found: Any, **look: Any) -> None:
+    """Draw the growth rate of a motion over a parameter, shaded where it is unstable."""
+    data = shown(found.to_dataset())
+    x, rate, sliding = data[found.name], data["growth_rate"], data["sliding_growth_rate"]
+    own = wished(look, label=case_text(found.parameters, found.name), marker=".")
+    lines(ax, rate, found.name, missing="", **own)
+    colour = ax.lines[-1].get_color()
+    if found.kind != "sliding" and sliding.notnull().any():
+        name = once(ax, "steady sliding, where there is no cycle")
+        ax.plot(x, sliding, "--", label=name, color=colour)
+    mark_missing(ax, x[rate.isnull() & sliding.isnull()], "nothing found", colour)
+    for low, high in found.unstable:
+        name = once(ax, "shaded: unstable")
+        ax.axvspan(placed(x, low), placed(x, high), alpha=0.2, lw=0, color=colour, label=name)
+    rate_axis(ax)
+    ax.set_ylabel("Growth rate (1/s)")
+
+
+def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
+    """Draw neutral curves and folds with their resonances: thick beside a stable cycle, folds
+    dashed."""
+    [named] = ax.plot([], [], **wished(look, label=case_text(curves.parameters, *curves.bounds)))
+    colour = named.get_color()
+    for curve in curves:
+        x, y = map(column, curves.bounds, curve.values.T)
+        dashes, name = "-", "_nolegend_"
+        if curve.kind == "fold":
+            dashes, name = "--", once(ax, "dashed: the cycle ends in a fold")
+        ax.plot(x, y, color=colour, lw=THIN, ls=dashes, label=name)
+        stable = curve.adjoins_stable_cycle[:-1] & curve.adjoins_stable_cycle[1:]
+        thicken(ax, x, y, stable, "thick: a stable cycle adjoins", color=colour, ls=dashes)
+        _name_curve(ax, x, y, typeset(curve.resonance.label))
+    ax.set(xlabel=label(x), ylabel=label(y))
+
+
+def _name_curve(ax: Axes, x: xr.DataArray, y: xr.DataArray, name: str) -> None:
+    """Write a name beside the middle of a curve, unless the axes have it already."""
+    if name not in [text.get_text() for text in ax.texts]:
+        middle = (x[x.size // 2], y[x.size // 2])
+        ax.annotate(name, middle, (4, 2), textcoords="offset points", fontsize="small")
+
+
+def draw_modes(axes: Iterable[Any], case: Parameters) -> None:
+    """Draw the shapes of modes from above on polar axes, by ascending frequency, with nodal lines and
+    the slider."""
+    modes = mode_arrays(case)
+    inner, outer = radial_range(case)
+    r = np.linspace(inner + EDGE * (outer - inner), outer, 25)
+    theta = np.linspace(0, 2 * np.pi, 181)
+    shapes = mode_shapes(case, r)
+    for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
+        w = np.outer(shapes[i], np.cos(modes.diameters[i] * theta))
+        end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
+        colours: dict[str, Any] = {"cmap": cm.vik, "vmin": -end, "vmax": end}
+        ax.pcolormesh(theta, r, w, shading="gouraud", rasterized=True, **colours)
+        ax.contour(theta, r, w, [0], colors=BLACK, linewidths=1)
+        ax.plot(0, case.r_0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)
+        ax.set(ylim=(0, outer), xticks=[], yticks=[])
+        frequency = modes.omega[i] / (2 * np.pi)
+        ax.set_title(f"({modes.diameters[i]}, {modes.circles[i]})  {frequency:.0f} Hz")

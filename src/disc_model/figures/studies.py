@@ -1,0 +1,662 @@
+"""Figures of studies over parameters: each a few lines over `draw`."""
+
+from collections.abc import Mapping
+from itertools import cycle
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
+from scipy.ndimage import binary_dilation, binary_opening
+
+from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
+from disc_model.data.variables import presentation_of, stated_in, typeset
+from disc_model.figures.draw import (
+    COLUMN,
+    PAGE,
+    bar_of,
+    cells,
+    class_map,
+    colours_of,
+    each_value,
+    growth_colours,
+    is_rate,
+    lines,
+    lone_cells,
+    mark_missing,
+    mark_points,
+    number_map,
+    panels,
+    rate_axis,
+    sign_changes,
+    unresolved,
+    wilson,
+)
+from disc_model.figures.looks import (
+    BLACK,
+    BLUE,
+    GREEN,
+    GREY,
+    LOOKS,
+    ORANGE,
+    PAPER,
+    RED,
+    STABLE,
+    Look,
+)
+from disc_model.figures.schema import NORM, Role, grid_figure
+from disc_model.figures.shown import label, placed, value_text
+from disc_model.parameters import Parameters
+from disc_model.units import Finite, Positive, Strict
+
+Curves = Annotated[xr.Dataset | None, Role("stability_curves")]
+BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
+"""What curves are, and their lines."""
+NOTHING: dict[str, Any] = {}
+LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
+MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
+DASHES = ("-", "--", ":")
+LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
+BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
+ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
+NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
+SHADE = "#e4e4e4"
+PALE = "#d8d8d8"  # dots on dark colours
+
+
+def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
+    """A figure with a row of panels that have the same scales."""
+    width = COLUMN if count == 1 else PAGE
+    names = [str(i) for i in range(count)]
+    figure, axes = panels([names], width, height, sharex=True, sharey=True)
+    return figure, [*axes.values()]
+
+
+# ---- Any variable
+
+
+@grid_figure()
+def heat_map(
+    study: xr.Dataset, variable: str, x: str, y: str, by: str = NORM, log: bool = False
+) -> Figure:
+    """Any variable in colour over two dimensions, with a panel for each value of a third."""
+    parts = each_value(study, by)
+    figure, axes = row(len(parts), 2.4)
+    shown = study[variable]
+    has_classes = shown.dtype == object
+    scale = {} if has_classes else colours_of(shown, log=log)
+    paint = rate_map if is_rate(shown) else number_map
+    for ax, (title, part) in zip(axes, parts, strict=True):
+        plane = part.transpose(y, x, ...)
+        ax.set_title(title)
+        if has_classes:
+            class_map(ax, plane[variable])
+        else:
+            mesh = paint(ax, plane[variable], why_missing(plane, variable), **scale)
+    if not has_classes:
+        bar_of(figure, axes, mesh, shown)
+    return figure
+
+
+def rate_map(
+    ax: Axes, rate: xr.DataArray, why: xr.DataArray | None, contour: bool = True, **colours: Any
+) -> Any:
+    """Paint growth rates, of dimensions (up, across), with dots where they are negative; single cells
+    that differ from those beside them are hatched. Returns the mesh.
+
+    contour : whether a line is drawn where the sign changes
+    """
+    mesh = number_map(ax, rate, why, **colours)
+    negative = (rate < 0).values
+    dark = (rate < -colours["norm"].vmax / 8).values  # black dots would not be seen there
+    cells(ax, rate, negative & ~dark, STABLE)
+    cells(ax, rate, dark, STABLE._replace(ink=PALE))
+
+    stability = rate.copy(data=np.where(negative, "stable", "unstable").astype(object))
+    if why is not None:
+        stability = stability.where(rate.notnull(), why)
+    unresolved(ax, stability)
+    if contour:
+        sign_changes(ax, rate.where(~lone_cells(stability)), "growth rate changes its sign")
+    return mesh
+
+
+@grid_figure()
+def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = False) -> Figure:
+    """Any variable against one dimension, with a line for each value of another."""
+    figure, axes = panels([["a"]], COLUMN, 2.6)
+    y = study[variable]
+    of_cycle = variable == "growth_rate"  # which may be another one at the next value
+    every = y.sizes[x] // 12 if bool(y.notnull().all()) else 1  # a point alone needs its mark
+    jump = 1.0 if of_cycle else np.inf
+    doubtful = in_doubt(study, variable)
+    lines(axes["a"], y, x, doubtful=doubtful, jump=jump, markevery=max(1, every))
+    if of_cycle:
+        rate_axis(axes["a"])
+    elif is_rate(y):
+        axes["a"].axhline(0, color=GREY, lw=0.5, zorder=0)
+    if log:
+        axes["a"].set_yscale("log")
+    return figure
+
+
+def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Words for the points of a variable without a number: what there is in place of a cycle, or a
+    status that is not "ok"."""
+    x = data[variable]
+    if is_rate(x) and "cycle" in data and data["cycle"].dims == x.dims:
+        return data["cycle"]
+    if "status" in data and set(data["status"].dims) <= set(x.dims):
+        status = data["status"].broadcast_like(x).transpose(*x.dims)
+        return status.where(status != "ok", "no_value")
+    return None
+
+
+DOUBTS = {
+    "settled": ("settled", "not settled"),
+    "sweep_settled": ("settled", "not settled"),
+    "converged": ("yes", "not converged"),
+}
+"""Variables that say whether others are sure, with the word for yes, and what is said otherwise."""
+LATE = ("_min", "_max", "_fraction", "_rate", "surface_speed")
+"""Ends of names of what `outcome` says of the late motion."""
+
+
+def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+    """Where a value is not known to be final, with the reason as `long_name`."""
+    x, found = data[variable], dict[str, Any]()
+    for name, (good, why) in DOUBTS.items():
+        if name in data and name != variable:
+            is_truth = data[name].dtype.kind in "bf"  # of sweeps in Python
+            found[why] = data[name] != (True if is_truth else good)
+    if "at_lower_bound" in data and variable in ("value", "critical_speed"):
+        found["at the lower bound, or below"] = data["at_lower_bound"] == 1
+    if {"outcome", "u_max"} <= {*data} and variable.endswith(LATE):
+        found["still growing, or undecided"] = data["outcome"].isin(["growing", "undecided"])
+    for why, unsure in found.items():
+        if {*unsure.dims} <= {*x.dims}:
+            whole: xr.DataArray = unsure.broadcast_like(x).transpose(*x.dims)
+            return whole.assign_attrs(long_name=why)
+    return None
+
+
+# ---- Maps of outcomes
+
+
+class Mark(Strict):
+    """A case of the paper: where it lies, in SI units, and what the paper says of it."""
+
+    x: Finite
+    y: Finite
+    paper_outcome: Literal["stick_slip", "growing", "separation"]
+
+
+@grid_figure("regions")
+def region_map(
+    study: xr.Dataset,
+    x: str,
+    y: str,
+    by: str = NORM,
+    marks: dict[str, Mark] = NOTHING,
+    curves: Curves = None,
+) -> Figure:
+    """Outcomes over two parameters, with cases of the paper, and the growth rate of the cycle below,
+    for each value of a third one."""
+    parts = each_value(study, by)
+    above = [f"outcome {i}" for i in range(len(parts))]
+    below = [f"rate {i}" for i in range(len(parts))]
+    layout = [above, below] if len(parts) > 1 else [above + below]
+    figure, axes = panels(layout, PAGE, 2.4, sharex=True, sharey=True)
+    scale = growth_colours(study["growth_rate"])
+    for i, (title, part) in enumerate(parts):
+        plane = part.transpose(y, x, ...)
+        class_map(axes[above[i]], plane["outcome"])
+        unresolved(axes[above[i]], plane["outcome"])
+        axes[above[i]].set_title(titled(title, study))
+        rate = plane["growth_rate"]
+        mesh = rate_map(axes[below[i]], rate, plane["cycle"], curves is None, **scale)
+        if curves is not None:
+            beside = curves.sel({by: part[by].item()}) if by in curves.dims else curves
+            borders(axes[below[i]], beside, rate)
+    for name, mark in marks.items():
+        draw_mark(axes[above[0]], name, mark, study[x], study[y])
+    bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
+    return figure
+
+
+def titled(title: str, study: xr.Dataset) -> str:
+    """A title of outcomes, with their horizon."""
+    horizon = stated_in(study, "options")["horizon"]
+    return f"{title}: outcome within {horizon:g} s".removeprefix(": ")
+
+
+def borders(ax: Axes, curves: xr.Dataset, rate: xr.DataArray) -> None:
+    """Continued curves where they bound the cycle of a map.
+
+    rate : of dimensions (up, across)
+    """
+    for i in range(curves.sizes["curve"]):
+        curve = curves.isel(curve=i)
+        name, style = BORDERS.get(curve["kind"].item(), ("", ""))
+        up, across = (along(curve)[str(dim)] for dim in rate.dims)
+        up = up.where(bounding(curve, up, across, rate))
+        if name and up.notnull().any():
+            ax.plot(across, up, style, color=BLACK, label=name, scalex=False, scaley=False)
+
+
+def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
+    """Places on curves by their parameters."""
+    return {curves[axis].attrs["parameter"]: curves[axis] for axis in "xy"}
+
+
+def bounding(
+    curve: xr.Dataset, up: xr.DataArray, across: xr.DataArray, rate: xr.DataArray
+) -> xr.DataArray:
+    """Where a curve passes between an area in which the cycle is stable and one beyond, both two
+    cells wide or more: no curves of another cycle, and none finer than the cells."""
+    near = up.notnull() & (curve["adjoins_stable_cycle"] == "yes")
+    known = near.values.copy()
+    places = dict(zip(rate.dims, (up[known], across[known]), strict=True))
+    for area in (rate < 0, ~(rate < 0)):
+        padded = np.pad(area, 1, mode="edge")
+        wide = binary_opening(padded, np.ones((2, 2)))[1:-1, 1:-1]
+        around = area.copy(data=binary_dilation(wide, np.ones((3, 3))))
+        near[known] &= around.sel(places, method="nearest").values
+    return near
+
+
+def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray) -> None:
+    """A case of the paper: a frame around the look of what the paper says."""
+    at = (placed(x, mark.x), placed(y, mark.y))
+    said = mark.paper_outcome
+    shape, size = {"stick_slip": ("o", 3), "growing": ("^", 5), "separation": ("s", 7)}[said]
+    look: dict[str, Any] = {"clip_on": False, "zorder": 20 - size, "ls": "", "marker": shape}
+    ax.plot(*at, label="paper's case and outcome", ms=size + 3, **PAPER, **look)
+    ax.plot(*at, ms=size, color=LOOKS[said].face, mec=BLACK, mew=0.5, **look)
+
+    # its name towards the middle of the panel, and two at one place above and below
+    across, height = ax.transLimits.transform(ax.transScale.transform(at))
+    above = height < 0.85 and (said == "separation" or height < 0.15)
+    side, right = ("right", -6) if across > 0.7 else ("left", 6)
+    end, up = ("bottom", 6) if above else ("top", -6)
+    behind = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
+    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=behind, zorder=20, **NOTE)
+
+
+FATES = {
+    "small": ("stick_slip", "steady_sliding", "at_rest"),
+    "growing": ("growing", "other_cycle"),
+    "separating": ("separation",),
+}
+"""Motions, and outcomes that are these; the first has their colour."""
+NEUTRAL = 1e-9  # growth rate of steady sliding that is zero but for rounding, 1/s
+
+
+@grid_figure("regions", "outcome")
+def sliding_outcome(
+    study: xr.Dataset,
+    x: str,
+    y: str,
+    sliding: Annotated[xr.Dataset, Role("sliding", required=True)],
+    by: str = NORM,
+) -> Figure:
+    """What linear analysis of steady sliding says, and what the motion does, over two parameters; the
+    legend has shares of the points of each panel."""
+    motion, linear = xr.align(study, sliding.rename(value=x), join="inner")
+    outcome, rate = motion["outcome"], linear["largest_growth_rate"]
+    both = outcome.where(outcome == "excluded", "undecided")
+    looks = {}
+    for fate, outcomes in FATES.items():
+        here = outcome.isin(outcomes)
+        for stability, mask, dots in (
+            ("stable", rate <= NEUTRAL, STABLE.hatch),
+            ("unstable", rate > NEUTRAL, ""),
+        ):
+            word = f"sliding {stability}, {fate}"
+            both = both.where(~(here & mask), word)
+            shares = [float((part == word).mean()) for _, part in each_value(both, by)]
+            said = ", ".join(f"{100 * share:.0f} %" for share in shares)
+            looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
+    parts = each_value(both, by)
+    figure, axes = row(len(parts), 2.6)
+    for ax, (title, part) in zip(axes, parts, strict=True):
+        ax.set_title(titled(title, study))
+        class_map(ax, part.transpose(y, x), looks)
+    return figure
+
+
+def counted(chosen: Any) -> str:
+    """How many of some are chosen, of a mask."""
+    return f"{int(chosen.sum())} of {chosen.size}"
+
+
+# ---- Where separation begins
+
+
+@grid_figure("critical_speed", needs=("N",))
+def critical_speed(
+    study: xr.Dataset,
+    paper_points: dict[str, tuple[Finite, Finite]] = NOTHING,
+    hysteresis: Annotated[xr.Dataset | None, Role("hysteresis")] = None,
+    cycle: Annotated[xr.Dataset | None, Role("regions")] = None,
+    curves: Curves = None,
+    basins: Annotated[xr.Dataset | None, Role("basins")] = None,
+) -> Figure:
+    """Speeds at which separation begins, against the preload: from the static start, over a map of
+    outcomes with its borders, and in sweeps, over the map's stable cycles.
+
+    paper_points : preloads and critical speeds of the paper, N and rad/s
+    """
+    if "horizon" in study.dims:
+        study = study.sel(horizon=study["horizon"].max())
+    speeds, loads = study["scan_Omega"], study["N"]
+    figure, axes = row(1 if hysteresis is None else 2, 3.0)
+    if cycle is not None:
+        behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
+    for ax in axes:
+        onsets(ax, study)
+        mark_missing(ax, loads[study["critical_speed"].isnull().values], "_", along="y")
+        ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
+        ax.label_outer()
+    axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
+    for load, speed in paper_points.values():
+        at = (placed(speeds, speed), placed(loads, load))
+        axes[0].plot(*at, "*", ms=9, zorder=5, **PAPER)
+        axes[0].annotate("paper", at, (6, -4), **NOTE)
+    if hysteresis is not None:
+        step = float(hysteresis["sweep_Omega"].diff("sweep_Omega")[0])
+        axes[1].set_title(f"sweeps in steps of {step:g} {speeds.units}")
+        sweeps(axes[1], hysteresis)
+    if basins is not None:
+        load = stated_in(basins, "base")["N"]
+        coexistence(axes[-1], basins, placed(loads, load))
+    return figure
+
+
+def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
+    """Outcomes of a map and the borders of its cycle, and where this is stable."""
+    plane = cycle.transpose("N", "Omega", ...)
+    in_contact = plane["outcome"].isin(["other_cycle", "undecided"])
+    others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
+    class_map(axes[0], plane["outcome"].where(~in_contact, "growing"), {"growing": others})
+    if curves is not None:
+        borders(axes[0], curves, plane["growth_rate"])
+    stable = plane["growth_rate"] < 0
+    for ax in axes[1:]:
+        cells(ax, stable, stable.values, Look("cycle stable", LOOKS["stable"].face))
+
+
+def onsets(ax: Axes, study: xr.Dataset) -> None:
+    """All speeds of a scan at which separation begins."""
+    further = study["crossing"].where(study["crossing_kind"] == "begins")
+    first = study["critical_speed"].expand_dims(crossing_number=[-1])
+    found = xr.concat([first, further], "crossing_number")
+    at, loads = xr.broadcast(found, study["N"])
+    look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 3, "mew": 0.6}
+    name = "separation begins; × at edge: none found"
+    mark_points(ax, at.values.ravel(), loads.values.ravel(), name, **look)
+
+
+def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
+    """Speeds at which separation begins on the way up and ends on the way down, at each preload; hollow
+    where a stay in contact ended before the motion had settled, so that the speed is in doubt."""
+    along, up, down = sweep["sweep_Omega"], sweep["onset_speed"], sweep["offset_speed"]
+    kept = sweep["separation_rate"] == 0
+    unsure = kept & (sweep["sweep_settled"] != "settled")
+    last_kept = along.where(kept.sel(direction="down")).max("sweep_Omega")
+    name = "sweeps: separation begins ▲ going up, ends ▼ going down; hollow: not settled"
+    ends = down.fillna(along.min())  # without one, separation goes on at the lowest speed
+    ax.hlines(sweep["N"], ends, up, color=BLACK, lw=0.8, label=name)
+    for way, speeds, before, marker, colour in (
+        ("up", up, along < up, "^", RED),
+        ("down", down, along == last_kept, "v", BLUE),
+    ):
+        doubtful = (unsure.sel(direction=way) & before).any("sweep_Omega")
+        ax.plot(speeds, sweep["N"], marker, color=colour, ms=5)
+        ax.plot(speeds.where(doubtful), sweep["N"], marker, color=colour, mfc="white", ms=5)
+
+
+def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
+    """A bar over the speeds at which some random starts come to small stick-slip and others keep
+    separating: the intervals of both shares exclude zero."""
+    small = basins["basin_fraction_low"].sel(attractor_class="stick_slip") > 0
+    both = basins["Omega"].where(small & (basins["separating_fraction_low"] > 0))
+    ax.plot(both, both * 0 + load, "-|", color=ORANGE, lw=2, ms=7, mew=1.5)
+    name = "random starts:\nsmall or separating"
+    ax.annotate(name, (float(both.min()), load), (-4, -6), ha="right", **NOTE)
+
+
+@grid_figure("ramps")
+def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
+    """Speeds at which separation begins and ends on ramps of the speed, against their rate; a line where
+    the stable cycle ends, the limit of slow ramps."""
+    figure, axes = panels([["a"]], COLUMN, 2.4)
+    ax = axes["a"]
+    for name, way, end, marker, colour in (
+        ("onset_speed", "rising", "begins", "^", RED),
+        ("offset_speed", "falling", "ends", "v", BLUE),
+    ):
+        speeds = study[name].assign_attrs(long_name="Speed Ω")
+        missing = f"{way}: {speeds.attrs.get('missing', 'no value')}"
+        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4}
+        lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
+    mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
+    if curves is not None:
+        ends = fold_speeds(curves, stated_in(study, "base")["N"])
+        limit = float(ends.where(ends <= study["onset_speed"].min()).max())
+        if np.isfinite(limit):
+            name = f"stable cycle ends (fold), {limit:.2f}"
+            ax.axhline(limit, color=BLACK, lw=0.8, ls="--", label=name)
+    return figure
+
+
+def fold_speeds(curves: xr.Dataset, load: float) -> xr.DataArray:
+    """Speeds at which folds of the stable cycle cross a preload (N), nan between other points."""
+    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
+    speed, loads = along(curves)["Omega"].where(beside), along(curves)["N"]
+    above = loads - placed(loads, load)
+    ahead = above.shift(curve_point=-1)
+    crossing = speed + above / (above - ahead) * (speed.shift(curve_point=-1) - speed)
+    return crossing.where(above * ahead <= 0)
+
+
+# ---- Motions with separation
+
+
+@grid_figure("outcome")
+def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> Figure:
+    """Share of starts that have separated, against time, with a line for each value of a parameter, and
+    bars of 95 % confidence at its end."""
+    horizon = stated_in(study, "options")["horizon"]
+    figure, axes = panels([["a"]], COLUMN, 2.6)
+    ax = axes["a"]
+    for i, (title, part) in enumerate(each_value(study, by)):
+        known = part["first_separation"][(part["status"] == "ok").values]
+        times = np.sort(known.dropna(starts).values)
+        count = max(1, known.size)
+        shares = np.arange(times.size + 1) / count
+        colour, dashes = LINE_COLOURS[i % 4], DASHES[i % 3]
+        name = f"{title}: {counted(known.notnull())} starts"
+        steps = [0, *times, horizon]
+        ax.stairs(shares, steps, baseline=None, color=colour, ls=dashes, lw=1.4, label=name)
+        middle, half = wilson(times.size, count)
+        end = horizon * (1.02 + 0.02 * i)
+        ax.vlines(end, middle - half, middle + half, color=colour, lw=3, label="95 % confidence")
+    ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
+    ax.set_xlim(0, None)
+    return figure
+
+
+SETTLED = ("stick_slip", "other_cycle", "steady_sliding", "at_rest")
+"""Outcomes that a longer time would not change."""
+
+
+@grid_figure("outcome", needs=("Omega", "N", "contact"))
+def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
+    """Late range of the slider's height, and speed of the disc's surface under it, against the speed,
+    with separation and with it ignored.
+
+    thickness : of the disc, m: plate theory is not linear for larger ranges
+    """
+    height = study["u_max"].assign_attrs(long_name="Range of the slider's height")
+    late = height.copy(data=height - study["u_min"])
+    unsure = ~study["outcome"].isin(SETTLED)
+    data = study.assign(late=late, unsure=unsure, limit=lost_contact(study))
+    apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
+    lost = f"R, at which contact is lost; separating: {extent(apart / data['limit'])} R"
+
+    names = [name for name in ("late", "surface_speed") if name in data]
+    figure, axes = panels([names], PAGE, 2.8, sharex=True)
+    for (title, part), colour in zip(each_value(data, "N"), cycle(LINE_COLOURS), strict=False):
+        if np.isfinite(part["limit"]):
+            axes["late"].axhline(float(part["limit"]), color=colour, ls=":", label=lost)
+        for contact, style, more in (
+            ("unilateral", "-", ""),
+            ("bilateral", "--", ", separation ignored"),
+        ):
+            one = part.sel(contact=contact)
+            look: dict[str, Any] = {"color": colour, "ls": style, "label": title + more}
+            look.update(doubtful=one["unsure"], doubt="not shown to settle")
+            for name, ax in axes.items():
+                lines(ax, one[name], "Omega", **look)
+    beyond = placed(height, thickness)
+    axes["late"].axhspan(beyond, 10 * beyond, color=SHADE, label="beyond linear plate theory")
+    larger = extent(late.sel(contact="bilateral") / apart)
+    axes["late"].set(yscale="log", title=f"separation ignored: {larger} times the range")
+    for ax in [*axes.values()][1:]:
+        ax.set_title("above 1, friction reverses")
+        ax.axhline(1, color=GREY, lw=0.6, zorder=0)
+    return figure
+
+
+def extent(ratios: xr.DataArray) -> str:
+    """Least and greatest of some ratios, in two digits."""
+    return f"{float(ratios.min()):.2g} to {float(ratios.max()):.2g}"
+
+
+def lost_contact(study: xr.Dataset) -> xr.DataArray:
+    """Range at which vibration loses contact at the frequency of the mode with the largest tangential
+    motion, which friction feeds, along the preload, in the unit of heights; nan for another disc."""
+    name = study["disc"].item() if "disc" in study else ""
+    disc = stated_in(study, "discs").get(name, {})
+    if "tangential" not in disc:
+        return study["N"] * np.nan
+    fed = np.argmax(np.abs(disc["tangential"]))
+    frequency = disc["omega"][fed] / (2 * np.pi)
+    base = stated_in(study, "base")
+    slider = {name: base[name] for name in ("k", "m", "c")}
+    of_newton = pinned_range(Parameters(N=1.0, Omega=1.0, **slider), frequency)
+    loads = study["N"] / study["N"].attrs["factor"]
+    return placed(study["u_max"], of_newton) * loads
+
+
+@grid_figure("range_law", takes=True)
+def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
+    """Excess of the range of motions with separation over the range R at which vibration at their
+    frequency loses contact, against R, and enlarged against the share of time apart; hollow where no
+    frequency carries most of the motion.
+
+    set_apart : value of a parameter whose motions have marks of their own
+    """
+    data = study.stack(motion=[*study["deviation"].dims], create_index=False)
+    data = data.isel(motion=data["deviation"].notnull().values)
+    excess, apart = data["deviation"], data["separation_fraction"]
+    shares = np.minimum(data["vibration_share"].values, data["force_share"].values)
+    single = shares >= 0.95
+    groups = groups_of(data, set_apart)
+    inside = (abs(excess) <= BAND).values
+    band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
+    hollow = "hollow: no frequency carries 95 % of height and contact force"
+    places = {"all": (data["pinned_range"], excess), "apart": (apart, excess.clip(*ENLARGED))}
+
+    figure, axes = panels([[*places]], PAGE, 2.6)
+    for panel, (x, y) in places.items():
+        ax = axes[panel]
+        for name, (marker, colour) in zip(np.unique(groups), cycle(MARKS), strict=False):
+            look: dict[str, Any] = {"marker": marker, "color": colour, "ls": "", "ms": 3}
+            here = groups == name
+            ax.plot(x[here & single], y[here & single], label=name, **look)
+            mark_points(ax, x[here & ~single], y[here & ~single], hollow, mew=0.6, **look)
+        ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
+        ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
+        ax.set_ylabel("Excess of the range over R")
+    times = np.linspace(0, np.max(apart.values, initial=0.01))
+    flights = np.vectorize(excess_of_flights)(times)
+    axes["apart"].plot(times, flights, color=BLACK, label="by flights: (π · time apart)²/8")
+    axes["apart"].set_xlabel("Share of time apart")
+    axes["all"].set(xscale="log", xlabel=f"{LIMIT} ({data['pinned_range'].units})")
+    return figure
+
+
+def groups_of(data: xr.Dataset, set_apart: Mapping[str, float]) -> Any:
+    """Names of the groups of motions: a value that sets some apart, else their normalization."""
+    groups = np.full(data.sizes["motion"], "motions", dtype=object)
+    if NORM in data and data[NORM].dims:
+        groups[:] = [value_text(each) for each in data[NORM]]
+    for name, value in set_apart.items():
+        chosen = np.isclose(data[name], placed(data[name], value), rtol=1e-9, atol=0)
+        groups[chosen] = value_text(data[name][chosen][0])
+    return groups
+
+
+# ---- Uncertain parameters
+
+
+@grid_figure("sensitivity", takes=True)
+def sensitivity(study: xr.Dataset) -> Figure:
+    """Probability of instability in the lowest and the highest third of each parameter's values, with
+    intervals of 95 %, for each point of the study; the parameters that change it most stand above."""
+    points = [str(dim) for dim in study["status"].dims if dim != "sample"]
+    cases = study.expand_dims("case")
+    if points:
+        cases = study.stack(case=points, create_index=False)
+    thirds = thirds_of(cases)
+    thirds = thirds.sortby(abs(thirds["share"][1] - thirds["share"][0]).max("case"))
+
+    rows = np.arange(thirds.sizes["parameter"])
+    name = f"all {cases.sizes['sample']} samples"
+    failed = int((cases["cycle"] == "failed").sum())
+    if failed:
+        name += f"; {failed} in all panels failed, and do not count"
+    figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
+    for i, ax in enumerate(axes):
+        draw_thirds(ax, thirds.isel(case=i), rows)
+        overall = float(cases["probability_unstable"][i])
+        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label=name)
+        along = [each[i] for each in cases.coords.values() if each.dims == ("case",)]
+        ax.set_title(", ".join(map(value_text, along)))
+        ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
+    symbols = [presentation_of(name).symbol for name in thirds["parameter"].values]
+    axes[0].set_yticks(rows, [typeset(symbol) for symbol in symbols])
+    return figure
+
+
+def thirds_of(cases: xr.Dataset) -> xr.Dataset:
+    """Shares of unstable samples with a parameter in its lowest and in its highest third, and the ends of
+    their intervals, shape (third, case, parameter)."""
+    values = cases["parameter_values"]
+    known = (cases["cycle"] != "failed") & (cases["status"] != "excluded")
+    unstable = known & ~cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
+    low, high = (values.quantile(end, "sample", skipna=False) for end in (1 / 3, 2 / 3))
+    parts = []
+    for inside in (values <= low, values >= high):
+        count = (inside & known).sum("sample")
+        count = count.where(count > 0)
+        hits = (inside & unstable).sum("sample")
+        middle, half = wilson(hits, count)
+        ends = {"low": middle - half, "high": middle + half}
+        parts.append(xr.Dataset({"share": hits / count, **ends}))
+    return xr.concat(parts, "third")
+
+
+def draw_thirds(ax: Axes, thirds: xr.Dataset, rows: Any) -> None:
+    """A row for each parameter, with both shares, their intervals, and a line between them."""
+    ax.hlines(rows, *thirds["share"].values, color=GREY, lw=0.8)
+    for i, (name, face) in enumerate((("lowest", "white"), ("highest", BLUE))):
+        one = thirds.isel(third=i)
+        up = rows + 0.24 * i - 0.12
+        ax.hlines(up, one["low"], one["high"], color=BLUE, lw=0.8, label="95 % interval")
+        look: dict[str, Any] = {"color": BLUE, "mfc": face, "ms": 4, "ls": "", "marker": "o"}
+        ax.plot(one["share"], up, label=f"{name} third of its values", **look)

@@ -1,1 +1,0 @@
-"""Figures of single runs: time histories, phase portraits, Poincaré sections and spectra."""

@@ -1,2 +1,0 @@
-"""Pictures of stability: branches, multipliers, eigenvalues, exponents, curves, modes, and Campbell
-diagrams."""

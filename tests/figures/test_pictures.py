@@ -1,0 +1,193 @@
+"""Every kind of figure names the quantities on its axes and their units, and shows the values of its
+data in these units."""
+
+from pathlib import Path
+from typing import Any
+
+import matplotlib as mpl
+import numpy as np
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+
+from disc_model.figures.kinds import KINDS, kind_of, render, save
+from tests.figures.examples import EXAMPLES, KINDS_OF_STUDIES, Example, simulated
+from tests.figures.measured import assert_shows
+
+OF_GRIDS = [function.__name__ for function in KINDS_OF_STUDIES]
+MARGIN = 0.05  # inch
+
+
+def drawn(kind: str, example: Example) -> Figure:
+    """A figure of an example, as a file asks for it."""
+    inputs = {
+        name: xr.DataTree(data) if isinstance(data, xr.Dataset) else data
+        for name, data in example.inputs.items()
+    }
+    return render(kind_of(kind).model_validate({"kind": kind, **example.phrase}), inputs)
+
+
+def said(figure: Figure) -> str:
+    """What titles and legend of a figure say, in one line."""
+    titles = [ax.get_title(loc="left") for ax in figure.axes]
+    entries = [text.get_text() for legend in figure.legends for text in legend.texts]
+    return " ".join(" ".join([*titles, *entries]).replace("$", "").split())
+
+
+def test_each_kind_has_an_example() -> None:
+    assert {*KINDS} == {*EXAMPLES}
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_labels_units_and_values_are_those_of_the_data(kind: str) -> None:
+    """Microseconds for milliseconds, metres for millimetres and 1/min for 1/s were not noticed."""
+    example = EXAMPLES[kind]()
+    figure = drawn(kind, example)
+    assert example.shown
+    for expected in example.shown:
+        assert_shows(figure, expected)
+    for text in example.said:
+        assert text.replace("$", "") in said(figure), text
+
+
+@pytest.mark.parametrize("kind", EXAMPLES)
+def test_nothing_lies_outside_the_page(kind: str) -> None:
+    figure = drawn(kind, EXAMPLES[kind]())
+    figure.draw_without_rendering()
+    width, height = figure.get_size_inches()
+    page = figure.get_tightbbox()
+    assert min(page.x0, page.y0, width - page.x1, height - page.y1) > -MARGIN
+
+
+def without_numbers(study: xr.Dataset) -> xr.Dataset:
+    """A study of which each point has failed."""
+    changed = {name: x.where(False) for name, x in study.data_vars.items() if x.dtype.kind == "f"}
+    for name, x in study.data_vars.items():
+        words = x.attrs.get("flag_meanings", "").split()
+        if "failed" in words:
+            changed[name] = xr.full_like(x, words.index("failed"))
+    return study.assign(changed)
+
+
+@pytest.mark.parametrize("kind", OF_GRIDS)
+@pytest.mark.filterwarnings("error")
+def test_a_study_that_has_failed_is_drawn(kind: str) -> None:
+    example = EXAMPLES[kind]()
+    inputs = {name: without_numbers(study) for name, study in example.inputs.items()}
+    drawn(kind, example._replace(inputs=inputs)).draw_without_rendering()
+
+
+@pytest.mark.parametrize("kind", [kind for kind in OF_GRIDS if kind != "sensitivity"])
+def test_a_study_of_one_point_is_drawn(kind: str) -> None:
+    example = EXAMPLES[kind]()
+    study = example.inputs["study"]
+    grid = {"Omega", "N", "c_p", "k_p", "value", "rate"} & {*study.dims}
+    first = study.isel(dict.fromkeys(grid, slice(1)))
+    drawn(
+        kind, example._replace(inputs={**example.inputs, "study": first})
+    ).draw_without_rendering()
+
+
+@pytest.mark.parametrize("kind", ["heat_map", "curve", "region_map", "sliding_outcome"])
+@pytest.mark.parametrize(
+    ("names", "expected"),
+    [({2e4: "soft", "60000": "stiff"}, ["soft", "stiff"]), ({}, ["k = 20 kN/m", "k = 60 kN/m"])],
+)
+def test_models_stand_beside_each_other_and_are_told_apart(
+    kind: str, names: dict[Any, str], expected: list[str]
+) -> None:
+    """Two models of one thing are panels or lines of one figure, with names of the file's own."""
+    example = EXAMPLES[kind]()
+    study, *others = example.inputs
+    first = example.inputs[study].isel(k_p=0) if kind == "curve" else example.inputs[study]
+    first = first.squeeze("normalization", drop=True) if "normalization" in first.dims else first
+    both = xr.concat([first.assign_coords(k=value) for value in (2e4, 6e4)], "k")
+    both["k"].attrs["units"] = "N m-1"
+    inputs = {study: both, **{role: example.inputs[role] for role in others}}
+    phrase = {**example.phrase, "by": "k", "names": names}
+    figure = drawn(kind, example._replace(phrase=phrase, inputs=inputs))
+    assert all(text in said(figure) for text in expected)
+
+
+# ---- Doubts, gaps, and units of the reader
+
+
+def curve_of(values: Any, **columns: Any) -> tuple[Example, xr.Dataset]:
+    """A line of growth rates over three speeds."""
+    study = xr.Dataset(
+        {"growth_rate": ("Omega", values, {"units": "s-1", "long_name": "growth rate"}), **columns},
+        {"Omega": ("Omega", [10.0, 11.0, 12.0], {"units": "rad s-1"})},
+    )
+    study["growth_rate"].attrs["missing"] = "there is no cycle"
+    return Example({"variable": "growth_rate", "x": "Omega"}, {"study": study}, ()), study
+
+
+def test_a_point_without_a_value_is_a_cross_that_says_why() -> None:
+    example, _ = curve_of([0.01, np.nan, 0.02])
+    figure = drawn("curve", example)
+    assert "no value: there is no cycle" in said(figure)
+    crosses = [line for line in figure.axes[0].lines if line.get_marker() == "x"]
+    assert [line.get_xdata().tolist() for line in crosses] == [[11.0]]
+
+
+def test_a_value_in_doubt_is_hollow() -> None:
+    settled = ("Omega", np.array([1, 0, 1], np.int8), {"flag_meanings": "undecided settled"})
+    example, _ = curve_of([0.01, 0.02, 0.03], settled=settled)
+    figure = drawn("curve", example)
+    [hollow] = [line for line in figure.axes[0].lines if line.get_markerfacecolor() == "white"]
+    assert hollow.get_xdata().tolist() == [11.0]
+    assert "hollow" in said(figure)
+
+
+def test_a_line_of_growth_rates_is_open_where_another_cycle_may_follow() -> None:
+    example, _ = curve_of([0.01, 5.0, 5.1])
+    [line] = [line for line in drawn("curve", example).axes[0].lines if len(line.get_xdata()) == 4]
+    assert np.flatnonzero(np.isnan(line.get_ydata())).tolist() == [1]
+
+
+def test_values_are_drawn_in_the_units_of_the_reader() -> None:
+    example, study = curve_of([0.01, 0.02, 0.03])
+    figure = drawn("curve", example._replace(phrase={**example.phrase, "units": {"Omega": "rpm"}}))
+    ax = figure.axes[0]
+    assert ax.get_xlabel() == "Speed Ω (rpm)"
+    expected = study["Omega"].values * 30 / np.pi
+    np.testing.assert_allclose(ax.lines[0].get_xdata(), expected, rtol=1e-12)  # of one product
+
+
+def test_a_product_has_its_power_of_ten_once() -> None:
+    study = xr.Dataset(
+        {"period": (("D_star", "Omega"), [[0.01, 0.02], [0.03, 0.04]], {"units": "s"})},
+        {
+            "D_star": ("D_star", [1e-5, 2e-5], {"units": "N m s"}),
+            "Omega": ("Omega", [10.0, 11.0], {"units": "rad s-1"}),
+        },
+    )
+    phrase = {"variable": "period", "x": "Omega", "by": "D_star"}
+    assert "D* = 1·10⁻⁵ N m s" in said(drawn("curve", Example(phrase, {"study": study}, ())))
+
+
+# ---- Files
+
+
+@pytest.mark.parametrize("suffix", ["pdf", "png"])
+def test_equal_figures_give_equal_bytes_whatever_the_users_settings(
+    suffix: str, tmp_path: Path
+) -> None:
+    example = Example({"case": "A", "window": "history"}, {"A": simulated(True)}, ())
+    save(drawn("history", example), tmp_path / f"a.{suffix}")
+    before = dict(mpl.rcParams)
+    with mpl.rc_context({"axes.labelsize": 30, "lines.linewidth": 9}):
+        save(drawn("history", example), tmp_path / f"b.{suffix}")
+    assert dict(mpl.rcParams) == before
+    content = (tmp_path / f"a.{suffix}").read_bytes()
+    assert content == (tmp_path / f"b.{suffix}").read_bytes()
+    assert b"CreationDate" not in content
+    assert b"/Type3" not in content, "fonts are embedded as TrueType"
+
+
+def test_a_case_without_what_is_shown_says_so() -> None:
+    tree = simulated(True).copy()
+    del tree["zoom"]
+    example = Example({"case": "A", "window": "zoom"}, {"A": tree}, ())
+    figure = drawn("history", example)
+    assert figure.axes[0].texts[0].get_text() == "not shown: the case did not record zoom"
