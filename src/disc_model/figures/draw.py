@@ -187,7 +187,7 @@ def cells(ax: Axes, plane: xr.DataArray, mask: Any, look: Look) -> None:
     corners = (across[column[:, None] + [0, 1, 1, 0]], up[row[:, None] + [0, 0, 1, 1]])
     outline = Path.make_compound_path_from_polys(np.stack(corners, axis=-1))
     paint = {**look.paint, "antialiased": False, "rasterized": not look.hatch}
-    ax.add_patch(PathPatch(outline, lw=0, **paint))
+    ax.add_artist(PathPatch(outline, lw=0, **paint))
 
 
 def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
