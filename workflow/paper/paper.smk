@@ -75,6 +75,8 @@ rule show_model:
         ),
     log:
         f"{RESULTS}/logs/show_model.log",
+    conda:
+        "../envs/disc_model.yaml"
     shell:
         "cp {input:q} {output:q} > {log} 2>&1"
 
