@@ -61,6 +61,7 @@ rule make_table:
     shell:
         "job ../paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
+
 rule show_model:
     # A drawing that was made once, with the radii of Table 1.
     input:
