@@ -370,7 +370,9 @@ def critical_speed(
 def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
     """Outcomes of a map and the borders of its cycle, and where this is stable."""
     plane = cycle.transpose("N", "Omega", ...)
-    class_map(axes[0], plane["outcome"])
+    merged = plane["outcome"].isin(["other_cycle", "undecided"])
+    others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
+    class_map(axes[0], plane["outcome"].where(~merged, "growing"), {"growing": others})
     borders(axes[0], curves, plane["growth_rate"])
     stable = plane["growth_rate"] < 0
     for ax in axes[1:]:
