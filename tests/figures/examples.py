@@ -5,18 +5,21 @@ them by the unit in the label.
 """
 
 import functools
-import json
 from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
+import pytest
 import xarray as xr
 
 from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.data.variables import LONG_TERM_OUTCOMES, OUTCOMES_TO_HORIZON, attributes
+from disc_model.data.variables import attributes
+from disc_model.studies.quantity import Point
 from disc_model.studies.registry import quantity_of
+from disc_model.studies.shares_of_starts import CLASSES
 from tests.figures.measured import Shown
 from tests.studies.conftest import computed
+from tests.studies.quantities.test_sensitivity import made_up
 
 RECORDED = {
     "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
@@ -27,9 +30,10 @@ RECORDED = {
 }
 SPEED = "Speed Ω"
 LOAD = "Preload N"
-SPEEDS = np.array([8.0, 11.0, 14.5])  # rad/s
-LOADS = np.array([120.0, 310.0, 475.0])  # N
-OK = {"flag_meanings": "ok failed"}
+DAMPER = "In-plane damper c_p"
+GROWTH = "Growth rate of the cycle"
+SPEEDS = [8.0, 11.0, 14.5]  # rad/s
+LOADS = [120.0, 310.0, 475.0]  # N
 ONE = {"normalization": ["as_published"]}
 
 
@@ -41,62 +45,69 @@ def simulated(separates: bool) -> xr.DataTree:
 
 
 class Example(NamedTuple):
-    """A figure as a file asks for it, what it is drawn from, and what it has to show."""
+    """A figure as a file asks for it, what it is drawn from, what its axes have to show, and what
+    legend and titles have to say."""
 
     phrase: Mapping[str, Any]
     inputs: Mapping[str, xr.Dataset | xr.DataTree]
-    shown: tuple[Shown, ...]
+    shown: tuple[Shown, ...] = ()
+    said: tuple[str, ...] = ()
 
 
-def flag(dims: tuple[str, ...], words: Any, meanings: tuple[str, ...]) -> tuple[Any, ...]:
-    """A flag variable of words."""
-    meanings = tuple(map(str, meanings))
-    codes = np.vectorize(meanings.index, otypes=[np.int8])(np.asarray(words, dtype=object))
-    return (dims, codes, {"flag_meanings": " ".join(meanings)})
+def study_of(
+    quantity: str, axes: Mapping[str, Any], columns: Mapping[str, Any], **raw: Any
+) -> xr.Dataset:
+    """A study of a quantity, of which values are given in place of what it computes.
 
+    columns : shapes are those of the axes, and of dimensions of the quantity's own; flags are words
+    raw : what a study file says beside
+    """
+    values = {"status": np.full([len(along) for along in axes.values()], "ok"), **columns}
 
-def stated(**options: Any) -> dict[str, str]:
-    """The base and the options that a grid study states."""
-    return {
-        "base": json.dumps({"N": 385.0, "normalization": "as_published"}),
-        "options": json.dumps(options),
-    }
+    def place(point: Point, name: str) -> int:
+        """Place of a point along an axis."""
+        if len(axes[name]) == 1:
+            return 0
+        kick = point.start.perturbation.get(name.removeprefix("perturbation_"))
+        value = getattr(point.parameters, name, kick)
+        return [*axes[name]].index(value)
 
+    def row(_: Any, point: Point) -> tuple[dict[str, Any], str]:
+        at = tuple(place(point, name) for name in axes)
+        return {
+            name: np.asarray(column)[(*at, ...)].tolist() for name, column in values.items()
+        }, ""
 
-def over(**axes: Any) -> dict[str, Any]:
-    """Coordinates with the units of their parameters."""
-    return {
-        name: (name, values, {} if name == "normalization" else attributes(name))
-        for name, values in axes.items()
-    }
+    def tile(_: Any, plane: Any, sampled: Any) -> Any:
+        return [[row(_, Point(case)) for case in line] for line in plane]
 
-
-def column(quantity: str, name: str) -> dict[str, Any]:
-    """Attributes of a variable of a quantity."""
-    return quantity_of(quantity).COLUMNS[name].attributes
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(quantity_of(quantity), "compute_point", row)
+        patch.setattr(quantity_of(quantity), "compute_tile", tile, raising=False)
+        return computed(quantity=quantity, axes=dict(axes), **{"options": {}, **raw})
 
 
 # ---- General kinds
 
-PERIOD = np.array([[0.0148, 0.0151, 0.0153], [0.0161, 0.0164, 0.0172]])  # s
-# N s/m and N/m
-DAMPERS = np.array([0.02, 0.05, 0.08])
-SPRINGS = np.array([2e4, 5e4])
+PERIODS = np.array([[0.0148, 0.0151, 0.0153], [0.0161, 0.0164, 0.0172]])  # s
+DAMPERS = [0.02, 0.05, 0.08]  # N s/m
+SPRINGS = [2e4, 5e4]  # N/m
 
 
-def general() -> xr.Dataset:
-    data = {"period": (("k_p", "c_p"), PERIOD, column("floquet", "period"))}
-    return xr.Dataset(data, over(c_p=DAMPERS, k_p=SPRINGS), stated())
+def periods() -> xr.Dataset:
+    axes = {"k_p": SPRINGS, "c_p": DAMPERS}
+    columns = {"status": np.full((2, 3), "ok"), "period": PERIODS}
+    return study_of("floquet", axes, columns, base={"N": 200, "Omega": 15})
 
 
 def heat_map() -> Example:
     return Example(
         {"variable": "period", "x": "c_p", "y": "k_p"},
-        {"study": general()},
+        {"study": periods()},
         (
-            Shown(0, "x", "In-plane damper c_p", DAMPERS[[0, -1]], "N s/m", "linear"),
+            Shown(0, "x", DAMPER, [0.02, 0.08], "N s/m", "linear"),
             Shown(0, "y", "In-plane spring k_p", SPRINGS, "N/m", "linear"),
-            Shown(1, "bar", "Period of the stick-slip cycle", PERIOD, "s"),
+            Shown(1, "bar", "Period of the cycle", PERIODS, "s"),
         ),
     )
 
@@ -104,11 +115,12 @@ def heat_map() -> Example:
 def curve() -> Example:
     return Example(
         {"variable": "period", "x": "c_p", "by": "k_p"},
-        {"study": general()},
+        {"study": periods()},
         (
-            Shown(0, "x", "In-plane damper c_p", DAMPERS, "N s/m", "linear"),
-            Shown(0, "y", "Period of the stick-slip cycle", PERIOD, "s", "linear"),
+            Shown(0, "x", DAMPER, DAMPERS, "N s/m", "linear"),
+            Shown(0, "y", "Period of the cycle", PERIODS, "s", "linear"),
         ),
+        ("k_p = 20 kN/m", "k_p = 50 kN/m"),
     )
 
 
@@ -125,8 +137,8 @@ def history() -> Example:
         "u": ("Slider u", "m"),
         "u_velocity": ("Slider du/dt", "m/s"),
         "w": ("Disc under the slider w", "m"),
-        "w_point": (r"Disc at r_0, \theta = 0.5 rad", "m"),
-        "w_point_velocity": (r"Disc velocity at r_0, \theta = 0.5 rad", "m/s"),
+        "w_point": ("Disc at r_0, θ = 0.5 rad", "m"),
+        "w_point_velocity": ("Disc velocity at r_0, θ = 0.5 rad", "m/s"),
         "psi": ("Angle ψ", "rad"),
         "psi_velocity": ("dψ/dt", "rad/s"),
     }
@@ -135,30 +147,23 @@ def history() -> Example:
         for i, (name, (words, unit)) in enumerate(labels.items())
     ]
     time = Shown(len(labels) - 1, "x", "Time", samples("zoom", "time")[::50], "s", "linear")
-    return Example(
-        {"case": "A", "window": "zoom", "variables": [*labels]},
-        {"A": simulated(True)},
-        (*shown, time),
-    )
+    phrase = {"case": "A", "window": "zoom", "variables": [*labels]}
+    return Example(phrase, {"A": simulated(True)}, (*shown, time), ("stick", "separation"))
 
 
 def poincare() -> Example:
-    where = r", \theta = 0.5 rad"
+    where = ", θ = 0.5 rad"
+    disc = samples("poincare", "w_point"), samples("poincare", "w_point_velocity")
     return Example(
         {"case": "A"},
         {"A": simulated(True)},
         (
             Shown(0, "x", "Angle ψ", samples("poincare", "psi"), "rad"),
             Shown(0, "y", "dψ/dt", samples("poincare", "psi_velocity"), "rad/s"),
-            Shown(1, "x", f"Disc at r_0{where}", samples("poincare", "w_point"), "m"),
-            Shown(
-                1,
-                "y",
-                f"Disc velocity at r_0{where}",
-                samples("poincare", "w_point_velocity"),
-                "m/s",
-            ),
+            Shown(1, "x", f"Disc at r_0{where}", disc[0], "m"),
+            Shown(1, "y", f"Disc velocity at r_0{where}", disc[1], "m/s"),
         ),
+        ("first separation at 54.4", "thickness h = 2 mm", "before the first separation"),
     )
 
 
@@ -170,21 +175,20 @@ def portrait() -> Example:
             Shown(0, "x", "Slider u", samples("orbit", "u")[::20], "m"),
             Shown(0, "y", "dψ/dt", samples("orbit", "psi_velocity")[::20], "rad/s"),
         ),
+        ("slip", "stick", "separation"),
     )
 
 
-# Hz and m, of a vibration of the disc
-TONE = 70.0
-SIZE = 2e-3
+TONE = 70.0  # Hz
+SIZE = 2e-3  # m
 
 
 def vibration() -> xr.DataTree:
     """A window in which the disc vibrates at one frequency."""
     time = np.arange(0, 4, 1 / 2000)
     window = simulated(True)["spectrum_a"].to_dataset().isel(time=slice(time.size))
-    window = window.assign_coords(time=time).assign(
-        w=("time", SIZE * np.sin(2 * np.pi * TONE * time), attributes("w"))
-    )
+    vibrating = ("time", SIZE * np.sin(2 * np.pi * TONE * time), attributes("w"))
+    window = window.assign_coords(time=time).assign(w=vibrating)
     root = simulated(True).to_dataset()
     return xr.DataTree.from_dict({"/": root, "/tone": window})
 
@@ -209,378 +213,65 @@ def spectrogram() -> Example:
             Shown(0, "y", "Frequency", [TONE, 400.0], "Hz", "linear"),
             Shown(1, "bar", "Power (dB re strongest line)", [0.0]),
         ),
+        ("Disc under the slider w",),
     )
 
 
-# ---- Kinds of grid studies
+# ---- Kinds of planes of two parameters
 
-RATES = np.array([[-0.2, -0.1, 0.05], [-0.1, 0.02, np.nan], [0.1, 0.2, 0.25]])  # 1/s
+WIDE = [8.0, 10.0, 12.0, 14.0, 16.0]  # rad/s
+RATES = np.array(
+    [[-0.2, -0.2, -0.1, 0.1, 0.2], [-0.2, -0.1, -0.1, 0.1, np.nan], [-0.2, -0.1, -0.1, 0.2, 0.25]]
+)
 
 
 def regions() -> xr.Dataset:
-    dims = ("N", "Omega", "normalization")
-    words = [
-        ["stick_slip", "stick_slip", "growing"],
-        ["stick_slip", "growing", "undecided"],
-        ["separation"] * 3,
-    ]
-    followed = np.where(np.isfinite(RATES), "followed", "no_cycle")
-    cycles = quantity_of("regions").COLUMNS["cycle"].flags
-    data = {
-        "outcome": flag(dims, np.array(words)[..., None], OUTCOMES_TO_HORIZON),
-        "cycle": flag(dims, followed[..., None], cycles),
-        "growth_rate": (dims, RATES[..., None], column("regions", "growth_rate")),
-        "status": flag(dims, np.full((3, 3, 1), "ok"), ("ok", "failed")),
+    shape = (*RATES.shape, 1)
+    words = np.full(shape, "separation", dtype=object)
+    words[:, :3] = "stick_slip"
+    words[1, 3] = "growing"
+    cycle = np.where(np.isfinite(RATES), "followed", "no_cycle").reshape(shape)
+    columns = {"outcome": words, "cycle": cycle, "growth_rate": RATES[..., None]}
+    axes = {"N": LOADS, "Omega": WIDE, **ONE}
+    return study_of("regions", axes, columns, options={"horizon": 900})
+
+
+BORDER = np.array([12.9, 13.0, 13.1])  # rad/s
+FOLD = np.array([15.0, 15.2, 15.4])
+
+
+def curves() -> xr.Dataset:
+    """A neutral curve, and a fold."""
+    columns = {
+        "kind": [["neutral", "fold"]],
+        "x": [[BORDER, FOLD]],
+        "y": [[LOADS, LOADS]],
+        "adjoins_stable_cycle": np.full((1, 2, 3), "yes"),
     }
-    for name in ("branch_continues_first", "branch_continues_second"):
-        data[name] = flag(dims, np.full((3, 3, 1), "yes"), ("no", "yes"))
-    return xr.Dataset(data, over(N=LOADS, Omega=SPEEDS, **ONE), stated(horizon=900.0))
+    lines = {"start": 100, "stop": 500, "count": 3}
+    options = {"x_range": [5, 20], "y_lines": lines, "max_curves": 2, "max_points": 2}
+    return study_of("stability_curves", ONE, columns, options=options)
 
 
 def region_map() -> Example:
-    growth = "Growth rate of the cycle that the static start follows"
+    mark = {"x": 15.5, "y": 400, "paper_outcome": "separation"}
     return Example(
-        {"x": "Omega", "y": "N"},
-        {"study": regions()},
+        {"x": "Omega", "y": "N", "marks": {"Case A": mark}, "overlays": {"curves": "c"}},
+        {"study": regions(), "curves": curves()},
         (
-            Shown(1, "x", SPEED, SPEEDS[[0, -1]], "rad/s", "linear"),
-            Shown(0, "y", LOAD, LOADS[[0, -1]], "N", "linear"),
-            Shown(1, "y", LOAD, LOADS[[0, -1]], "N", "linear"),
-            Shown(2, "bar", growth, RATES, "1/s"),
+            Shown(0, "x", SPEED, [*WIDE, 15.5], "rad/s", "linear"),
+            Shown(0, "y", LOAD, [LOADS[0], LOADS[-1], 400], "N", "linear"),
+            Shown(1, "x", SPEED, [WIDE[0], WIDE[-1], *BORDER], "rad/s", "linear"),
+            Shown(2, "bar", GROWTH, RATES, "1/s"),
         ),
-    )
-
-
-def critical_speed() -> Example:
-    critical = np.array([9.5, 11.25, 13.0])
-    dims = ("N", "horizon", "crossing_number")
-    data = {
-        "critical_speed": (dims[:2], critical[:, None], column("critical_speed", "critical_speed")),
-        "crossing": (dims, critical[:, None, None], column("critical_speed", "crossing")),
-        "crossing_kind": flag(dims, np.full((3, 1, 1), "begins"), ("none", "begins", "ends")),
-        "status": flag(("N",), ["ok"] * 3, ("ok", "failed")),
-    }
-    coords = over(N=LOADS) | {
-        "horizon": [900.0],
-        "crossing_number": [1],
-        "scan_Omega": np.arange(8.0, 15.0),
-    }
-    return Example(
-        {},
-        {"study": xr.Dataset(data, coords, stated())},
         (
-            Shown(0, "x", SPEED, critical, "rad/s", "linear"),
-            Shown(0, "y", LOAD, LOADS, "N", "linear"),
-        ),
-    )
-
-
-def basins() -> Example:
-    shares = np.array([[1.0, 0.0], [0.25, 0.75], [0.5, 0.5]])  # quiet and separating
-    ranges = np.array([2e-5, 0.031, 0.029])
-    critical = np.array([0.4, 0.1, 0.2])
-    classes = ["stick_slip", "separating"]
-    energies = [0.01]
-    data = {
-        "basin_fraction": (("Omega", "attractor_class"), shares),
-        "basin_fraction_by_energy": (("Omega", "energy", "attractor_class"), shares[:, None]),
-        "attractor_kind": flag(
-            ("Omega", "attractor"), [["stick_slip"], ["separating"], ["separating"]], LONG_TERM_OUTCOMES
-        ),
-        "attractor_starts": (("Omega", "attractor"), np.full((3, 1), 4)),
-        "attractor_range": (
-            ("Omega", "attractor"), ranges[:, None], column("basins", "attractor_range"),
-        ),
-        "critical_energy": ("Omega", critical, column("basins", "critical_energy")),
-        "critical_energy_sampled": ("Omega", critical, column("basins", "critical_energy_sampled")),
-        "status": flag(("Omega",), ["ok"] * 3, ("ok", "failed")),
-    }  # fmt: skip
-    everything = sorted({*classes, *map(str, LONG_TERM_OUTCOMES)})
-    study = xr.Dataset(
-        data,
-        over(Omega=SPEEDS) | {"attractor_class": classes, "energy": energies},
-        stated(horizon=60),
-    )
-    study = study.reindex(attractor_class=everything, fill_value=0.0)
-    study = study.assign_coords(start=range(4))
-    return Example(
-        {"x": "Omega"},
-        {"study": study},
-        (
-            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
-            Shown(0, "y", "Share of 4 starts", shares.ravel(), "", "linear"),
-            Shown(1, "y", "Slider range", ranges, "m", "log"),
-            Shown(2, "y", "Critical energy", critical, "J", "log"),
-        ),
-    )
-
-
-def branches() -> Example:
-    values = np.array([[8.0, 11.0, 14.5]])
-    ranges = np.array([[2e-5, 4e-4, 2.5e-2]])
-    data = {
-        "status": ((), np.int8(0), OK),
-        "n_branches": ((), 1),
-        "separations": ("branch", [0]),
-        "value": (("branch", "branch_point"), values),
-        "range": (("branch", "branch_point"), ranges, column("branches", "range")),
-        "growth_rate": (("branch", "branch_point"), [[-0.1, -0.1, -0.1]]),
-        "sweep_range": (("sweep_direction", "sweep_value"), np.tile(ranges, (2, 1))),
-        "sweep_separation_rate": (("sweep_direction", "sweep_value"), np.zeros((2, 3))),
-        "sweep_settled": flag(
-            ("sweep_direction", "sweep_value"), np.full((2, 3), "settled"), ("undecided", "settled")
-        ),
-        "sliding_growth_rate": ("sweep_value", [0.1, 0.1, 0.1]),
-    }
-    study = xr.Dataset(data, {"sweep_value": SPEEDS}, stated(parameter="Omega"))
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "x", SPEED, values, "rad/s", "linear"),
-            Shown(0, "y", "Range of the slider's height", ranges, "m", "log"),
-        ),
-    )
-
-
-def ramps() -> Example:
-    rates = np.array([0.01, 0.1, 1.0])
-    onset = np.array([15.2, 15.4, 16.1])
-    end = [9.7, 9.6, 9.1]
-    data = {
-        "onset_speed": ("rate", onset, column("ramps", "onset_speed")),
-        "offset_speed": ("rate", end, column("ramps", "offset_speed")),
-        "top_separation_rate": ("rate", [135.0, 134.0, 133.0]),
-        "rate_status": ("rate", np.zeros(3, np.int8), OK),
-    }
-    study = xr.Dataset(data, {"rate": ("rate", rates)}, stated(low=8.0, high=20.0))
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "x", "Ramp rate", rates, "rad/s²", "log"),
-            Shown(0, "y", SPEED, [*onset, *end], "rad/s", "linear"),
-        ),
-    )
-
-
-MOTIONS = ("undecided", "locked", "without_stick")
-
-
-def staircase() -> Example:
-    releases = np.array([34, 34, 35])
-    separations = np.array([371, 371, 372])
-    data = {
-        "motion": flag(("Omega",), ["locked"] * 3, MOTIONS),
-        "period_releases": ("Omega", releases),
-        "period_separations": ("Omega", separations),
-        "separations_per_release": ("Omega", separations / releases),
-        "status": ("Omega", np.zeros(3, np.int8), OK),
-    }
-    study = xr.Dataset(data, over(Omega=SPEEDS), stated())
-    return Example(
-        {"x": "Omega"},
-        {"study": study},
-        (
-            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
-            Shown(0, "y", "Separations per release", separations / releases, "", "linear"),
-        ),
-    )
-
-
-def phase_map() -> Example:
-    phase = np.array([0.70, 0.75, 0.80, 0.82, 0.84, 0.88])
-    following = np.array([0.90, 0.88, 0.83, 0.80, 0.82, 0.86])
-    data = {
-        "map_phase": ("probe", phase),
-        "map_next_phase": ("probe", following),
-        "map_separations": ("probe", np.array([17.0, 17, 17, 2, 2, 2])),
-        "map_slope": ("probe", np.full(6, 0.9)),
-        "release_phase": ("release", np.array([0.80, 0.83, 0.81])),
-    }
-    study = xr.Dataset(data, {}, stated())
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "x", "Phase of a release", phase, ""),
-            Shown(0, "y", "Phase of the next one", following, ""),
-        ),
-    )
-
-
-def range_law() -> Example:
-    dims = ("N", "begin")
-    pinned = np.array([[4e-3, np.nan], [8e-3, 8e-3], [16e-3, 17e-3]])
-    excess = np.array([[0.01, np.nan], [0.03, 0.12], [0.02, -0.3]])
-    apart = np.array([[0.1, np.nan], [0.15, 0.3], [0.12, 0.2]])
-    shares = np.array([[1.0, np.nan], [0.99, 0.97], [0.98, 0.6]])
-    values = {
-        "range": pinned * (1 + excess),
-        "pinned_range": pinned,
-        "deviation": excess,
-        "separation_fraction": apart,
-        "vibration_share": shares,
-        "force_share": shares,
-    }
-    data: dict[str, Any] = {}
-    for name, column_values in values.items():
-        data[name] = (dims, column_values, column("range_law", name))
-    data["status"] = ("N", np.zeros(3, np.int8), OK)
-    study = xr.Dataset(data, over(N=LOADS) | {"begin": ["static", "displaced"]}, stated())
-    law = "Range at which contact is lost, R = 2N/|k − mω²|"
-    over_law = "Excess of the range over R"
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "x", law, pinned, "m", "log"),
-            Shown(0, "y", over_law, excess, "", "linear"),
-            Shown(1, "x", "Time apart", apart, "", "linear"),
-            # what lies beyond the panel stands at its edge
-            Shown(1, "y", over_law, np.maximum(excess, -0.25), "", "linear"),
-        ),
-    )
-
-
-def late_range() -> Example:
-    dims = ("Omega", "N", "contact", "disc")
-    axes = {"contact": ["unilateral", "bilateral"], "disc": ["thin"]}
-    tops = np.arange(1.0, 13.0).reshape(3, 2, 2, 1) * 1e-3
-    data = {
-        "outcome": flag(dims, np.full(tops.shape, "separation"), OUTCOMES_TO_HORIZON),
-        "u_max": (dims, tops, attributes("u")),
-        "u_min": (dims, -tops, attributes("u")),
-    }
-    study = xr.Dataset(data, over(Omega=SPEEDS, N=LOADS[:2]) | axes, stated())
-    return Example(
-        {"thickness": 0.004},
-        {"study": study},
-        (
-            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
-            Shown(0, "y", "Slider, peak to peak (thicknesses)", 2 * tops / 0.004, "", "log"),
-        ),
-    )
-
-
-def escape() -> Example:
-    dims = ("N", "perturbation_u")
-    times = np.array([[12.0, np.nan, 8.0, 20.0], [np.nan, np.nan, np.nan, 25.0]])
-    data = {
-        "status": (dims, np.zeros(times.shape, np.int8), OK),
-        "first_separation": (dims, times, attributes("first_separation")),
-    }
-    axes = over(N=LOADS[:2]) | {"perturbation_u": 1e-9 * np.arange(4)}
-    study = xr.Dataset(data, axes, stated(horizon=30.0))
-    return Example(
-        {"starts": "perturbation_u"},
-        {"study": study},
-        (
-            Shown(0, "x", "Time", [0.0, 8, 12, 20, 30, 0, 25, 30], "s", "linear"),
-            Shown(
-                0,
-                "y",
-                "Share of starts that have separated",
-                [0.0, 0.25, 0.5, 0.75, 0.75, 0, 0.25, 0.25],
-                "",
-                "linear",
-            ),
-        ),
-    )
-
-
-def bifurcation() -> Example:
-    psi = np.array([[0.040, 0.061], [0.043, 0.066], [0.045, 0.071]])
-    phases = ("none", "stick", "slip", "separation")
-    exponents = np.array([[-0.11, -0.12, -0.02]])
-    data = {
-        "psi": (("Omega", "sample"), psi, attributes("psi")),
-        "phase": flag(("Omega", "sample"), np.full((3, 2), "slip"), phases),
-        "settled": flag(("Omega",), ["settled"] * 3, ("undecided", "settled")),
-        "kind": flag(("Omega",), ["separating"] * 3, LONG_TERM_OUTCOMES),
-        "period_events": ("Omega", [1, 2, 5]),
-        "status": flag(("Omega",), ["ok"] * 3, ("ok", "failed")),
-    }
-    study = xr.Dataset(data, over(Omega=SPEEDS), stated(section="stroboscopic"))
-    numbers = {
-        "exponent": (("exponent_number", "Omega"), exponents, column("lyapunov", "exponent")),
-        "exponent_error": (("exponent_number", "Omega"), 0 * exponents + 0.001),
-        "converged": flag(("exponent_number", "Omega"), [["yes"] * 3], ("unknown", "no", "yes")),
-        "status": flag(("Omega",), ["ok"] * 3, ("ok", "failed")),
-    }
-    exponent_study = xr.Dataset(numbers, over(Omega=SPEEDS), stated())
-    return Example(
-        {"x": "Omega", "overlays": {"lyapunov": "l"}},
-        {"study": study, "lyapunov": exponent_study},
-        (
-            Shown(0, "y", "Angle ψ once per turn of the drive", psi, "rad", "linear"),
-            Shown(1, "y", "Events in a period", [1, 2, 5], "", "log"),
-            Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
-            Shown(
-                2, "y", "Lyapunov exponents, without the trivial one", exponents, "1/s", "linear"
-            ),
-        ),
-    )
-
-
-def sensitivity() -> Example:
-    from tests.studies.quantities.test_sensitivity import made_up
-
-    study = made_up()
-    words = study["cycle"].attrs["flag_meanings"].split()
-    study["cycle"] = study["cycle"].copy(
-        data=np.full(study["cycle"].shape, words.index("unstable"))
-    )
-    return Example({}, {"study": study}, (Shown(-1, "x", "P(unstable)", [1.0], "", "linear"),))
-
-
-def campbell() -> Example:
-    study = computed(
-        quantity="campbell",
-        options={},
-        base={"N": 200, "n_diameters": 1},
-        axes={"Omega": {"start": 9, "stop": 11, "count": 3}},
-    )
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(
-                0,
-                "y",
-                "Frequency in the slider's frame",
-                study["sliding_frequency"],
-                "Hz",
-                "linear",
-            ),
-            Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
-            Shown(
-                1, "y", "Largest growth rate of the cycle", study["growth_rate"], "1/s", "linear"
-            ),
-        ),
-    )
-
-
-def sliding(parameter: str = "c_p") -> xr.Dataset:
-    return computed(
-        quantity="sliding",
-        options={"parameter": parameter, "scan": {"start": 0, "stop": 0.4, "count": 5}},
-        base={"Omega": 20, "n_diameters": 1, "N": 200},
-        axes=ONE,
-    )
-
-
-def sliding_modes() -> Example:
-    study = sliding()
-    top = float(study["largest_growth_rate"].max())
-    rates = study["mode_growth_rate"]
-    return Example(
-        {},
-        {"study": study},
-        (
-            Shown(0, "y", "Frequency in the slider's frame", study["frequency"], "Hz", "linear"),
-            Shown(1, "x", "In-plane damper c_p", study["value"], "N s/m", "linear"),
-            Shown(1, "y", "Growth rate", rates.where(abs(rates) < top), "1/s", "linear"),
+            "outcome within 900 s",
+            "stick-slip, small",
+            "growing, in contact",
+            "separation",
+            "no cycle found",
+            "cycle loses stability",
+            "paper's case and outcome",
         ),
     )
 
@@ -592,47 +283,467 @@ def sliding_outcome() -> Example:
         base={"Omega": 20, "n_diameters": 1},
         axes={"N": [200, 400]},
     )
-    damping = study["value"].values
-    words = np.full((2, damping.size), "separation")
-    plane = xr.Dataset(
-        {"outcome": flag(("N", "c_p"), words, OUTCOMES_TO_HORIZON)},
-        over(N=[200.0, 400.0], c_p=damping),
-        study.attrs | {"options": json.dumps({"horizon": 600})},
-    )
+    damping = study["value"].values.tolist()
+    words = np.full((2, 5), "separation", dtype=object)
+    words[0] = "stick_slip"
+    axes = {"N": [200.0, 400.0], "c_p": damping}
+    base = {"Omega": 20, "n_diameters": 1}
+    plane = study_of("outcome", axes, {"outcome": words}, base=base, options={"horizon": 600})
+    stable = float((study["largest_growth_rate"] <= 1e-9).sel(N=400).mean()) / 2
     return Example(
         {"x": "c_p", "y": "N", "overlays": {"sliding": "s"}},
         {"study": plane, "sliding": study},
         (
-            Shown(0, "x", "In-plane damper c_p", damping[[0, -1]], "N s/m", "linear"),
+            Shown(0, "x", DAMPER, [damping[0], damping[-1]], "N s/m", "linear"),
             Shown(0, "y", LOAD, [200.0, 400.0], "N", "linear"),
+        ),
+        ("outcome within 600 s", f"sliding unstable, separating: {100 * (0.5 - stable):.0f} %"),
+    )
+
+
+# ---- Where separation begins
+
+
+def critical_speed() -> Example:
+    critical = np.array([9.5, 11.25, 13.0])
+    crossings = np.array([[9.5, 10.1], [11.25, 12.0], [13.0, 13.9]])
+    columns = {
+        "critical_speed": critical[:, None, None],
+        "crossing": crossings[:, None, None],
+        "crossing_kind": np.full((3, 1, 1, 2), "begins"),
+    }
+    scan = {"start": 8, "stop": 16, "step": 1}
+    axes = {"N": LOADS, **ONE}
+    options = {"horizons": [900], "scan": scan, "max_crossings": 2}
+    onset = np.array([10.0, 12.0, 14.0])
+    offset = np.array([8.5, 9.0, 12.5])
+    hysteresis = {
+        "onset_speed": onset[:, None],
+        "offset_speed": offset[:, None],
+        "sweep_settled": np.full((3, 1, 2, 9), "settled"),
+        "separation_rate": np.zeros((3, 1, 2, 9)),
+    }
+    sweep = study_of("hysteresis", axes, hysteresis, options={"scan": scan, "dwell": 60})
+    return Example(
+        {
+            "overlays": dict.fromkeys(["hysteresis", "cycle", "curves", "basins"], "s"),
+            "paper_points": {"P": [310, 12.6]},
+        },
+        {
+            "study": study_of("critical_speed", axes, columns, options=options),
+            "hysteresis": sweep,
+            "cycle": regions(),
+            "curves": curves(),
+            "basins": starts(),
+        },
+        (
+            Shown(0, "x", SPEED, [*crossings.ravel(), 12.6, *BORDER], "rad/s", "linear"),
+            Shown(0, "y", LOAD, LOADS, "N", "linear"),
+            Shown(
+                1, "x", SPEED, [*crossings.ravel(), *onset, *offset, 11.0, 14.5], "rad/s", "linear"
+            ),
+        ),
+        (
+            "from the static start, within 900 s",
+            "sweeps in steps of 1 rad/s",
+            "cycle loses stability",
         ),
     )
 
 
-EXAMPLES: dict[str, Callable[[], Example]] = {
-    function.__name__: function
-    for function in (
-        heat_map,
-        curve,
-        history,
-        poincare,
-        portrait,
-        spectrum,
-        spectrogram,
-        region_map,
-        critical_speed,
-        basins,
-        branches,
-        ramps,
-        staircase,
-        phase_map,
-        range_law,
-        late_range,
-        escape,
-        bifurcation,
-        sensitivity,
-        campbell,
-        sliding_modes,
-        sliding_outcome,
+ONSETS = np.array([15.2, 15.4, 16.1])  # rad/s
+ENDS = np.array([9.7, 9.6, np.nan])
+
+
+def ramps() -> Example:
+    rates = {"start": 0.01, "stop": 1, "count": 3, "scale": "log"}
+    columns = {
+        "rate_status": [["ok"] * 3],
+        "onset_speed": [ONSETS],
+        "offset_speed": [ENDS],
+        "top_separation_rate": [[135.0, 134.0, 133.0]],
+    }
+    options = {"low": 8, "high": 20, "rates": rates, "dwell": 60}
+    study = study_of("ramps", ONE, columns, options=options, base={"N": 310})
+    return Example(
+        {"overlays": {"curves": "c"}},
+        {"study": study, "curves": curves()},
+        (
+            Shown(0, "x", "Rate of the speed's ramps", [0.01, 0.1, 1], "rad/s²", "log"),
+            Shown(0, "y", SPEED, [*ONSETS, *ENDS, FOLD[1]], "rad/s", "linear"),
+        ),
+        (
+            "rising: separation begins",
+            "falling: there is no separation on the way down, or it continues",
+            "stable cycle ends (fold), 15.20",
+        ),
     )
+
+
+# ---- Motions with separation
+
+TIMES = np.array([[12.0, np.nan, 8.0, 20.0], [np.nan, np.nan, np.nan, 25.0]])  # s
+
+
+def escape() -> Example:
+    words = np.where(np.isnan(TIMES), "undecided", "separation")
+    axes = {"N": LOADS[:2], "perturbation_u": [0, 1e-9, 2e-9, 3e-9]}
+    columns = {"outcome": words, "first_separation": TIMES}
+    study = study_of("outcome", axes, columns, base={"Omega": 15}, options={"horizon": 30})
+    return Example(
+        {"starts": "perturbation_u"},
+        {"study": study},
+        (
+            Shown(0, "x", "Time", [0, 8, 12, 20, 25, 30], "s", "linear"),
+            Shown(0, "y", "Share of starts that separated", [0, 0.25, 0.5, 0.75], "", "linear"),
+        ),
+        ("N = 120 N: 3 of 4 starts", "N = 310 N: 1 of 4 starts", "95 % confidence"),
+    )
+
+
+DISC = {
+    "omega": [1000.0, 3000.0],
+    "diameters": [0, 2],
+    "amplitude": [1.5, 1.2],
+    "damping_ratio": [1e-3, 1e-3],
+    "tangential": [0.0, 0.3],
+}
+
+
+def late_range() -> Example:
+    tops = np.arange(1.0, 13.0).reshape(3, 2, 2, 1) * 1e-3
+    speeds = tops / 0.01
+    axes = {
+        "Omega": SPEEDS,
+        "N": LOADS[:2],
+        "contact": ["unilateral", "bilateral"],
+        "disc": ["thin"],
+    }
+    columns = {
+        "outcome": np.full(tops.shape, "separation"),
+        "u_max": tops,
+        "u_min": -tops,
+        "surface_speed": speeds,
+    }
+    study = study_of("outcome", axes, columns, discs={"thin": DISC}, options={"horizon": 60})
+    # in the frequency of the mode that friction feeds, by the usual k = 50 kN/m and m = 0.1 kg
+    lost = [2 * N / abs(5e4 - 0.1 * 3000**2) for N in LOADS[:2]]
+    return Example(
+        {"thickness": 0.004},
+        {"study": study},
+        (
+            Shown(0, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(
+                0,
+                "y",
+                "Range of the slider's height",
+                [*2 * tops.ravel(), *lost, 0.004],
+                "m",
+                "log",
+            ),
+            Shown(1, "y", "Relative speed of the disc's surface", speeds, "", "linear"),
+        ),
+        ("N = 120 N, separation ignored", "separation ignored: 1.1 to 2 times the range"),
+    )
+
+
+def range_law() -> Example:
+    pinned = np.array([[4e-3, np.nan], [8e-3, 8e-3], [16e-3, 17e-3]])
+    excess = np.array([[0.01, np.nan], [0.03, 0.12], [0.02, -0.3]])
+    apart = np.array([[0.1, np.nan], [0.15, 0.3], [0.12, 0.2]])
+    shares = np.array([[1.0, np.nan], [0.99, 0.97], [0.98, 0.6]])
+    columns = {
+        "range": pinned * (1 + excess),
+        "pinned_range": pinned,
+        "deviation": excess,
+        "separation_fraction": apart,
+        "vibration_share": shares,
+        "force_share": shares,
+    }
+    study = study_of("range_law", {"N": LOADS}, columns, base={"Omega": 20})
+    law = "Range at which contact is lost, R = 2N/|k − mω²|"
+    over_law = "Excess of the range over R"
+    within = np.clip(excess, -0.25, 0.35)  # what lies beyond the panel stands at its edge
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", law, pinned, "m", "log"),
+            Shown(0, "y", over_law, excess, "", "linear"),
+            Shown(1, "x", "Share of time apart", apart, "", "linear"),
+            Shown(1, "y", over_law, within, "", "linear"),
+        ),
+        ("within 5 %: 3 of 4 filled, 0 of 1 hollow",),
+    )
+
+
+# ---- Motions over a parameter
+
+
+def bifurcation() -> Example:
+    psi = np.array([[0.040, 0.061], [0.043, 0.066], [0.045, 0.071]])
+    exponents = np.array([[-0.11], [-0.12], [-0.02]])
+    columns = {
+        "psi": psi,
+        "phase": np.full((3, 2), "slip"),
+        "settled": ["settled", "settled", "undecided"],
+        "kind": ["separating", "separating", "undecided"],
+        "period_events": [1, 2, 0],
+    }
+    options = {"section": "stroboscopic", "samples": 2, "transient": 9, "max_transient": 90}
+    numbers = {
+        "exponent": exponents,
+        "exponent_error": 0 * exponents + 0.001,
+        "converged": [["yes"], ["yes"], ["no"]],
+    }
+    axes = {"Omega": SPEEDS}
+    study = study_of("bifurcation", axes, columns, options=options, base={"N": 385})
+    other = study_of(
+        "lyapunov",
+        axes,
+        numbers,
+        options={"exponents": 1, "duration": 9, "transient": 9},
+        base={"N": 385},
+    )
+    places = {"Fig. 13": 13.5}
+    ends = [*(exponents - 0.004), *(exponents + 0.004)]
+    return Example(
+        {"x": "Omega", "overlays": {"lyapunov": "l"}, "paper_cases": places},
+        {"study": study, "lyapunov": other},
+        (
+            Shown(0, "y", "Angle ψ, once per turn of the drive", psi, "rad", "linear"),
+            Shown(0, "x", SPEED, [*SPEEDS, 13.5], "rad/s", "linear"),
+            Shown(1, "y", "Events in a period", [1, 2], "", "log"),
+            Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(2, "y", "Lyapunov exponent", [*exponents, *ends], "1/s", "linear"),
+        ),
+        ("hollow: not settled in 90 s", "not shown to repeat", "not converged", "undecided"),
+    )
+
+
+def branches() -> Example:
+    values = np.array([8.0, 11.0, 14.5])
+    ranges = np.array([2e-5, 4e-4, 2.5e-2])
+    scan = {"start": 8, "stop": 14, "step": 3}
+    columns = {
+        "n_branches": [1],
+        "separations": [[0]],
+        "value": [[values]],
+        "range": [[ranges]],
+        "growth_rate": [[[-0.1, -0.1, -0.1]]],
+        "sweep_range": [[ranges, ranges]],
+        "sweep_separation_rate": np.zeros((1, 2, 3)),
+        "sweep_settled": np.full((1, 2, 3), "settled"),
+        "sliding_growth_rate": [[0.1, 0.1, 0.1]],
+    }
+    options = {"parameter": "Omega", "scan": scan, "max_branches": 1, "max_points": 2, "dwell": 9}
+    study = study_of("branches", ONE, columns, options=options, base={"N": 385})
+    return Example(
+        {"paper_cases": {"Fig. 11": 13}},
+        {"study": study},
+        (
+            Shown(0, "x", SPEED, [*values, 14, 13], "rad/s", "linear"),
+            Shown(0, "y", "Range of the slider's height", ranges, "m", "symlog"),
+        ),
+        (
+            "cycle in contact: stable",
+            "steady sliding: unstable",
+            "simulated, rising",
+            "simulated, falling",
+            "jump",
+        ),
+    )
+
+
+ENERGIES = [0.01, 0.5]  # J
+
+
+def starts() -> xr.Dataset:
+    """Four starts at each of three speeds and two energies, two attractors, and critical energies."""
+    kinds = np.full((3, 2, 4), "stick_slip", dtype=object)
+    kinds[1:, 1, :3] = "separating"
+    kinds[2, 0] = "separating"
+    ranges = np.array([[2e-5, np.nan], [3e-5, 0.031], [np.nan, 0.029]])
+    separating = (kinds == "separating").mean((1, 2))
+    small, apart = map(CLASSES.index, ("stick_slip", "separating"))
+    shares = np.zeros((3, len(CLASSES)))
+    shares[:, small], shares[:, apart] = 1 - separating, separating
+    by_energy = np.zeros((3, 2, len(CLASSES)))
+    by_energy[..., apart] = (kinds == "separating").mean(2)
+    columns = {
+        "kind": kinds,
+        "lost_contact": np.where(kinds == "separating", "yes", "no"),
+        "basin_fraction_by_energy_low": by_energy / 2,
+        "basin_fraction_by_energy_high": (1 + by_energy) / 2,
+        "basin_fraction": shares,
+        "basin_fraction_low": shares / 2,
+        "separating_fraction_low": separating / 2,
+        "attractor_kind": [
+            ["stick_slip", "none"],
+            ["stick_slip", "separating"],
+            ["none", "separating"],
+        ],
+        "attractor_starts": [[8, 0], [5, 3], [0, 7]],
+        "attractor_range": ranges,
+        "critical_energy": CRITICAL,
+        "critical_energy_sampled": [np.nan, 0.5, 0.01],
+    }
+    options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60, "max_attractors": 2}
+    return study_of("basins", {"Omega": SPEEDS}, columns, options=options, base={"N": 385})
+
+
+CRITICAL = np.array([np.nan, 0.2, 0.005])  # J
+
+
+def basins() -> Example:
+    return Example(
+        {"x": "Omega"},
+        {"study": starts()},
+        (
+            Shown(0, "y", "Share of 4 starts, within 60 s", [0, 1, 0.5], "", "linear"),
+            Shown(1, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(1, "y", "", [0, 0.75, 0.375, 0.875], "", "linear"),
+            Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
+            Shown(2, "y", "Height range on the attractor", [2e-5, 3e-5, 0.031, 0.029], "m", "log"),
+            Shown(3, "y", "Energy", [*CRITICAL, *ENERGIES], "J", "symlog"),
+        ),
+        (
+            "Energy = 0.01 J",
+            "Energy = 0.5 J",
+            "95 % interval: separating",
+            "no start is known to separate",
+        ),
+    )
+
+
+RELEASES = np.array([34, 34, 35])
+SEPARATIONS = np.array([371, 371, 372])
+
+
+def staircase() -> Example:
+    heights = SEPARATIONS / RELEASES
+    columns = {
+        "motion": ["locked"] * 3,
+        "period_releases": RELEASES,
+        "period_separations": SEPARATIONS,
+        "separations_per_release": heights,
+    }
+    study = study_of("locking", {"Omega": SPEEDS}, columns, base={"N": 200})
+    apart = study_of("locking", {"Omega": [9.0]}, {"motion": ["without_stick"]}, base={"N": 200})
+    return Example(
+        {"x": "Omega", "zooms": [[7, 12]], "overlays": {"slipping": "s"}},
+        {"study": study, "slipping": apart},
+        (
+            Shown(0, "x", SPEED, [*SPEEDS, 9.0], "rad/s", "linear"),
+            Shown(0, "y", "Separations per release of stick", heights, "", "linear"),
+            Shown(1, "x", SPEED, SPEEDS[:2], "rad/s", "linear"),
+        ),
+        ("numbers: releases in a period", "a motion that never sticks exists beside"),
+    )
+
+
+def phase_map() -> Example:
+    phase = np.array([0.70, 0.75, 0.80, 0.82, 0.84, 0.88])
+    following = np.array([0.90, 0.88, 0.83, 0.80, 0.82, 0.86])
+    own = np.array([0.80, 0.83, 0.81])
+    columns = {
+        "map_phase": [phase],
+        "map_next_phase": [following],
+        "map_separations": [[17.0, 17, 17, 2, 2, 2]],
+        "map_slope": [np.full(6, 0.9)],
+        "release_phase": [own],
+        "period_releases": [3],
+    }
+    options = {"probes": 6, "releases": 3}
+    study = study_of("locking", {"Omega": [19.9]}, columns, options=options, base={"N": 200})
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "x", "Phase of a release", phase),
+            Shown(0, "y", "Phase of the next one", following),
+            Shown(1, "x", "Phase of a release", [*phase, *own[:-1]]),
+            Shown(1, "y", "Phase of the next one", [*following, *own[1:]]),
+        ),
+        ("motion itself: repeats after 3 releases",),
+    )
+
+
+# ---- Uncertain parameters
+
+
+def sensitivity() -> Example:
+    """Cycles are unstable where the spring is stiff: in none of its lowest third of values, and in
+    all of its highest."""
+    name = "Probability of instability"
+    shown = [Shown(i, "x", name, [0.0, 0.5, 1.0], "", "linear") for i in range(2)]
+    words = ("N = 200 N", "N = 385 N", "all 64 samples", "lowest third of its values")
+    return Example({}, {"study": made_up()}, tuple(shown), words)
+
+
+# ---- Modes
+
+
+def campbell() -> Example:
+    study = computed(
+        quantity="campbell",
+        options={},
+        base={"N": 200, "n_diameters": 1},
+        axes={"Omega": {"start": 9, "stop": 11, "count": 3}},
+    )
+    slips = 2 * study["stick_slip_frequency"]
+    frequencies = [*study["sliding_frequency"].values.ravel(), *slips.values]
+    return Example(
+        {"multiples": [2]},
+        {"study": study},
+        (
+            Shown(0, "y", "Frequency in steady sliding", frequencies, "Hz", "linear"),
+            Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
+            Shown(1, "y", GROWTH, study["growth_rate"], "1/s"),
+        ),
+        ("mode of steady sliding", "multiple of $f_s$"),
+    )
+
+
+def sliding_modes() -> Example:
+    study = computed(
+        quantity="sliding",
+        options={"parameter": "c_p", "scan": {"start": 0, "stop": 0.4, "count": 5}},
+        base={"Omega": 20, "n_diameters": 1, "N": 200},
+        axes=ONE,
+    )
+    return Example(
+        {},
+        {"study": study},
+        (
+            Shown(0, "y", "Frequency of the mode", study["frequency"], "Hz", "linear"),
+            Shown(1, "x", DAMPER, study["value"], "N s/m", "linear"),
+            Shown(1, "y", "Growth rate of the mode", study["mode_growth_rate"], "1/s"),
+        ),
+        ("mode of steady sliding", "growing mode"),
+    )
+
+
+KINDS_OF_CASES = (history, poincare, portrait, spectrum, spectrogram)
+KINDS_OF_STUDIES = (
+    heat_map,
+    curve,
+    region_map,
+    sliding_outcome,
+    critical_speed,
+    ramps,
+    escape,
+    late_range,
+    range_law,
+    bifurcation,
+    branches,
+    basins,
+    staircase,
+    phase_map,
+    sensitivity,
+    campbell,
+    sliding_modes,
+)
+EXAMPLES: dict[str, Callable[[], Example]] = {
+    each.__name__: functools.cache(each) for each in (*KINDS_OF_CASES, *KINDS_OF_STUDIES)
 }

@@ -48,5 +48,5 @@ def test_a_script_imports_what_there_is(script: Path) -> None:
 
 
 def test_a_missing_name_is_found() -> None:
-    text = "from disc_model.figures import drawing\nfrom disc_model.figures.drawing import nothing"
-    assert list(missing_names(text)) == ["disc_model.figures.drawing.nothing"]
+    text = "from disc_model.figures import draw\nfrom disc_model.figures.draw import nothing"
+    assert list(missing_names(text)) == ["disc_model.figures.draw.nothing"]

@@ -11,8 +11,7 @@ import xarray as xr
 
 from disc_model import floquet
 from disc_model.data.variables import flag_names
-from disc_model.figures import selection
-from disc_model.figures.render import render
+from disc_model.figures.kinds import render
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies import grid as parts_of
@@ -112,7 +111,6 @@ def test_excluded_points_are_there_without_values_and_drawn_as_empty(tmp_path: P
     assert ((status == "excluded") == left_out.transpose(*study["status"].dims)).all()
     assert np.isfinite(study["period"]).equals(~left_out.transpose(*study["period"].dims))
     assert not list(failures(study))
-    assert list(selection.gaps(study, study["period"])) == []
     for name, plot in grid.plots.items():
         render(plot, {"study": xr.DataTree(study)}).savefig(tmp_path / f"{name}.png")
 

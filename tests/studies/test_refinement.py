@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from disc_model.figures.classes import LOOKS
 
 from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.figures.looks import LOOKS
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import find_cycle
 from disc_model.stability.linear_motion import NearCycle

@@ -17,10 +17,10 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
-from disc_model.figures.words import label_of
 from matplotlib import pyplot
 
 import disc_model as dm
+from disc_model.figures.shown import label, shown
 from disc_model.studies import workers
 from disc_model.studies.sweeps import sweep
 from disc_model.studies.varied_arguments import Arguments
@@ -227,7 +227,7 @@ def test_what_nan_means_is_in_sweeps_and_not_on_axes() -> None:
     }
     assert why["energy_residual_inplane"] == "not every step is audited"
     assert why["surface_speed"] == "friction acts on no surface that moves"
-    assert "nan" not in label_of(swept["surface_speed"])[0]
+    assert "nan" not in label(shown(swept)["surface_speed"])
 
 
 def test_numbers_among_words_are_words() -> None:
@@ -1027,12 +1027,14 @@ def test_names_of_own_results_have_no_meaning() -> None:
     found = sweep(lambda case: {"w": 2.0, "period": 1.0}, P, Omega=[1.0, 2.0])
     assert found["w"].attrs == {}
     assert found["period"].attrs == {}
-    assert label_of(found["w"]) == ("w", 1.0)
-    assert label_of(found["period"]) == ("Period", 1.0)
+    drawn = shown(found)
+    assert label(drawn["w"]) == "w"
+    assert label(drawn["period"]) == "Period"
     # one's own attributes are said, and numbers stay as they are
     own = {"units": "mm", "long_name": "pad amplitude"}
     named = sweep(lambda case: xr.Dataset({"u": ((), 2.0, own)}), P, Omega=[1.0, 2.0])
-    assert label_of(named["u"]) == ("Pad amplitude (mm)", 1.0)
+    drawn = shown(named)["u"]
+    assert (label(drawn), drawn.attrs["factor"]) == ("Pad amplitude (mm)", 1.0)
 
 
 # ---- Arguments of the function that vary, and sweeps of which no point makes a case

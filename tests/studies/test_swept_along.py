@@ -39,7 +39,7 @@ def test_a_sweep_of_the_preload_goes_on_from_load_to_load(sweep: xr.Dataset) -> 
 def test_a_picture_names_the_number_that_is_swept(sweep: xr.Dataset) -> None:
     ax = dm.plot_sweep(sweep, "range")
     assert ax.get_xlabel() == "Preload N (N)"
-    assert "at a value" in ax.get_ylabel().replace("\n", " ")
+    assert ax.get_ylabel() == "Range of the slider's height (mm)"
     pyplot.close("all")
 
 

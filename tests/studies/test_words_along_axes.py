@@ -9,8 +9,7 @@ import xarray as xr
 from matplotlib import pyplot
 
 import disc_model as dm
-from disc_model.explorer.contents import Stated, study_contents
-from disc_model.figures.render import render
+from disc_model.figures.kinds import render
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.run import run_batch
@@ -66,9 +65,9 @@ def test_a_map_has_a_panel_for_each_place_of_friction(study: xr.Dataset) -> None
     figure = drawn(study, "panels")
     titles = [" ".join(ax.get_title(loc="left").split()) for ax in figure.axes[:3]]
     assert titles == [
-        "(a) friction in the middle plane",
-        "(b) friction 6 mm above the middle plane",
-        "(c) friction on the surface",
+        "(a) Friction above the middle plane by z = 0 mm",
+        "(b) Friction above the middle plane by z = 6 mm",
+        "(c) Friction above the middle plane by z = surface",
     ]
 
 
@@ -78,11 +77,6 @@ def test_one_value_is_chosen_by_its_number(study: xr.Dataset) -> None:
     assert shown is not None
     expected = study.growth_rate.sel(friction_offset="0.0").values.ravel()
     assert shown.filled(float("nan")).ravel() == pytest.approx(expected, nan_ok=True)
-
-
-def test_the_explorer_has_the_axis(study: xr.Dataset) -> None:
-    contents = study_contents("s", study, None, Stated())
-    assert "friction on the surface" in json.dumps(contents)
 
 
 def test_a_word_that_is_none_is_refused() -> None:

@@ -42,20 +42,26 @@ def kind_of(name: Any) -> type[Kind]:
 def render(plot: Kind, inputs: Mapping[str, xr.DataTree]) -> Figure:
     """Draw a figure from its inputs by name, in the common style and its readers' units.
 
-    A figure of cases that lack what it shows says so instead.
+    A figure of cases, or of a study, that lack what it shows says so instead.
     """
     with styled():
-        if isinstance(plot, CasePlot):
-            figure = _of_cases(plot, inputs)
-        else:
-            figure = _of_studies(plot, inputs)
+        try:
+            if isinstance(plot, CasePlot):
+                figure = _of_cases(plot, inputs)
+            else:
+                figure = _of_studies(plot, inputs)
+        except Missing as reason:
+            what = "case" if isinstance(plot, CasePlot) else "study"
+            figure, axes = panels([["a"]], COLUMN, 2)
+            axes["a"].set_axis_off()
+            axes["a"].text(0.5, 0.5, f"not shown: the {what} {reason}", ha="center", wrap=True)
         if plot.width is not None:
             figure.set_figwidth(WIDTHS[plot.width])
         return finish(figure, "" if plot.caption else plot.title)
 
 
 def _of_cases(plot: CasePlot, inputs: Mapping[str, xr.DataTree]) -> Figure:
-    """Draw named cases; the reason instead, if one lacks what is needed."""
+    """Draw named cases."""
     cases = {name: shown_case(tree, plot.units) for name, tree in inputs.items()}
     options = plot.options
     for key in plot.further:
@@ -64,12 +70,7 @@ def _of_cases(plot: CasePlot, inputs: Mapping[str, xr.DataTree]) -> Figure:
             options[key] = cases[named] if named else None
         else:
             options[key] = {name: cases[name] for name in named}
-    try:
-        figure: Figure = type(plot).function(cases[plot.case], **options)
-    except Missing as reason:
-        figure, axes = panels([["a"]], COLUMN, 2)
-        axes["a"].set_axis_off()
-        axes["a"].text(0.5, 0.5, f"not shown: the case {reason}", ha="center", wrap=True)
+    figure: Figure = type(plot).function(cases[plot.case], **options)
     return figure
 
 
@@ -99,6 +100,8 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
             keys = [key_of(each) for each in data[name].values]
             data = data.isel({name: keys.index(key_of(value))})
     kept = {*plot.axes.values(), *plot.shows.needs}
+    if plot.shows.quantities:  # whose own dimensions the figure takes
+        kept |= {str(name) for name in data.dims if name not in data["status"].dims}
     single = [name for name, size in data.sizes.items() if size == 1 and name not in kept]
     data = shown(data.squeeze(single), plot.units)
     by = plot.axes.get("by", NORM)
@@ -108,10 +111,12 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title; equal figures give equal bytes."""
+    """Write a figure with its title; equal figures give equal bytes. Further files have the layout of
+    the first."""
     stamps = {".pdf": "CreationDate"}
     metadata: dict[str, Any] = {stamps.get(Path(path).suffix, "Software"): None}
     if title:
         metadata["Title"] = title
     with styled():
         figure.savefig(path, metadata=metadata)
+        figure.set_layout_engine(None)

@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.figures.draw import (
     PAGE,
@@ -230,7 +231,7 @@ def basins(study: xr.Dataset, x: str) -> Figure:
     for i, (_, part) in enumerate(parts):
         axes[f"{i}"].set_title(value_text(part["energy"]))
         _shares(axes[f"{i}"], part, x, interval)
-    axes["0"].set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g} s")
+    axes["0"].set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s")
     _attractors(axes["attractors"], study, x)
     _critical(axes["critical"], study, x)
     return figure
@@ -251,6 +252,7 @@ def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
     pattern."""
     starts = study["attractor_starts"]
     at = study[x].broadcast_like(starts)
+    ax.set_yscale("log")
     for word in STACKED:
         look = LOOKS[word]
         ax.scatter(
@@ -262,7 +264,7 @@ def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
             ec=BLACK,
             lw=0.4,
         )
-    ax.set(yscale="log", xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
+    ax.set(xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
 
 
 def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
@@ -271,7 +273,7 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
         ax,
         study["critical_energy"],
         x,
-        missing="no start separates",
+        missing="no start is known to separate",
         label="least energy, by bisection",
         color=RED,
         marker="v",
@@ -379,6 +381,8 @@ def phase_map(study: xr.Dataset) -> Figure:
     figure, axes = panels([["whole", "near"]], PAGE, 3.0)
     whole, near = axes.values()
     own = study["release_phase"].dropna("release").values
+    if not own.size:
+        raise Missing("has no release of stick")
     period = study["period_releases"].item()
     said = "motion itself"
     if period:

@@ -179,7 +179,7 @@ def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
     cases = [case, *dict(below).values()]
     layout = np.arange(2 * len(cases)).reshape(-1, 2)
     figure, axes = panels(layout.tolist(), PAGE, 2.4)
-    rows = np.reshape([*axes.values()], layout.shape)
+    rows: Any = np.reshape([*axes.values()], layout.shape)
     for row, each in zip(rows, cases, strict=True):
         draw_sections(row, each)
         values = [value_text(each[name]) for name in ("N", "Omega")]

@@ -252,15 +252,17 @@ class Plot(Kind):
         for name in {**free, **self.at}:
             along = free.get(name, ())
             several = len(along) > 1 and not self.shows.takes
-            rule = ""
             if name not in free:
                 rule = f"is no dimension that remains{suggestion(name, free)}"
+                yield Fault.of(("at", name), self.at[name], rule)
             elif name not in self.at:
-                rule = f"is required, or by: {name}; one of {as_text([*along])}" if several else ""
+                rule = f"is required, one of {as_text([*along])}"
+                if "by" in type(self).model_fields:
+                    rule += f"; or by: {name}"
+                if several:
+                    yield Fault(("at", name), "", rule)
             elif along and key_of(self.at[name]) not in map(key_of, along):
-                rule = f"must be one of {as_text([*along])}"
-            if rule:
-                yield Fault.of(("at", name), self.at.get(name, ""), rule)
+                yield Fault.of(("at", name), self.at[name], f"must be one of {as_text([*along])}")
 
 
 class CasePlot(Kind):
@@ -299,7 +301,7 @@ class CasePlot(Kind):
                 for key, name, broken in windows:
                     rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
                     if name in recorded:
-                        rule = broken(recorded[name])
+                        rule = broken(recorded[name]) if broken else ""
                     if rule:
                         yield Fault.of((key,), name, rule)
 

@@ -3,6 +3,7 @@ knows nothing of SI."""
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -82,10 +83,10 @@ def parameter_of(x: xr.DataArray) -> str:
     if stated in SHOWN:
         return str(stated)
     own = ranged_variable(str(x.name).removeprefix("scan_").removeprefix("sweep_"))
-    if own not in SHOWN:
+    if own not in SHOWN or "units" not in x.attrs:
         return ""
     usual = attributes_in_files(own)["units"]
-    has_another = readable(x.attrs.get("units", usual)) != readable(usual)
+    has_another = readable(x.attrs["units"]) != readable(usual)
     return "" if has_another else own
 
 
@@ -118,12 +119,12 @@ def name_of(x: xr.DataArray) -> str:
     if known:
         return typeset(f"{SHOWN[known].name} {SHOWN[known].symbol}".strip())
     said = str(x.attrs.get("long_name", x.name)).replace("_", " ")
-    return said[:1].upper() + said[1:]
+    return said if len(said) == 1 else said[:1].upper() + said[1:]
 
 
 def label(x: xr.DataArray) -> str:
     """The label of an axis or of a bar of colours, of an array as it is shown."""
-    unit = x.attrs.get("units", "")
+    unit = x.attrs.get("units", "").replace(" ", "\u00a0")  # no line ends within it
     name = str(x.attrs.get("long_name", x.name))
     return f"{name} ({unit})" if unit else name
 
@@ -138,7 +139,7 @@ def value_text(x: xr.DataArray) -> str:
     if stated in names:
         return names[stated]
     if isinstance(value, str):
-        return IN_WORDS.get(value, value.replace("_", " "))
+        return _word_text(str(x.name), value)
     if not isinstance(value, int | float):
         return str(value)
     known = parameter_of(x)
@@ -146,6 +147,16 @@ def value_text(x: xr.DataArray) -> str:
     if known:
         symbol = SHOWN[known].symbol or SHOWN[known].name
     return f"{typeset(symbol)} = {with_unit(f'{value:.5g}', x.attrs.get('units', ''))}"
+
+
+def _word_text(name: str, word: str) -> str:
+    """A word along a dimension; beside its parameter if that has numbers, too, which then are words."""
+    if name not in SHOWN:
+        return IN_WORDS.get(word, word.replace("_", " "))
+    own = SHOWN[name]
+    with suppress(ValueError):
+        word = with_unit(f"{float(word) * own.factor:.5g}", own.unit)
+    return f"{typeset(own.symbol or own.name)} = {word}"
 
 
 def with_unit(number: str, unit: str) -> str:

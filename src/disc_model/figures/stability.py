@@ -13,7 +13,7 @@ from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from disc_model.data.variables import attributes_of_number, typeset, values_text
+from disc_model.data.variables import OF_RESULTS, attributes_of_number, typeset, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
 from disc_model.figures.draw import (
     BELOW_ANY,
@@ -69,7 +69,7 @@ def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
     if second:
         up = column(second[0], values[:, 1], units=units)
     else:
-        known = branch.variables[y].attributes
+        known = OF_RESULTS["Branch"][y].attributes
         up = column(y, branch.refined(y), known, units)
         up.attrs["long_name"] = known["long_name"].capitalize()
     own = {"linewidth": THIN, "label": case_text(branch.case, *branch.parameters)}
