@@ -1,20 +1,9 @@
-# A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
+# A page that shows every point of grid studies, and motions: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
 # Studies of a whole plane come first.
 PLANES = ("outcome", "regions")
 EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in PLANES)
-# The report's figures, in its order.
-PICTURES = [
-    {
-        "heading": figure.section or figure.category,
-        "title": figure.title,
-        "caption": figure.caption,
-        "file": f"results/{study}/figures/{name}.png",
-    }
-    for (study, name), figure in FIGURES.items()
-    if study in (STUDY.name, *ASKED)
-]
 EXPLORER = json.dumps(
     {
         "title": STUDY.title or STUDY.name,
@@ -27,7 +16,6 @@ EXPLORER = json.dumps(
             }
             for study in EXPLORED
         ],
-        "pictures": PICTURES,
     }
 )
 
@@ -62,7 +50,6 @@ rule build_explorer:
     input:
         studies=[grid_file(study) for study in EXPLORED],
         motions=chain.from_iterable(map(motions_of, EXPLORED)),
-        pictures=[picture["file"] for picture in PICTURES],
     output:
         f"{RESULTS}/explorer.html",
     log:
@@ -71,6 +58,6 @@ rule build_explorer:
         "../envs/disc_model.yaml"
     params:
         plan=lambda wildcards: EXPLORER,  # a function: braces in a title are no wildcards
-        code=code_of("build_explorer", "explorer", "figures", "data"),
+        code=code_of("build_explorer", "explorer", "plots", "data"),
     shell:
         "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"
