@@ -58,6 +58,6 @@ rule build_explorer:
         "../envs/disc_model.yaml"
     params:
         plan=lambda wildcards: EXPLORER,  # a function: braces in a title are no wildcards
-        code=code_of("build_explorer", "explorer", "plots", "data"),
+        code=code_of("build_explorer", "explorer", "figures", "data"),
     shell:
         "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"

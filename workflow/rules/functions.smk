@@ -71,16 +71,16 @@ def check_owner(files, owner):
 
 
 def stated_of(grid):
-    """What a study's file says of its page: units of the first figure that has any, axes of the first one that has two,
-    and what stored motions are.
+    """What a study's file says of its page: units of figures, dimensions across and up in the first map, and what stored
+    motions are.
     """
     units = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
-    maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
+    maps = [[plot.x, plot.y] for plot in grid.plots.values() if {"x", "y"} <= plot.axes.keys()]
     return {
         "units": units,
-        "axes": [*maps[0].values()] if maps else [],
+        "axes": next(iter(maps), []),
         "motion": grid.options.motion,
         "motion_by": dict(grid.options.motion_by),
     }

@@ -21,11 +21,11 @@ from disc_model.explorer.charts import (
     history_chart,
     points_chart,
 )
-from disc_model.plots.draw import edges, missing_text
-from disc_model.plots.looks import looks_of
-from disc_model.plots.shown import label, shown, value_text
+from disc_model.figures.draw import edges, missing_text
+from disc_model.figures.looks import looks_of
+from disc_model.figures.shown import label, shown, value_text
 
-FIRST = ("outcome", "kind", "growth_rate", "critical_speed", "sliding_frequency", "frequency")
+FIRST = ("outcome", "kind", "growth_rate", "y", "critical_speed", "sliding_frequency", "frequency")
 """Variables that are shown before others."""
 TEXTS = ("message", "crossing_line")
 """Variables of words that are no classes."""

@@ -11,13 +11,15 @@ from typing import Any
 import altair as alt
 from xarray import DataArray, Dataset
 
-from disc_model.plots.draw import is_geometric
-from disc_model.plots.looks import BLACK, GREY, OF_PHASE
-from disc_model.plots.shown import label, parameter_of
+from disc_model.figures.draw import is_geometric
+from disc_model.figures.looks import BLACK, GREY, OF_PHASE
+from disc_model.figures.shown import label, parameter_of
 
 Entries = dict[str, Any]
 Names = Sequence[str]
 
+SWEPT = ("x", "value")
+"""Variables that are values of a parameter."""
 HISTORIES = ("P", "u", "psi")
 WIDTH = 370  # of a panel, pixels
 HEIGHT = 300
@@ -50,7 +52,7 @@ def axes_of(group: Dataset, wished: Names) -> tuple[Names, Names]:
     """
     kinds = {str(dim): kind_of(group[dim]) for dim in group.dims}
     dims = sorted(kinds, key=lambda dim: (kinds[dim], [*wished, dim].index(dim)))
-    swept = [str(name) for name, x in group.items() if "parameter" in x.attrs]
+    swept = [name for name in SWEPT if name in group.data_vars]
     axes = [*swept, *dims][:1]
     if not swept and [kinds[dim] for dim in dims[:2]] == [NUMBERS, NUMBERS]:
         return dims[:2], dims[2:]
