@@ -7,12 +7,11 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_result
 from disc_model.errors import script
+from disc_model.explorer import page, study_contents
 
 
 @script
 def main(output: str) -> None:
-    from disc_model.explorer import page, study_contents
-
     plan = json.load(sys.stdin)
     studies = []
     for study in plan["studies"]:
