@@ -445,7 +445,7 @@ def values_text(
                 texts.append(
                     _disc_text(value["omega"] if isinstance(value, Mapping) else value.omega)
                 )
-            elif name in ("N", "Omega") or value != field.default:
+            elif name in ("N", "Omega") or value not in (field.default, str(field.default)):
                 shown = SHOWN.get(name) or Shown(
                     name, name, Parameters.unit(name).removeprefix("1")
                 )
