@@ -24,11 +24,7 @@ class Floquet(Quantity):
     points_per_job: ClassVar = 1000
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
-    motion_by: ClassVar = {
-        **dict.fromkeys(CYCLE_STATUSES, FROM_START),
-        **SLIDING_BY,
-        "ok": motion,
-    }
+    motion_by: ClassVar = {**dict.fromkeys(CYCLE_STATUSES, FROM_START), **SLIDING_BY, "ok": motion}
     COLUMNS: ClassVar = OF_QUANTITIES["floquet"]["columns"]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
