@@ -145,7 +145,7 @@ class Branch:
         columns["after"] = [special.after for special in self.special]
         columns["state"] = [special.state for special in self.special]
         described = {name: attributes_of_number(name) for name in self.parameters}
-        described |= {name: OF_RESULTS["Branch"][name].attributes for name in VARIABLES}
+        described |= {name: known.attributes for name, known in VARIABLES.items()}
         return special_table(columns, described)
 
     def to_dataset(self) -> xr.Dataset:

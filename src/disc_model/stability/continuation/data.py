@@ -16,7 +16,10 @@ from disc_model.simulation.states import State
 from disc_model.stability.return_map import MapFactory, ReturnMap
 from disc_model.stability.slipping_map import SlippingMap
 
-VARIABLES = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
+VARIABLES = {
+    name: OF_RESULTS["Branch"][name]
+    for name in ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
+}
 """What is known of each cycle of a branch, and of each special point."""
 EXTREMES = ("u_min", "u_max")
 """Those of them between which the height lies."""
