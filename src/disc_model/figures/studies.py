@@ -250,7 +250,7 @@ def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
     known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
-    filled = zip(rate.dims, (up.fillna(up.max()), across.fillna(across.max())), strict=True)
+    filled = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
     beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
     shown = up.where(known & beside).transpose("curve_point", ...)
     for kind, (name, style) in BORDERS.items():
