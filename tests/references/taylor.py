@@ -93,9 +93,9 @@ class Stretching:
         """a of the static start: Newton's method in steps of N, derivatives by differences of a
         cubic, which are exact."""
         a = np.zeros(len(s), LONG)
-        for load in np.linspace(0, 1, 41, dtype=LONG)[1:] * N:
+        for preload in np.linspace(0, 1, 41, dtype=LONG)[1:] * N:
             for _ in range(60):
-                left = w2 * a + self._pull(a) + load * s
+                left = w2 * a + self._pull(a) + preload * s
                 h = LONG(2) ** -30 * max(abs(a).max(), LONG(1e-9))
                 slopes = np.diag(w2)
                 for i, row in enumerate(np.eye(len(s), dtype=LONG) * h):
@@ -128,8 +128,8 @@ class Problem:
 
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
     that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
-    they do not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the amplitudes already; ``point`` has those of a
-    single point.
+    they do not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the
+    amplitudes already; ``point`` has those of a single point.
     """
 
     since = LONG(0)

@@ -21,6 +21,7 @@ from .jit import helper, inlined
 from .laws import friction_coefficient, hold_per_radius
 from .model import drive_now, load_now
 from .state import DIRECTION, PHASE, PHI_RATE, PSI, SEPARATION, SLIP, STICK, U_VELOCITY, U
+from .stretching import membrane_work
 from .transitions import (
     disc_point,
     inplane_force_per_radius,
@@ -71,6 +72,8 @@ def transverse_energy(model, state, phase):
         energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
     for j in range(len(model.mode_amplitude0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
+    if model.has_stretching:
+        energy += 0.5 * membrane_work(model, state)
     raised = u - model.u_0
     slider = 0.5 * model.m * v * v + 0.5 * model.k * raised**2
     return 0.5 * energy + slider + load_now(model, state) * raised

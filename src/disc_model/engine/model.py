@@ -28,9 +28,10 @@ from .state import (
     pair_lanes,
     views_of_disc,
 )
-from .stick_modes import Components, StickModes, build_stick_modes, no_modes
+from .stick_modes import Components, StickModes, build_stick_modes, no_modes, padded
 
 ROWS = 48  # number of coefficients of a series
+MEMBRANE_GROUP = 3  # vectors of the membrane's products that one loop takes side by side
 MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of them must not overflow
 
 # Rows of ``Model.lanes``. Sums over lanes of a row times the displacements z, or the velocities e:
@@ -57,6 +58,32 @@ MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of th
     SLOPE_RATE,
 ) = range(14)
 _N_ROWS = SLOPE_RATE + ROWS
+
+
+@packed()
+class Membrane(NamedTuple):
+    """The membrane of a plate that stretches, see `stretching`: the map from s to K, vector by
+    vector, and where numbers stand in work space."""
+
+    begins: np.ndarray  # first entry of each vector of K, shape (vectors + 1,)
+    places: np.ndarray  # of the number of s that an entry multiplies, shape (entries,)
+    values: np.ndarray  # the vector by which, shape (entries * 8,)
+    rest: np.ndarray  # static displacements, of lanes and of modes without nodal diameter
+    softness: float  # -du_0 / dN, m/N
+    partners: int  # of a block of pairs, in whole groups
+    single_partners: int  # of a block of modes without nodal diameter, in whole groups
+    single_blocks: int
+    first_own: int  # vector of displacements of these blocks
+    first_single: int  # vector of K of these blocks
+    displacements: int  # where sections of the work space begin, for one order
+    coefficients: int
+    products: int
+    length: int  # of the work space beyond ``products``
+
+
+NO_MEMBRANE = Membrane(
+    *(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0)), 0.0, *[0] * 9
+)
 
 
 @packed()
@@ -110,12 +137,14 @@ class Model(NamedTuple):
     onset_friction: float  # coefficient of friction where slip begins
     viscous: float  # r_0 times ``viscous_friction``, s/rad
     modes: StickModes  # closed form of stick
+    membrane: Membrane
     has_more_blocks: tuple[bool, ...]  # whether there is more than one block of lanes
     has_compliance: tuple[bool, ...]  # whether the contact is compliant
     has_normal_force: tuple[bool, ...]  # whether the contact force is normal to the bent disc
     has_moving_surface: tuple[bool, ...]  # whether the surface on which friction acts moves
     has_varying_friction: tuple[bool, ...]  # whether friction in slip depends on the speed
     has_exponential_friction: tuple[bool, ...]  # whether it falls exponentially, not as a hyperbola
+    has_stretching: tuple[bool, ...]  # whether the plate stretches
     has_ramp: tuple[bool, ...] = ()  # whether Omega and N may change with time
     ramp_begin: float = 0.0  # s
     ramp_angle: float = 0.0  # rad, of the drive point at the ramp's begin
@@ -132,6 +161,11 @@ class DiscModes(NamedTuple):
     psi_at_point: np.ndarray  # of a single point at r_0: a pad has the mean over its arc
     damping: np.ndarray  # 2 xi omega, 1/s
     tangential: np.ndarray  # amplitude at the surface on which friction acts, kg^-1/2
+    # of a plate that stretches: the tensor T of `stretching`, static displacements a under the
+    # preload, shape (n_modes,), and -du_0/dN of rigid contact, m/N
+    quartic: np.ndarray = np.zeros((0, 0, 0, 0))
+    rest: np.ndarray = np.zeros(0)
+    softness: float = 0.0
 
 
 class Contact(NamedTuple):
@@ -168,6 +202,11 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
     free_unit = _time_unit(omega, 0.0, slider_rate) / unit
 
     rows = _rows(modes, unit)
+    membrane = NO_MEMBRANE
+    u_0 = -N * (float(np.sum(psi**2 / omega**2)) + compliance)
+    if modes.quartic.size:
+        membrane = _membrane(modes, compliance)
+        u_0 = float(psi @ modes.rest) - N * compliance
     return Model(
         lanes=_in_blocks(rows),
         shift=rows[SHIFT],
@@ -179,7 +218,7 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         damping0=modes.damping[single],
         mode_amplitude0=psi[single],
         **slider,
-        u_0=-N * (float(np.sum(psi**2 / omega**2)) + compliance),
+        u_0=u_0,
         inverse_effective_mass=S,
         damped_inverse_mass=float(np.sum(modes.damping * psi**2)),
         unit=unit,
@@ -198,14 +237,19 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         fall_of_friction=slider["mu_s"] - slider["mu_k"] if falls else 0.0,
         onset_friction=slider["mu_s"] if falls else slider["mu_k"],
         viscous=slider["r_0"] * float(contact.viscous_friction),
-        # under the normal force friction in stick is no linear function of the state
-        modes=no_modes() if contact.normal else _stick_modes(modes, slider, compliance, unit),
+        # under the normal force friction in stick is no linear function of the state, nor is the
+        # membrane's force
+        modes=no_modes()
+        if contact.normal or modes.quartic.size
+        else _stick_modes(modes, slider, compliance, unit),
+        membrane=membrane,
         has_more_blocks=_flag(rows.shape[1] > WIDTH),
         has_compliance=_flag(compliance),
         has_normal_force=_flag(contact.normal),
         has_moving_surface=_flag(np.any(rows[TANGENTIAL])),
         has_varying_friction=_flag(falls or contact.viscous_friction > 0.0),
         has_exponential_friction=_flag(falls and contact.exponential),
+        has_stretching=_flag(modes.quartic.size),
     )
 
 
@@ -255,6 +299,98 @@ def _in_blocks(rows: np.ndarray) -> np.ndarray:
     return lanes
 
 
+def _membrane(modes: DiscModes, compliance: float) -> Membrane:
+    """Return the membrane of modes with a ``quartic`` form."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    single = np.flatnonzero(modes.diameters == 0)
+    width = lanes_for(len(pairs))
+
+    # the coordinate of T in each lane, then of each mode without nodal diameter; -1 for none
+    coordinates = np.full(width + padded(len(single)), -1)
+    lanes = pair_lanes(len(pairs))
+    coordinates[lanes] = pairs
+    coordinates[lanes + HALF] = len(modes.diameters) + np.arange(len(pairs))
+    coordinates[width : width + len(single)] = single
+    of_single = np.append(np.arange(width, width + len(single)), [-1] * (2 * MEMBRANE_GROUP))
+
+    # own and partner of each vector, as places in ``coordinates``
+    lane = np.arange(WIDTH)
+    exchanged = [b + (lane ^ r) for b in range(0, width, WIDTH) for r in range(WIDTH)]
+    partners = [*exchanged, *(np.full(WIDTH, j) for j in of_single)]
+    n_partners = _in_groups(width + len(single))
+    n_single = _in_groups(len(single))
+    own = [b + lane for b in range(0, width, WIDTH) for _ in range(n_partners)]
+    partner = [p for _ in range(0, width, WIDTH) for p in partners[:n_partners]]
+    first_single = len(own)
+    single_blocks = padded(len(single)) // WIDTH
+    for c in range(single_blocks):
+        own += [width + c * WIDTH + lane] * n_single
+        partner += partners[width : width + n_single]
+
+    i, j = (np.append(coordinates, -1)[np.array(places)] for places in (own, partner))
+    begins, places, values = _map_of(modes.quartic, i, j)
+    first_own = max(n_partners, width + n_single)
+    displacements = len(coordinates)
+    coefficients = displacements + (first_own + single_blocks) * WIDTH
+    where = np.append(lanes, width + np.arange(len(single)))
+    rest = np.zeros(width + len(single))
+    rest[where] = modes.rest[np.append(pairs, single)]
+    return Membrane(
+        begins=begins,
+        places=places,
+        values=values,
+        rest=rest,
+        softness=modes.softness + compliance,
+        partners=n_partners,
+        single_partners=n_single,
+        single_blocks=single_blocks,
+        first_own=first_own,
+        first_single=first_single,
+        displacements=displacements,
+        coefficients=coefficients,
+        products=coefficients + len(own) * WIDTH,
+        length=len(own) * WIDTH,
+    )
+
+
+def _in_groups(n: int) -> int:
+    return MEMBRANE_GROUP * -(-n // MEMBRANE_GROUP)
+
+
+def _map_of(T: np.ndarray, i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return ``begins``, ``places`` and ``values`` of a `Membrane`; i, j: coordinates of own and
+    partner of each vector, shape (vectors, 8)."""
+    exists = (i >= 0) & (j >= 0)
+    low = np.minimum(i, j).ravel()
+    high = np.maximum(i, j).ravel()
+    at = np.flatnonzero(exists.ravel())
+    _, first = np.unique(low[at] * len(T) + high[at], return_index=True)
+    products = at[first]  # a place of each product of two coordinates
+    k, l = low[products], high[products]
+    twice = np.where(k == l, 1.0, 2.0)
+
+    begins = [0]
+    places: list[int] = []
+    values: list[np.ndarray] = []
+    for own, partner, filled in zip(i, j, exists, strict=True):
+        rows = np.where(filled[:, None], T[own[:, None], partner[:, None], k, l] * twice, 0.0)
+        used = np.flatnonzero(rows.any(axis=0))
+        places += [int(products[n]) for n in used]
+        values += [rows[:, n] for n in used]
+        if len(places) % 2:  # entries are taken in twos
+            places.append(0)
+            values.append(np.zeros(WIDTH))
+        begins.append(len(places))
+    flat = aligned(len(values) * WIDTH)
+    flat[:] = np.ravel(values)
+    return np.array(begins), np.array(places), flat
+
+
+def work_space(model: Model, orders: int) -> int:
+    """Return the length of the work space of `stretching` for so many orders."""
+    return orders * model.membrane.products + model.membrane.length
+
+
 def _point_amplitudes(modes: DiscModes) -> np.ndarray:
     """Return ``Model.point_amplitude``."""
     pairs = np.flatnonzero(modes.diameters > 0)
@@ -298,13 +434,17 @@ def build_state(model: Model) -> EngineState:
     """Return the static start: equilibrium under the preload, in stick, spring relaxed."""
     width = len(model.mode_amplitude)
     n_single = len(model.mode_amplitude0)
-    state = views_of_disc(width, n_single, bool(model.has_compliance))
+    compliant = bool(model.has_compliance)
+    state = views_of_disc(width, n_single, compliant, work_space(model, 1))
+    state.x[U] = model.u_0
+    state.x[PHASE] = STICK
+    if model.has_stretching:
+        state.z[:], state.y[:] = np.split(model.membrane.rest, [width])
+        return state
     exists = model.stiffness > 0
     np.divide(-model.N * model.mode_amplitude, model.stiffness, out=state.z, where=exists)
     exists0 = model.stiffness0 > 0
     np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=state.y, where=exists0)
-    state.x[U] = model.u_0
-    state.x[PHASE] = STICK
     return state
 
 

@@ -45,6 +45,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
+from .stretching import membrane_force0
 from .tangent import point_change, surface_change
 from .transitions import (
     AT_REST,
@@ -80,6 +81,8 @@ def rates(model, state, out):
         shift = model.shift[j]
         other = other_lane(j)
         own = -model.damping[j] * state.e[j] - model.stiffness[j] * state.z[j]
+        if model.has_stretching:
+            own -= state.membrane[j]
         out[j * WIDTH] = state.e[j] + shift * f * state.z[other]
         row = velocity_place(model, j)
         out[row * WIDTH] = own + shift * f * state.e[other] - model.mode_amplitude[j] * V
@@ -87,6 +90,8 @@ def rates(model, state, out):
             out[row * WIDTH] += model.tangential[j] * H
     for j in range(len(model.mode_amplitude0)):
         own = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
+        if model.has_stretching:
+            own -= membrane_force0(model, state.membrane, 1, 0, j)
         out[displacement0_place(model, j) * WIDTH] = state.g[j]
         out[velocity0_place(model, j) * WIDTH] = own - model.mode_amplitude0[j] * V
 

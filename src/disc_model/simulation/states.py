@@ -20,6 +20,7 @@ from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
+from disc_model.disc.membrane import stretched
 from disc_model.disc.plate import (
     modal_damping,
     mode_arrays,
@@ -459,6 +460,7 @@ def engine_case(p: Parameters) -> EngineCase:
             psi_at_point=modes_at_point(p).psi,
             damping=modal_damping(p),
             tangential=tangential,
+            **stretched(p)._asdict(),
         ),
         {name: getattr(p, name) for name in Model._fields if name in Parameters.model_fields},
         Contact(
