@@ -160,8 +160,6 @@ def quartic_form(p: Parameters) -> Array:
     return _quartic_form(tuple(plate.items()))
 
 
-
-
 @lru_cache(maxsize=16)
 def _quartic_form(plate: tuple[tuple[str, object], ...]) -> Array:
     """As `quartic_form`, cached by the values on which it depends."""

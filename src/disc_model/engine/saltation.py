@@ -45,7 +45,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
-from .stretching import membrane_force0
+from .stretching import membrane_change, membrane_change0, membrane_force0
 from .tangent import point_change, surface_change
 from .transitions import (
     AT_REST,
@@ -165,6 +165,15 @@ def put_changes(model, state, tangent, rows, block, changes):
 
 
 @inlined
+def _stretched(model, state, j):
+    """Displacement in lane j, with that which the membrane's force would make: what a change of
+    stiffness multiplies, as it is the plate's material that changes."""
+    if model.has_stretching:
+        return state.z[j] + state.membrane[j] / model.stiffness[j]
+    return state.z[j]
+
+
+@inlined
 def _free_change(model, state, tangent, rows, block, changes):
     """Change of A, ``laws.Instant.free`` (lanes); arguments as in `put_changes`."""
     at = now_at(tangent, block)
@@ -183,20 +192,28 @@ def _free_change(model, state, tangent, rows, block, changes):
             part = part - model.damping[j] * entry(rows, at, alpha_row)
             part = part + (2.0 * l * f) * entry(rows, at, beta_row)
             part = part + (2.0 * l * state.e[i] - 2.0 * l * l * f * state.z[j]) * df
+            if model.has_stretching:
+                along, _ = membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
+                part = part - along
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
-                part = part - state.z[j] * d_stiffness - state.e[j] * d_damping
+                part = part - _stretched(model, state, j) * d_stiffness - state.e[j] * d_damping
             acceleration = acceleration + model.mode_amplitude[j] * part
     for j in range(len(model.mode_amplitude0)):
         y_row = displacement0_place(model, j)
         g_row = velocity0_place(model, j)
         part = -model.stiffness0[j] * entry(rows, at, y_row)
         part = part - model.damping0[j] * entry(rows, at, g_row)
+        if model.has_stretching:
+            part = part - membrane_change0(model, state.membrane, 1, 0, rows, at, 0, j)
         if changes:
             d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + y_row)
             d_damping = entry(tangent.inputs, inputs, N_INPUTS + g_row)
-            part = part - state.y[j] * d_stiffness - state.g[j] * d_damping
+            y = state.y[j]
+            if model.has_stretching:
+                y += membrane_force0(model, state.membrane, 1, 0, j) / model.stiffness0[j]
+            part = part - y * d_stiffness - state.g[j] * d_damping
         acceleration = acceleration + model.mode_amplitude0[j] * part
     return acceleration
 
@@ -217,10 +234,13 @@ def _along_change(model, state, tangent, rows, block, changes):
             part = -model.stiffness[i] * entry(rows, at, i)
             part = part - model.damping[i] * entry(rows, at, velocity_place(model, i))
             part = part - (l * f) * entry(rows, at, alpha_row) - (l * state.e[j]) * df
+            if model.has_stretching:
+                _, across = membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
+                part = part - across
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
-                part = part - state.z[i] * d_stiffness - state.e[i] * d_damping
+                part = part - _stretched(model, state, i) * d_stiffness - state.e[i] * d_damping
             acceleration = acceleration + model.tangential[i] * part
     return acceleration
 

@@ -30,6 +30,7 @@ from .jit.simd import (
 )
 from .model import MEMBRANE_GROUP, ROWS, lane_count
 from .series import displacement
+from .state import HALF, displacement0_place
 
 # ---- Where numbers stand; ``orders``: how many orders the work space has
 
@@ -79,10 +80,15 @@ def membrane_force(model, work, orders, k, b):
 
 
 @inlined
+def membrane_force_on(work, orders, k, j):
+    """The membrane's force of order k on lane j."""
+    return item(work, (j - j % WIDTH) * orders + k * WIDTH + j % WIDTH)
+
+
+@inlined
 def membrane_force0(model, work, orders, k, j):
     """The membrane's force of order k on mode j without nodal diameter."""
-    block = len(model.shift) + j // WIDTH * WIDTH
-    return item(work, block * orders + k * WIDTH + j % WIDTH)
+    return membrane_force_on(work, orders, k, len(model.shift) + j)
 
 
 # ---- Series and instants
@@ -272,3 +278,79 @@ def _force_by_pairs(model, work, orders, k, b, vector):
     if k % 2 == 0:
         even = even + load(work, K) * load(work, own)
     return total(even + odd)
+
+
+# ---- Changes
+
+
+@inlined
+def _product(work, place, k, changes, at, stride):
+    """Order k of a number's series times a change's (lanes); place: of order 0 of the former in
+    ``work``; at: of order k of the latter, orders being ``stride`` apart."""
+    lanes = splat(0.0)
+    for _ in range(k + 1):
+        lanes = lanes + spread(work, place) * load(changes, at)
+        place += WIDTH
+        at -= stride
+    return lanes
+
+
+@helper
+def membrane_change(model, work, orders, k, changes, at, stride, j):
+    """Changes of order k of the membrane's force on a and b of the pair whose a is in lane j
+    (lanes).
+
+    changes : rows in the order of a column; at: of order k, orders being ``stride`` apart
+    """
+    along = splat(0.0)
+    across = splat(0.0)
+    width = len(model.shift)
+    for i in range(width):
+        if model.shift[i] > 0.0:
+            # four products side by side: none waits for its last term
+            aa = _coefficient_of(model, orders, j, i)
+            ab = _coefficient_of(model, orders, j, i + HALF)
+            ba = _coefficient_of(model, orders, j + HALF, i)
+            bb = _coefficient_of(model, orders, j + HALF, i + HALF)
+            da_at = at + i * WIDTH
+            by_aa = splat(0.0)
+            by_ab = by_aa
+            by_ba = by_aa
+            by_bb = by_aa
+            for _ in range(k + 1):
+                da = load(changes, da_at)
+                db = load(changes, da_at + HALF * WIDTH)
+                by_aa = by_aa + spread(work, aa) * da
+                by_ab = by_ab + spread(work, ab) * db
+                by_ba = by_ba + spread(work, ba) * da
+                by_bb = by_bb + spread(work, bb) * db
+                aa += WIDTH
+                ab += WIDTH
+                ba += WIDTH
+                bb += WIDTH
+                da_at -= stride
+            along = along + (by_aa + by_ab)
+            across = across + (by_ba + by_bb)
+    for i in range(len(model.mode_amplitude0)):
+        dy = at + displacement0_place(model, i) * WIDTH
+        place = _coefficient_of(model, orders, j, width + i)
+        along = along + _product(work, place, k, changes, dy, stride)
+        place = _coefficient_of(model, orders, j + HALF, width + i)
+        across = across + _product(work, place, k, changes, dy, stride)
+    return 3.0 * along, 3.0 * across
+
+
+@helper
+def membrane_change0(model, work, orders, k, changes, at, stride, j):
+    """As `membrane_change`, on mode j without nodal diameter."""
+    change = splat(0.0)
+    width = len(model.shift)
+    for i in range(width):
+        if model.shift[i] != 0.0:
+            place = _coefficient_of(model, orders, i, width + j)
+            change = change + _product(work, place, k, changes, at + i * WIDTH, stride)
+    for i in range(len(model.mode_amplitude0)):
+        dy = at + displacement0_place(model, i) * WIDTH
+        place = _coefficient_of(model, orders, width + j, width + i)
+        change = change + _product(work, place, k, changes, dy, stride)
+    return 3.0 * change
