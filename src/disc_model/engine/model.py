@@ -28,7 +28,7 @@ from .state import (
     pair_lanes,
     views_of_disc,
 )
-from .stick_modes import Components, StickModes, build_stick_modes, no_modes, padded
+from .stick_modes import Components, StickModes, build_stick_modes, no_modes
 
 ROWS = 48  # number of coefficients of a series
 MEMBRANE_GROUP = 3  # vectors of the membrane's products that one loop takes side by side
@@ -65,24 +65,25 @@ class Membrane(NamedTuple):
     """The membrane of a plate that stretches, see `stretching`: the map from s to K, vector by
     vector, and where numbers stand in work space."""
 
-    begins: np.ndarray  # first entry of each vector of K, shape (vectors + 1,)
-    places: np.ndarray  # of the number of s that an entry multiplies, shape (entries,)
-    values: np.ndarray  # the vector by which, shape (entries * 8,)
-    rest: np.ndarray  # static displacements, of lanes and of modes without nodal diameter
+    owns: np.ndarray  # vectors of displacements: blocks of pairs, and modes without nodal diameter
+    groups: np.ndarray  # the first group of vectors with each of these, and their number
+    partners: np.ndarray  # vector of displacements that each vector multiplies it by, (vectors,)
+    sources: np.ndarray  # the first vector of K that is the same, (vectors,)
+    begins: np.ndarray  # first entry of each vector of K, (vectors + 1,)
+    places: np.ndarray  # of the number of s that an entry multiplies, (entries,)
+    values: np.ndarray  # the vector by which, (entries * 8,)
+    table: np.ndarray  # place of K_ij; i, j: lanes, then modes without nodal diameter; -1 for none
+    rest: np.ndarray  # static displacements of these
     softness: float  # -du_0 / dN, m/N
-    partners: int  # of a block of pairs, in whole groups
-    single_partners: int  # of a block of modes without nodal diameter, in whole groups
-    single_blocks: int
-    first_own: int  # vector of displacements of these blocks
-    first_single: int  # vector of K of these blocks
     displacements: int  # where sections of the work space begin, for one order
     coefficients: int
     products: int
     length: int  # of the work space beyond ``products``
 
 
+_NONE = np.zeros(0, np.int64)
 NO_MEMBRANE = Membrane(
-    *(np.zeros(0, np.int64), np.zeros(0, np.int64), np.zeros(0), np.zeros(0)), 0.0, *[0] * 9
+    _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, np.zeros(0), _NONE, np.zeros(0), 0.0, 0, 0, 0, 0
 )
 
 
@@ -303,80 +304,84 @@ def _membrane(modes: DiscModes, compliance: float) -> Membrane:
     """Return the membrane of modes with a ``quartic`` form."""
     pairs = np.flatnonzero(modes.diameters > 0)
     single = np.flatnonzero(modes.diameters == 0)
-    width = lanes_for(len(pairs))
-
-    # the coordinate of T in each lane, then of each mode without nodal diameter; -1 for none
-    coordinates = np.full(width + padded(len(single)), -1)
     lanes = pair_lanes(len(pairs))
+    width = lanes_for(len(pairs))
+    n = width + len(single)
+
+    # the coordinate of T in each lane, of each mode without nodal diameter, and -1 for none
+    coordinates = np.full(n + 1, -1)
     coordinates[lanes] = pairs
     coordinates[lanes + HALF] = len(modes.diameters) + np.arange(len(pairs))
-    coordinates[width : width + len(single)] = single
-    of_single = np.append(np.arange(width, width + len(single)), [-1] * (2 * MEMBRANE_GROUP))
+    coordinates[width:n] = single
 
-    # own and partner of each vector, as places in ``coordinates``
+    # vectors of displacements, as eight of these each, and groups of partners of an own
     lane = np.arange(WIDTH)
-    exchanged = [b + (lane ^ r) for b in range(0, width, WIDTH) for r in range(WIDTH)]
-    partners = [*exchanged, *(np.full(WIDTH, j) for j in of_single)]
-    n_partners = _in_groups(width + len(single))
-    n_single = _in_groups(len(single))
-    own = [b + lane for b in range(0, width, WIDTH) for _ in range(n_partners)]
-    partner = [p for _ in range(0, width, WIDTH) for p in partners[:n_partners]]
-    first_single = len(own)
-    single_blocks = padded(len(single)) // WIDTH
-    for c in range(single_blocks):
-        own += [width + c * WIDTH + lane] * n_single
-        partner += partners[width : width + n_single]
+    vectors = [b + (lane ^ r) for b in range(0, width, WIDTH) for r in range(WIDTH)]
+    vectors += [np.full(WIDTH, j) for j in range(width, n + 1)]
+    blocks = [*range(0, width, WIDTH)]
+    owns = [*blocks, *range(width, n)]
+    groups = [0]
+    partners: list[int] = []
+    for own in owns:
+        partners += range(n) if own < width else owns
+        partners += [n] * (-len(partners) % MEMBRANE_GROUP)
+        groups.append(len(partners) // MEMBRANE_GROUP)
 
-    i, j = (np.append(coordinates, -1)[np.array(places)] for places in (own, partner))
+    # both factors in each lane of each vector; two modes without nodal diameter fill one lane
+    own_places = np.repeat(np.array(vectors)[owns], np.diff(groups) * MEMBRANE_GROUP, axis=0)
+    partner_places = np.array(vectors)[partners]
+    both = (own_places >= width) & (partner_places >= width)
+    partner_places[both & (lane > 0)] = n
+    exists = (coordinates[own_places] >= 0) & (coordinates[partner_places] >= 0)
+    table = np.full((n + 1, n + 1), -1)
+    sources = np.arange(len(partners))
+    for v, (own, partner) in enumerate(zip(own_places, partner_places, strict=True)):
+        if own[0] >= width > partner[0]:  # a block by a mode is this mode by the block
+            sources[v] = table[partner[0], own[0]] // WIDTH
+        at = sources[v] * WIDTH + lane
+        table[own, partner] = np.where(exists[v], at, -1)
+
+    i, j = coordinates[own_places], coordinates[partner_places]
     begins, places, values = _map_of(modes.quartic, i, j)
-    first_own = max(n_partners, width + n_single)
-    displacements = len(coordinates)
-    coefficients = displacements + (first_own + single_blocks) * WIDTH
-    where = np.append(lanes, width + np.arange(len(single)))
-    rest = np.zeros(width + len(single))
-    rest[where] = modes.rest[np.append(pairs, single)]
+    displacements = len(owns) * WIDTH
+    coefficients = displacements + len(vectors) * WIDTH
+    rest = np.zeros(n)
+    rest[lanes] = modes.rest[pairs]
+    rest[width:] = modes.rest[single]
     return Membrane(
+        owns=np.array(owns),
+        groups=np.array(groups),
+        partners=np.array(partners),
+        sources=sources,
         begins=begins,
         places=places,
         values=values,
+        table=table[:n, :n].ravel(),
         rest=rest,
         softness=modes.softness + compliance,
-        partners=n_partners,
-        single_partners=n_single,
-        single_blocks=single_blocks,
-        first_own=first_own,
-        first_single=first_single,
         displacements=displacements,
         coefficients=coefficients,
-        products=coefficients + len(own) * WIDTH,
-        length=len(own) * WIDTH,
+        products=coefficients + len(partners) * WIDTH,
+        length=len(partners) * WIDTH,
     )
-
-
-def _in_groups(n: int) -> int:
-    return MEMBRANE_GROUP * -(-n // MEMBRANE_GROUP)
 
 
 def _map_of(T: np.ndarray, i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, ...]:
     """Return ``begins``, ``places`` and ``values`` of a `Membrane`; i, j: coordinates of own and
-    partner of each vector, shape (vectors, 8)."""
+    partner of each vector, (vectors, 8)."""
     exists = (i >= 0) & (j >= 0)
-    low = np.minimum(i, j).ravel()
-    high = np.maximum(i, j).ravel()
-    at = np.flatnonzero(exists.ravel())
-    _, first = np.unique(low[at] * len(T) + high[at], return_index=True)
-    products = at[first]  # a place of each product of two coordinates
-    k, l = low[products], high[products]
-    twice = np.where(k == l, 1.0, 2.0)
-
+    pair = np.where(exists, np.minimum(i, j) * len(T) + np.maximum(i, j), -1).ravel()
+    products, first = np.unique(pair, return_index=True)  # a place of each product, after none
+    k, l = np.divmod(products[1:], len(T))
+    weights = np.where(k == l, 1.0, 2.0) * T[:, :, k, l]
     begins = [0]
     places: list[int] = []
     values: list[np.ndarray] = []
     for own, partner, filled in zip(i, j, exists, strict=True):
-        rows = np.where(filled[:, None], T[own[:, None], partner[:, None], k, l] * twice, 0.0)
+        rows = np.where(filled[:, None], weights[own, partner], 0.0)
         used = np.flatnonzero(rows.any(axis=0))
-        places += [int(products[n]) for n in used]
-        values += [rows[:, n] for n in used]
+        places += first[1:][used].tolist()
+        values += [*rows[:, used].T]
         if len(places) % 2:  # entries are taken in twos
             places.append(0)
             values.append(np.zeros(WIDTH))

@@ -174,7 +174,7 @@ def begin_turning(model, series):
         # the modes' own equations
         bound = constants(model, DAMPING, b) * e + constants(model, STIFFNESS, b) * z
         if model.has_stretching:
-            bound = bound + membrane_force(model, series.membrane, ROWS, 0, b)
+            bound = bound + membrane_force(series.membrane, ROWS, 0, b)
             now, now_along = _pulled_back(model, series, 0, b, now, now_along)
         z_next = (e + f_0 * (shift * swap_halves(z))) * up
         e_next = (f_0 * (shift * swap_halves(e)) - bound) * up
@@ -276,7 +276,7 @@ def _turning_block(model, series, b, k, f_k, push, next_along):
     # velocities of order k + 1
     bound = damping * e + constants(model, STIFFNESS, b) * z_last
     if model.has_stretching:
-        bound = bound + membrane_force(model, series.membrane, ROWS, k, b)
+        bound = bound + membrane_force(series.membrane, ROWS, k, b)
     turned = swap_halves(e_inner + f_k * velocity(series, 0, b) + f_0 * e)
     e_next = (shift * turned - bound) * up
     put_velocity(series, k, b, e)
@@ -292,7 +292,7 @@ def _turning_block(model, series, b, k, f_k, push, next_along):
 @inlined
 def _pulled_back(model, series, k, b, up, along):
     """What the membrane's force on a block changes of the `Parts` of order k, added to these."""
-    force = membrane_force(model, series.membrane, ROWS, k, b)
+    force = membrane_force(series.membrane, ROWS, k, b)
     up = up - constants(model, AMPLITUDE, b) * force
     if model.has_moving_surface:
         along = along - constants(model, TANGENTIAL, b) * force
@@ -457,7 +457,7 @@ def next_stick(model, series, k, V_impulse, H_impulse):
         e = velocity(series, k, b) + push * constants(model, FORCES, b)
         bound = constants(model, DAMPING, b) * e + constants(model, STIFFNESS, b) * z
         if model.has_stretching:
-            bound = bound + membrane_force(model, series.membrane, ROWS, k, b)
+            bound = bound + membrane_force(series.membrane, ROWS, k, b)
         z_next = e * up
         e_next = 0.0 - bound * up
         put_velocity(series, k, b, e)

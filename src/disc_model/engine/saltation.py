@@ -45,7 +45,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
-from .stretching import membrane_change, membrane_change0, membrane_force0
+from .stretching import membrane_change, membrane_force0
 from .tangent import point_change, surface_change
 from .transitions import (
     AT_REST,
@@ -193,8 +193,7 @@ def _free_change(model, state, tangent, rows, block, changes):
             part = part + (2.0 * l * f) * entry(rows, at, beta_row)
             part = part + (2.0 * l * state.e[i] - 2.0 * l * l * f * state.z[j]) * df
             if model.has_stretching:
-                along, _ = membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
-                part = part - along
+                part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
@@ -206,7 +205,8 @@ def _free_change(model, state, tangent, rows, block, changes):
         part = -model.stiffness0[j] * entry(rows, at, y_row)
         part = part - model.damping0[j] * entry(rows, at, g_row)
         if model.has_stretching:
-            part = part - membrane_change0(model, state.membrane, 1, 0, rows, at, 0, j)
+            row = len(model.shift) + j
+            part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, row)
         if changes:
             d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + y_row)
             d_damping = entry(tangent.inputs, inputs, N_INPUTS + g_row)
@@ -235,8 +235,7 @@ def _along_change(model, state, tangent, rows, block, changes):
             part = part - model.damping[i] * entry(rows, at, velocity_place(model, i))
             part = part - (l * f) * entry(rows, at, alpha_row) - (l * state.e[j]) * df
             if model.has_stretching:
-                _, across = membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
-                part = part - across
+                part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, i)
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)

@@ -53,7 +53,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
-from .stretching import membrane_change, membrane_change0, membrane_force0, membrane_force_on
+from .stretching import membrane_change, membrane_force0, membrane_force_on
 
 
 def longest_step(order: int, tolerance: float) -> float:
@@ -239,11 +239,13 @@ def _pair_rates(model, series, tangent, block, k, j, phase):
     rate_beta = 0.0 - (model.stiffness[j] * db + model.damping[j] * d_beta)
     if model.has_stretching:
         stride = tangent.rows * WIDTH
-        along, across = membrane_change(
-            model, series.membrane, ROWS, k, tangent.series, here, stride, j
+        work = series.membrane
+        rate_alpha = rate_alpha - membrane_change(
+            model, work, ROWS, k, tangent.series, here, stride, j
         )
-        rate_alpha = rate_alpha - along
-        rate_beta = rate_beta - across
+        rate_beta = rate_beta - membrane_change(
+            model, work, ROWS, k, tangent.series, here, stride, i
+        )
     if phase != STICK:
         l = model.shift[j]
         turned = _turned(model, series, tangent, block, k, j)
@@ -346,8 +348,9 @@ def _axisymmetric_rates(model, series, tangent, block, k, j):
     rate = 0.0 - (model.stiffness0[j] * dy + model.damping0[j] * dg)
     if model.has_stretching:
         stride = tangent.rows * WIDTH
-        rate = rate - membrane_change0(
-            model, series.membrane, ROWS, k, tangent.series, here, stride, j
+        row = len(model.shift) + j
+        rate = rate - membrane_change(
+            model, series.membrane, ROWS, k, tangent.series, here, stride, row
         )
     if has_inputs(tangent, block):
         at = inputs_at(tangent, block)

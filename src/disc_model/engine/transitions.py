@@ -98,7 +98,7 @@ def free_acceleration(model, state):
         stiffness = load(model.stiffness, b) + turned * turned
         pull = stiffness * z + load(model.damping, b) * e
         if model.has_stretching:
-            pull = pull + membrane_force(model, state.membrane, 1, 0, b)
+            pull = pull + membrane_force(state.membrane, 1, 0, b)
         # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
         driven = (2.0 * f) * (load(model.dw_dtheta, b) * e)
         part = driven - load(model.mode_amplitude, b) * pull
@@ -146,7 +146,7 @@ def surface_acceleration(model, state):
             e = load(state.e, b)
             pull = load(model.stiffness, b) * load(state.z, b) + load(model.damping, b) * e
             if model.has_stretching:
-                pull = pull + membrane_force(model, state.membrane, 1, 0, b)
+                pull = pull + membrane_force(state.membrane, 1, 0, b)
             turned = f * (load(model.shift, b) * swap_halves(e))
             part = load(model.tangential, b) * (turned - pull)
             parts = parts + part

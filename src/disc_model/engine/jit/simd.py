@@ -42,6 +42,7 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
     largest = np.max
     total = np.sum
     item = operator.getitem
+    whole = operator.getitem
     put = operator.setitem
 
     def load(array, i):
@@ -197,6 +198,11 @@ else:
     def item(builder, array, i):
         """array[i], i >= 0: no check of the sign, which took a third of the time where a loop
         counts down."""
+        return builder.load(builder.gep(array, [i]))
+
+    @_instruction(types.intp, None, types.intp)
+    def whole(builder, array, i):
+        """array[i] of whole numbers, i >= 0: no check of the sign."""
         return builder.load(builder.gep(array, [i]))
 
     @_instruction(types.void, None, types.intp, types.float64)
