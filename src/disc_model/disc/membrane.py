@@ -13,7 +13,7 @@ Rigid motions of a free plate drop out by the rank.
 
 from functools import lru_cache
 from itertools import combinations_with_replacement
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -188,6 +188,21 @@ def _quartic_form(plate: tuple[tuple[str, object], ...]) -> Array:
     T = 4 / 3 * (paired + paired.transpose(0, 2, 1, 3) + paired.transpose(0, 3, 2, 1))
     T.setflags(write=False)
     return T
+
+
+def membrane_forces(p: Parameters, a: Any, b: Any) -> tuple[Any, Any]:
+    """The membrane's forces on a and b of all modes of a case that stretches, real or complex, each
+    (n_modes, k)."""
+    T = quartic_form(p)
+    n = len(T)
+    pairs = mode_arrays(p).diameters > 0
+    q = np.concatenate([a, b[pairs]])
+    products = (q[:, None] * q).reshape(n * n, -1)
+    K = (T.reshape(n * n, -1) @ products).reshape(n, n, -1)
+    force = np.sum(K * q, axis=1)
+    across = np.zeros_like(force[: len(a)])
+    across[pairs] = force[len(a) :]
+    return force[: len(a)], across
 
 
 class Stretched(NamedTuple):
