@@ -121,7 +121,7 @@ def test_refusals():
     with pytest.raises(ParameterError, match="stretching='clamped': must be left out where a disc"):
         Parameters(N=1, Omega=1, disc=disc, stretching="clamped")
     with pytest.raises(ParameterError, match="must be none for more than 52 coordinates"):
-        quartic_form(P.replace(n_diameters=30))
+        stretched(P.replace(n_diameters=30))
 
 
 def test_a_plate_that_does_not_stretch_keeps_its_key():

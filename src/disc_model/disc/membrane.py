@@ -13,27 +13,21 @@ Rigid motions of a free plate drop out by the rank.
 
 from functools import lru_cache
 from itertools import combinations_with_replacement
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
 
 from disc_model.arrays import Array
 from disc_model.disc.plate import mode_arrays, mode_slopes
-from disc_model.errors import require
 from disc_model.parameters import Parameters
 
-MOST_COORDINATES = 52
-"""The quartic form has the fourth power of so many numbers: 55 MB."""
 # parameters on which the quartic form depends
 _OF_FORM = (
     *("a", "b", "r_0", "h", "E", "nu", "rho"),
     *("n_diameters", "n_circles", "normalization", "stretching"),
 )
 _RANK = 1e-12  # singular values below this share are those of rigid motions
-_STEPS = 32  # of the preload, in which the static start is found
-_MOST_ITERATIONS = 60
-_SETTLED = 4e-16
 
 
 class Wave(NamedTuple):
@@ -49,11 +43,6 @@ class Harmonic(NamedTuple):
 
     pairs: list[tuple[Wave, Wave]]
     G: Array  # N m^-3 kg^-2
-
-
-def stretches(p: Parameters) -> bool:
-    """Whether the plate of a case stretches."""
-    return p.stretching != "none" and p.n_diameters >= 0
 
 
 def harmonics(p: Parameters) -> dict[int, Harmonic]:
@@ -147,23 +136,14 @@ class Plane:
 
 def quartic_form(p: Parameters) -> Array:
     """The symmetric tensor T with V4 = T q q q q / 4, q being a of all modes and b of those with
-    nodal diameters, in the order of `plate_modes`; shape (n, n, n, n), empty if the plate does not
-    stretch. The membrane's force on q is T q q q. Raises ParameterError if n is too large."""
-    if not stretches(p):
-        return np.zeros((0, 0, 0, 0))
-    diameters = mode_arrays(p).diameters
-    count = len(diameters) + int(np.count_nonzero(diameters))
-    rule = f"must be none for more than {MOST_COORDINATES} coordinates of modes, here {count}"
-    require((count <= MOST_COORDINATES, "stretching", p.stretching, rule))
-    values = dict(p)
-    plate = {name: values[name] for name in _OF_FORM}
-    return _quartic_form(tuple(plate.items()))
+    nodal diameters, in the order of `plate_modes`; shape (n, n, n, n). The membrane's force on q
+    is T q q q."""
+    return _quartic_form(Parameters(N=0, Omega=0, **{name: getattr(p, name) for name in _OF_FORM}))
 
 
 @lru_cache(maxsize=16)
-def _quartic_form(plate: tuple[tuple[str, object], ...]) -> Array:
+def _quartic_form(p: Parameters) -> Array:
     """As `quartic_form`, cached by the values on which it depends."""
-    p = Parameters(N=0, Omega=0, **dict(plate))  # type: ignore[arg-type]
     diameters = mode_arrays(p).diameters
     across = np.cumsum(diameters > 0) + len(diameters) - 1  # place of b
     count = int(across[-1]) + 1
@@ -188,49 +168,3 @@ def _quartic_form(plate: tuple[tuple[str, object], ...]) -> Array:
     T = 4 / 3 * (paired + paired.transpose(0, 2, 1, 3) + paired.transpose(0, 3, 2, 1))
     T.setflags(write=False)
     return T
-
-
-def membrane_forces(p: Parameters, a: Any, b: Any) -> tuple[Any, Any]:
-    """The membrane's forces on a and b of all modes of a case that stretches, real or complex, each
-    (n_modes, k)."""
-    T = quartic_form(p)
-    n = len(T)
-    pairs = mode_arrays(p).diameters > 0
-    q = np.concatenate([a, b[pairs]])
-    products = (q[:, None] * q).reshape(n * n, -1)
-    K = (T.reshape(n * n, -1) @ products).reshape(n, n, -1)
-    force = np.sum(K * q, axis=1)
-    across = np.zeros_like(force[: len(a)])
-    across[pairs] = force[len(a) :]
-    return force[: len(a)], across
-
-
-class Stretched(NamedTuple):
-    """A plate that stretches under the preload."""
-
-    quartic: Array  # see `quartic_form`
-    rest: Array  # static displacements a, shape (n_modes,)
-    softness: float  # of the disc's point under the slider, by which it yields to more load, m/N
-
-
-def stretched(p: Parameters) -> Stretched:
-    """The static deflection omega^2 a + T a a a = -N psi of a case, by Newton's method in steps of
-    the load; arrays are empty if the plate does not stretch."""
-    T = quartic_form(p)
-    if not T.size:
-        return Stretched(T, np.zeros(0), 0.0)
-    modes = mode_arrays(p)
-    n = len(modes.psi)
-    form = T[:n, :n, :n, :n]
-    linear = np.diag(modes.omega**2)
-    a = np.zeros(n)
-    slopes = linear
-    for load in np.linspace(0, p.N, _STEPS + 1):
-        for _ in range(_MOST_ITERATIONS):
-            K = form @ a @ a
-            slopes = linear + 3 * K
-            change = np.linalg.solve(slopes, (linear + K) @ a + load * modes.psi)
-            a = a - change
-            if np.max(np.abs(change)) <= _SETTLED * np.max(np.abs(a)):
-                break
-    return Stretched(T, a, float(modes.psi @ np.linalg.solve(slopes, modes.psi)))

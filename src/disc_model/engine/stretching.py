@@ -29,8 +29,8 @@ from .jit.simd import (
     total,
     whole,
 )
-from .model import MEMBRANE_GROUP, ROWS, lane_count
-from .series import displacement
+from .model import MEMBRANE_GROUP, ROWS
+from .series import displacement_at
 from .state import displacement0_place
 
 # ---- What others read; ``orders``: how many orders the work space has
@@ -54,44 +54,37 @@ def membrane_force0(model, work, orders, k, j):
     return total(membrane_force(work, orders, k, len(model.shift) + j * WIDTH))
 
 
-@helper
-def membrane_work(model, state):
-    """Return the product of the membrane's force and the displacements at a state, which is four
-    times the membrane's energy, J."""
-    membrane_at(model, state)
-    work = 0.0
-    for j in range(len(model.shift)):
-        work += state.membrane[j] * state.z[j]
-    for j in range(len(model.mode_amplitude0)):
-        work += membrane_force0(model, state.membrane, 1, 0, j) * state.y[j]
-    return work
-
-
 # ---- Series and instants
 
 
 @inlined
 def membrane_order(model, series, k):
     """Enter the membrane's force of order k, from displacements up to that order."""
-    at = model.membrane.displacements * ROWS + k * WIDTH
-    for b in range(0, lane_count(model), WIDTH):
-        at = _enter_pairs(series.membrane, ROWS, at, displacement(series, k, b))
-    for j in range(len(model.mode_amplitude0)):
-        store(series.membrane, at, spread(series.y, j * ROWS + k))
-        at += ROWS * WIDTH
-    _add_order(model.membrane, series.membrane, ROWS, k)
+    z_at = displacement_at(k, 0)
+    stride = displacement_at(0, WIDTH)
+    _add_order(model, series.membrane, ROWS, k, series.modes, z_at, stride, series.y, k)
 
 
 @helper
 def membrane_at(model, state):
     """Enter the membrane's force at a state into its ``membrane``."""
-    at = model.membrane.displacements
-    for b in range(0, len(model.shift), WIDTH):
-        at = _enter_pairs(state.membrane, 1, at, load(state.z, b))
+    _add_order(model, state.membrane, 1, 0, state.z, 0, WIDTH, state.y, 0)
+
+
+@inlined
+def _add_order(model, work, orders, k, z, z_at, stride, y, y_at):
+    """Enter displacements, s, K and F of order k.
+
+    z, y : displacements of the pairs and of modes without nodal diameter
+    z_at, y_at, stride : where they begin, and how far blocks of pairs are apart
+    """
+    at = model.membrane.displacements * orders + k * WIDTH
+    for b in range(len(model.shift) // WIDTH):
+        at = _enter_pairs(work, orders, at, load(z, z_at + b * stride))
     for j in range(len(model.mode_amplitude0)):
-        store(state.membrane, at, spread(state.y, j))
-        at += WIDTH
-    _add_order(model.membrane, state.membrane, 1, 0)
+        store(work, at, spread(y, y_at + j * orders))
+        at += orders * WIDTH
+    _add_forces(model.membrane, work, orders, k)
 
 
 @inlined
@@ -111,7 +104,7 @@ def _enter_pairs(work, orders, at, z):
 
 
 @helper
-def _add_order(m, work, orders, k):
+def _add_forces(m, work, orders, k):
     """Enter s, K and F of order k."""
     owns = len(m.owns)
 
@@ -227,13 +220,9 @@ def membrane_change(model, work, orders, k, changes, at, stride, i):
 def _product(work, place, k, changes, at, stride):
     """Order k of a number's series times a change's (lanes); place: of order 0 of the former in
     ``work``; at: of order k of the latter, orders being ``stride`` apart."""
-    even = splat(0.0)
-    odd = splat(0.0)
-    for _ in range(0, k, 2):
-        even = even + spread(work, place) * load(changes, at)
-        odd = odd + spread(work, place + WIDTH) * load(changes, at - stride)
-        place += 2 * WIDTH
-        at -= 2 * stride
-    if k % 2 == 0:
-        even = even + spread(work, place) * load(changes, at)
-    return even + odd
+    lanes = splat(0.0)
+    for _ in range(k + 1):
+        lanes = lanes + spread(work, place) * load(changes, at)
+        place += WIDTH
+        at -= stride
+    return lanes

@@ -20,7 +20,6 @@ from disc_model.arrays import Array, EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import PHASES
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.membrane import stretched
 from disc_model.disc.plate import (
     modal_damping,
     mode_arrays,
@@ -29,6 +28,7 @@ from disc_model.disc.plate import (
     radial_range,
     tangential_amplitudes,
 )
+from disc_model.disc.stretched import stretched
 from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series

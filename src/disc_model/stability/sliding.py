@@ -23,8 +23,8 @@ import numpy as np
 from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.membrane import membrane_forces
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
+from disc_model.disc.stretched import membrane_forces
 from disc_model.display import Drawn, Summarised, number_text
 from disc_model.errors import StatusBase, raise_faults
 from disc_model.parameters import Parameters, foreign_case

@@ -16,8 +16,9 @@ import numpy as np
 
 from disc_model.arrays import Array
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.membrane import membrane_forces, quartic_form
+from disc_model.disc.membrane import quartic_form
 from disc_model.disc.plate import modal_damping, mode_arrays, tangential_amplitudes
+from disc_model.disc.stretched import membrane_forces
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import engine_case
 from disc_model.stability.python_laws import LAWS
