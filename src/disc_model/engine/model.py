@@ -72,7 +72,7 @@ class Membrane(NamedTuple):
     begins: np.ndarray  # first entry of each vector of K, (vectors + 1,)
     places: np.ndarray  # of the number of s that an entry multiplies, (entries,)
     values: np.ndarray  # the vector by which, (entries * 8,)
-    table: np.ndarray  # place of K_ij; i, j: lanes, then modes without nodal diameter; -1 for none
+    table: np.ndarray  # place of K_ij; i, j: lanes, then modes without nodal diameter
     rest: np.ndarray  # static displacements of these
     softness: float  # -du_0 / dN, m/N
     displacements: int  # where sections of the work space begin, for one order
@@ -304,22 +304,24 @@ def _membrane(modes: DiscModes, compliance: float) -> Membrane:
     """Return the membrane of modes with a ``quartic`` form."""
     pairs = np.flatnonzero(modes.diameters > 0)
     single = np.flatnonzero(modes.diameters == 0)
-    lanes = pair_lanes(len(pairs))
     width = lanes_for(len(pairs))
     n = width + len(single)
 
-    # the coordinate of T in each lane, of each mode without nodal diameter, and -1 for none
-    coordinates = np.full(n + 1, -1)
-    coordinates[lanes] = pairs
-    coordinates[lanes + HALF] = len(modes.diameters) + np.arange(len(pairs))
-    coordinates[width:n] = single
+    # T of lanes and of modes without nodal diameter, where n stands for none
+    of_a = pair_lanes(len(pairs))
+    places = np.concatenate([of_a, of_a + HALF, np.arange(width, n)])
+    of_b = len(modes.diameters) + np.arange(len(pairs))
+    coordinates = np.concatenate([pairs, of_b, single])
+    T = np.zeros(4 * (n + 1,))
+    T[np.ix_(*4 * [places])] = modes.quartic[np.ix_(*4 * [coordinates])]
+    rest = np.zeros(n)
+    rest[places] = np.append(modes.rest, np.zeros(len(pairs)))[coordinates]
 
-    # vectors of displacements, as eight of these each, and groups of partners of an own
+    # vectors of displacements, and groups of partners of an own
     lane = np.arange(WIDTH)
     vectors = [b + (lane ^ r) for b in range(0, width, WIDTH) for r in range(WIDTH)]
     vectors += [np.full(WIDTH, j) for j in range(width, n + 1)]
-    blocks = [*range(0, width, WIDTH)]
-    owns = [*blocks, *range(width, n)]
+    owns = [*range(0, width, WIDTH), *range(width, n)]
     groups = [0]
     partners: list[int] = []
     for own in owns:
@@ -328,59 +330,49 @@ def _membrane(modes: DiscModes, compliance: float) -> Membrane:
         groups.append(len(partners) // MEMBRANE_GROUP)
 
     # both factors in each lane of each vector; two modes without nodal diameter fill one lane
-    own_places = np.repeat(np.array(vectors)[owns], np.diff(groups) * MEMBRANE_GROUP, axis=0)
-    partner_places = np.array(vectors)[partners]
-    both = (own_places >= width) & (partner_places >= width)
-    partner_places[both & (lane > 0)] = n
-    exists = (coordinates[own_places] >= 0) & (coordinates[partner_places] >= 0)
-    table = np.full((n + 1, n + 1), -1)
+    of_own = np.repeat(np.array(vectors)[owns], np.diff(groups) * MEMBRANE_GROUP, axis=0)
+    of_partner = np.array(vectors)[partners]
+    of_partner[(of_own >= width) & (of_partner >= width) & (lane > 0)] = n
+    table = np.zeros((n + 1, n + 1), np.int64)
     sources = np.arange(len(partners))
-    for v, (own, partner) in enumerate(zip(own_places, partner_places, strict=True)):
-        if own[0] >= width > partner[0]:  # a block by a mode is this mode by the block
-            sources[v] = table[partner[0], own[0]] // WIDTH
-        at = sources[v] * WIDTH + lane
-        table[own, partner] = np.where(exists[v], at, -1)
-
-    i, j = coordinates[own_places], coordinates[partner_places]
-    begins, places, values = _map_of(modes.quartic, i, j)
-    displacements = len(owns) * WIDTH
-    coefficients = displacements + len(vectors) * WIDTH
-    rest = np.zeros(n)
-    rest[lanes] = modes.rest[pairs]
-    rest[width:] = modes.rest[single]
+    for v, (i, j) in enumerate(zip(of_own, of_partner, strict=True)):
+        if i[0] >= width > j[0]:  # a mode by a block is the block by this mode
+            sources[v] = table[j[0], i[0]] // WIDTH
+        table[i, j] = sources[v] * WIDTH + lane
+    begins, columns, values = _map_of(T, of_own, of_partner)
+    coefficients = (len(owns) + len(vectors)) * WIDTH
+    products = coefficients + len(partners) * WIDTH
     return Membrane(
         owns=np.array(owns),
         groups=np.array(groups),
         partners=np.array(partners),
         sources=sources,
         begins=begins,
-        places=places,
+        places=columns,
         values=values,
         table=table[:n, :n].ravel(),
         rest=rest,
         softness=modes.softness + compliance,
-        displacements=displacements,
+        displacements=len(owns) * WIDTH,
         coefficients=coefficients,
-        products=coefficients + len(partners) * WIDTH,
+        products=products,
         length=len(partners) * WIDTH,
     )
 
 
-def _map_of(T: np.ndarray, i: np.ndarray, j: np.ndarray) -> tuple[np.ndarray, ...]:
-    """Return ``begins``, ``places`` and ``values`` of a `Membrane`; i, j: coordinates of own and
-    partner of each vector, (vectors, 8)."""
-    exists = (i >= 0) & (j >= 0)
-    pair = np.where(exists, np.minimum(i, j) * len(T) + np.maximum(i, j), -1).ravel()
-    products, first = np.unique(pair, return_index=True)  # a place of each product, after none
-    k, l = np.divmod(products[1:], len(T))
-    weights = np.where(k == l, 1.0, 2.0) * T[:, :, k, l]
+def _map_of(T: np.ndarray, own: np.ndarray, partner: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return ``begins``, ``places`` and ``values`` of a `Membrane`; own, partner: both factors of
+    each vector, (vectors, 8)."""
+    product = np.minimum(own, partner) * len(T) + np.maximum(own, partner)
+    products, first = np.unique(product, return_index=True)  # a place of each
+    k, l = np.divmod(products, len(T))
+    by_product = np.where(k == l, 1.0, 2.0) * T[:, :, k, l]
     begins = [0]
     places: list[int] = []
     values: list[np.ndarray] = []
-    for own, partner, filled in zip(i, j, exists, strict=True):
-        rows = np.where(filled[:, None], weights[own, partner], 0.0)
+    for rows in by_product[own, partner]:
         used = np.flatnonzero(rows.any(axis=0))
-        places += first[1:][used].tolist()
+        places += first[used].tolist()
         values += [*rows[:, used].T]
         if len(places) % 2:  # entries are taken in twos
             places.append(0)

@@ -1,5 +1,5 @@
-"""The force of a plate that stretches (docs/model.md, Stretching), a cubic form of the displacements q
-of all modes, as Taylor coefficients and at an instant.
+"""The force of a plate that stretches (von Karman's theory), a cubic form of the displacements q of
+all modes, as Taylor coefficients and at an instant.
 
 With the symmetric tensor T of the membrane energy V4 = T q q q q / 4,
 
@@ -209,10 +209,9 @@ def membrane_change(model, work, orders, k, changes, at, stride, i):
     force = splat(0.0)
     for j in range(n):
         place = whole(m.table, i * n + j)
-        if place >= 0:
-            row = j if j < width else displacement0_place(model, j - width)
-            K = m.coefficients * orders + (place - place % WIDTH) * orders + place % WIDTH
-            force = force + _product(work, K, k, changes, at + row * WIDTH, stride)
+        K = _coefficient_at(m, orders, place // WIDTH) + place % WIDTH
+        row = j if j < width else displacement0_place(model, j - width)
+        force = force + _product(work, K, k, changes, at + row * WIDTH, stride)
     return 3.0 * force
 
 
