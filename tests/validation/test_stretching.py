@@ -17,8 +17,11 @@ from disc_model import (
     simulate,
     steady_sliding,
 )
+from disc_model.stability.return_map import ReturnMap
 from tests.contact_laws import ALL_LAWS, COMPILES, course_of
+from tests.engine.test_saltation import differences
 from tests.references import taylor
+from tests.stability.test_return_map import central_differences, check_derivatives
 
 KINDS = ("stick_to_slip", "slip_to_stick", "separation", "reattachment")
 GIVEN = (Path(__file__).parent / "stretching.txt").read_text()
@@ -28,7 +31,7 @@ SCENES = {
 }
 
 
-def start_of(p, kick, slow=False):
+def start_of(p, kick):
     """The static start with the axisymmetric mode displaced so that the slider moves by kick, m."""
     state = initial_state(p)
     psi = plate_modes(p)["psi"].to_numpy()
@@ -84,10 +87,10 @@ OWN = {
     "six diameters": {"N": 300, "Omega": 40, "n_diameters": 6, "c": 0.3, "kick": 0.001},
     "damped, bilateral": {
         "N": 150,
-        "Omega": 25,
+        "Omega": 10,
         "c_p": 0.3,
         "contact": "bilateral",
-        "kick": -0.002,
+        "kick": -0.004,
     },
 }
 
@@ -215,3 +218,38 @@ def test_steady_sliding(case, status):
     assert float(abs(step.a[1]).max()) < 1e-10
     for rates in (step.alpha[1], step.beta[1]):
         assert float(abs(rates).max()) < 1e-7 * float((q.w2 * abs(step.a[0])).max())
+
+
+def test_the_jacobian_agrees_with_differences_along_a_direction():
+    """Quick enough without compilation."""
+    map_ = ReturnMap(Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped"))
+    x = map_.static
+    along = np.linalg.norm(x) * np.cos(np.arange(map_.size))
+
+    def end(share):
+        return map_.evaluate(x + share * along, tangent=False).end
+
+    expected = differences(end, 1e-4)
+    found = map_.evaluate(x).jacobian @ along
+    assert np.linalg.norm(found - expected) < 1e-7 * np.linalg.norm(expected)
+
+
+@pytest.mark.compiled
+def test_derivatives_by_parameters():
+    map_ = ReturnMap(Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped"))
+    check_derivatives(map_, map_.static, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
+
+
+@pytest.mark.compiled
+def test_multipliers_are_those_of_simulated_motion():
+    """With separations and impacts on the way."""
+    p = Parameters(N=200, Omega=50, normalization="orthonormal", stretching="clamped")
+    late = simulate(p, 0.05, initial_state=start_of(p, -0.00225)).final_state
+    map_ = ReturnMap(p, patient=True)
+    x = map_.next_release(late).x
+    how = {"may_separate": True}
+    orbit = map_.evaluate(x, **how)
+    expected = central_differences(map_, x, 1e-5 * np.linalg.norm(x), **how)
+    wanted = np.sort_complex(np.linalg.eigvals(expected))
+    found = np.sort_complex(np.linalg.eigvals(orbit.jacobian))
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-6 * abs(wanted).max())
