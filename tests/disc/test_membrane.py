@@ -4,14 +4,8 @@ import numpy as np
 import pytest
 
 from disc_model import Disc, ParameterError, Parameters, plate_modes
-from disc_model.disc.membrane import (
-    Plane,
-    Wave,
-    harmonics,
-    membrane_forces,
-    quartic_form,
-    stretched,
-)
+from disc_model.disc.membrane import Plane, Wave, harmonics, quartic_form
+from disc_model.disc.stretched import membrane_forces, stretched
 from tests.references.membrane import Membrane
 
 P = Parameters(N=200, Omega=50, normalization="orthonormal", stretching="clamped")

@@ -23,11 +23,7 @@ from disc_model.disc.plate import mode_arrays, mode_slopes
 from disc_model.parameters import Parameters
 
 # parameters on which the quartic form depends
-_OF_FORM = (
-    *("a", "b", "r_0", "h", "E", "nu", "rho"),
-    *("n_diameters", "n_circles", "normalization", "stretching"),
-)
-_RANK = 1e-12  # singular values below this share are those of rigid motions
+_OF_FORM = "a b r_0 h E nu rho n_diameters n_circles normalization stretching"
 
 
 class Wave(NamedTuple):
@@ -116,11 +112,11 @@ class Plane:
         across = np.hstack([over_r, -n * over_r])
         shear = np.hstack([n * over_r, self._slopes - over_r])
         vectors, sizes, _ = np.linalg.svd(self._scaled(along, across, shear), full_matrices=False)
-        span = vectors[:, sizes > _RANK * sizes[0]]
+        span = vectors[:, sizes > 1e-12 * sizes[0]]  # without rigid motions
         left = strains
         for _ in range(2):  # the second time against rounding
             left = left - span @ (span.T @ left)
-        return (1 if n == 0 else 2) * np.pi * left.T @ left
+        return np.pi * min(n + 1, 2) * left.T @ left
 
     def _scaled(self, along: Array, across: Array, shear: Array) -> Array:
         """Strains e_r, e_t and gamma / i at the nodes, one below the other."""
@@ -138,7 +134,9 @@ def quartic_form(p: Parameters) -> Array:
     """The symmetric tensor T with V4 = T q q q q / 4, q being a of all modes and b of those with
     nodal diameters, in the order of `plate_modes`; shape (n, n, n, n). The membrane's force on q
     is T q q q."""
-    return _quartic_form(Parameters(N=0, Omega=0, **{name: getattr(p, name) for name in _OF_FORM}))
+    return _quartic_form(
+        Parameters(N=0, Omega=0, **{name: getattr(p, name) for name in _OF_FORM.split()})
+    )
 
 
 @lru_cache(maxsize=16)
