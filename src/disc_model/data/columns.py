@@ -58,6 +58,7 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
     values: dict[str, Any] = p.model_dump()
+    values["stretching"] = p.stretching
     values["disc"] = ""
     if p.disc is not None:
         values["disc"] = p.disc.model_dump_json()  # variables hold no mapping

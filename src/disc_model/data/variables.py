@@ -234,7 +234,7 @@ BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
-    for name in ("normalization", "contact", "contact_force", "friction_law")
+    for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
 _OF_RATIOS = {
     name: Variable("1", f"{name_above} relative to {other}")
