@@ -443,7 +443,7 @@ def late_range() -> Example:
             ),
             Shown(1, "y", "Relative speed of the disc's surface", speeds, "", "linear"),
         ),
-        ("N = 120 N, separation ignored", "separation ignored: 1.1 to 2 times the range"),
+        ("N = 120 N", "dashed: separation ignored, 1.1 to 2 times the range"),
     )
 
 
@@ -575,6 +575,7 @@ def starts() -> xr.Dataset:
         "lost_contact": np.where(kinds == "separating", "yes", "no"),
         "basin_fraction_by_energy_low": by_energy / 2,
         "basin_fraction_by_energy_high": (1 + by_energy) / 2,
+        "basin_fraction": shares,
         "basin_fraction_low": shares / 2,
         "separating_fraction_low": separating / 2,
         "attractor_kind": [

@@ -12,7 +12,7 @@ FORBIDDEN = {
     "a registry by weak keys": r"weakref|Weak\w+Dictionary",
     "a private name of matplotlib": r"\b(?:ax|axes|axis|figure|legend|line|mesh|bar|spec)\._[a-z]",
     "a measure of what is drawn": r"get_window_extent|get_tightbbox|set_dpi",
-    "a second layout": r"tight_layout|subplots_adjust|set_layout_engine|set_position",
+    "a second layout": r"tight_layout|subplots_adjust|set_position",
     "a regular expression on a long name": r"re\.\w+\([^)]*long_name",
 }
 

@@ -336,9 +336,9 @@ def attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
     number = _OF_A_MODE[column]
-    nodes = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
     long_name = f"{number.long_name} of the mode ({diameters}, {circles})"
-    return number._replace(long_name=long_name, comment=f"the mode of {nodes}").attributes
+    lines = counted(int(diameters), "nodal diameter"), counted(int(circles), "circle")
+    return number._replace(long_name=long_name, comment=" and ".join(lines)).attributes
 
 
 def attributes_of_number(name: str) -> dict[str, Any]:
@@ -362,11 +362,11 @@ def values_text(
     texts = []
     for name, field in Parameters.model_fields.items():
         value: Any = values.get(name)
-        is_usual = value == field.default and name not in ("N", "Omega")
+        is_usual = value in (field.default, str(field.default)) and name not in ("N", "Omega")
         if name not in values or is_usual or name in ("normalization", "contact"):
             continue
         if name == "disc":
-            omega = value["omega"] if isinstance(value, Mapping) else value.omega
+            omega = dict(value)["omega"]
             modes = counted(len(omega), "mode")
             texts.append(f"a disc given by {modes} of {frequencies_text(omega)}")
             continue

@@ -7,7 +7,9 @@ What they draw is `shown`. Each artist has its name as its label, and a legend i
 import logging
 from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
+from itertools import cycle
 from pathlib import Path as File
+from string import ascii_lowercase
 from textwrap import fill
 from typing import Any
 
@@ -21,7 +23,7 @@ from matplotlib.cbook import normalize_kwargs
 from matplotlib.colors import AsinhNorm, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import Patch, PathPatch
+from matplotlib.patches import PathPatch
 from matplotlib.path import Path
 from matplotlib.ticker import LogLocator
 from matplotlib.transforms import Bbox
@@ -42,6 +44,10 @@ LARGEST_RATE = 0.3  # growth rate at which colours end, 1/s, unless most are lar
 COMMON = 0.98  # share of rates within the colours then: a few large ones would pale the others
 SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
+TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
+NO_LOOKS: dict[str, Look] = {}
+SIDES = ("right", "left")  # of lines, for their names
+NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 BELOW_ANY = "−∞, below any number"
 
 
@@ -67,21 +73,16 @@ def panels(
     return figure, figure.subplot_mosaic(layout, **options)
 
 
-def panels_of(figure: Figure) -> list[Axes]:
-    """The panels of a figure, without bars of colours."""
-    return [ax for ax in figure.axes if ax.get_label() != BAR]
-
-
 def finish(figure: Figure, title: str = "") -> Figure:
     """Letter the panels of a figure, and explain below them whatever has a label."""
-    axes = panels_of(figure)
-    for ax, letter in zip(axes, "abcdefghijklmnopqrstuvwxyz", strict=False):
+    axes = [ax for ax in figure.axes if ax.get_label() != BAR]
+    for ax, letter in zip(axes, ascii_lowercase, strict=False):
         text = ax.get_title(loc="left").replace(" = ", "\u00a0=\u00a0")
         if len(axes) > 1:
             text = f"({letter}) {text}".strip()
-        width, height = _size_of(ax, figure)
-        ax.set_title(fill(text, max(12, int(LETTERS_PER_INCH * 0.85 * width))))
-        break_label(ax, height)
+        width, height = ax.get_position().size * figure.get_size_inches()
+        ax.set_title(fill(text, int(LETTERS_PER_INCH * 1.1 * width)))
+        break_label(ax, 1.3 * height)  # before layout, panels have much room between them
     explain(figure, axes)
     if title:
         figure.suptitle(fill(title, int(LETTERS_PER_INCH * figure.get_figwidth())))
@@ -89,25 +90,9 @@ def finish(figure: Figure, title: str = "") -> Figure:
     return figure
 
 
-def _size_of(ax: Axes, figure: Figure) -> tuple[float, float]:
-    """Width and height of the part of a grid that a panel has, inch."""
-    spec = ax.get_subplotspec()
-    width, height = figure.get_size_inches()
-    if spec is None:
-        return float(width), float(height)
-    grid = spec.get_gridspec()
-    columns, rows = np.ones(grid.ncols), np.ones(grid.nrows)
-    columns[:], rows[:] = grid.get_width_ratios(), grid.get_height_ratios()
-    across = columns[spec.colspan.start : spec.colspan.stop].sum() / columns.sum()
-    up = rows[spec.rowspan.start : spec.rowspan.stop].sum() / rows.sum()
-    return float(width * across), float(height * up)
-
-
 def break_label(ax: Axes, height: float) -> None:
-    """Break the label of a vertical axis that is longer than its panel, but not within its unit."""
-    name, has_unit, unit = ax.get_ylabel().partition(" (")
-    kept = f" ({unit.replace(' ', chr(0xA0))}" if has_unit else ""
-    ax.set_ylabel(fill(name + kept, max(12, int(13 * height))))
+    """Break the label of a vertical axis that is longer than its panel."""
+    ax.set_ylabel(fill(ax.get_ylabel(), int(13 * height)))
 
 
 def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH) -> None:
@@ -121,16 +106,16 @@ def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH
             handles.setdefault(fill(text, 42), handle)
     if not handles:
         return
-    lines = [line for text in handles for line in text.split("\n")]
-    room = letters * figure.get_figwidth()
-    columns = max(1, min(4, len(handles), int(room // (6 + max(map(len, lines))))))
-    rows = -(-len(lines) // columns)
+    texts = "\n".join(handles).split("\n")
+    room = letters * figure.get_figwidth() / (6 + max(map(len, texts)))
+    columns = int(np.clip(room, 1, min(4, len(handles))))
+    rows = -(-len(texts) // columns)
     figure.set_figheight(figure.get_figheight() + LINE_HEIGHT * rows)
-    texts = [*handles]
-    legend = figure.legend([*handles.values()], texts, loc="outside lower center", ncols=columns)
-    for sample in legend.legend_handles:
-        if isinstance(sample, Patch) and not sample.get_hatch():
-            sample.set(edgecolor=GREY, linewidth=0.4)  # or white areas would not be seen
+    below = "outside lower center"
+    legend = figure.legend(handles.values(), handles.keys(), loc=below, ncols=columns)
+    for sample in legend.get_patches():
+        if not sample.get_hatch():  # white areas would not be seen
+            sample.set(edgecolor=GREY, linewidth=0.4)
 
 
 def each_value(data: Any, by: str) -> list[tuple[str, Any]]:
@@ -146,13 +131,10 @@ def threshold(ax: Axes, places: Mapping[str, float], others: Sequence[Axes] = ()
 
     others : panels that have the same lines, without names
     """
-    sides = {"right": -2, "left": 2}
-    for i, (name, x) in enumerate(places.items()):
-        side = [*sides][i % 2]
+    for (name, x), side in zip(places.items(), cycle(SIDES), strict=False):
         for panel in (ax, *others):
             panel.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
-        at: dict[str, Any] = {"xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-        ax.annotate(name, (x, 0.02), (sides[side], 0), ha=side, fontsize=7, **at)
+        ax.text(x, 0.02, f" {name} ", transform=ax.get_xaxis_transform(), ha=side, fontsize=7)
 
 
 def compare(axes: Sequence[Axes]) -> None:
@@ -179,7 +161,7 @@ def is_geometric(values: NDArray[Any]) -> bool:
     return bool(np.isclose(steps, np.median(steps), rtol=1e-6).mean() > 0.75)
 
 
-def edges(x: xr.DataArray) -> NDArray[np.float64]:
+def edges(x: xr.DataArray) -> Any:
     """Edges of cells halfway between values, in their ratio where these are equal."""
     values = np.atleast_1d(x.values.astype(float))
     if is_geometric(values):
@@ -187,40 +169,35 @@ def edges(x: xr.DataArray) -> NDArray[np.float64]:
     return _between(values)
 
 
-def _between(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _between(values: NDArray[np.float64]) -> Any:
     """Middles between values, and ends as far outside as these are inside."""
     if values.size == 1:
-        margin = 0.05 * abs(values[0]) or 1.0
-        return np.array([values[0] - margin, values[0] + margin])
-    middles = (values[1:] + values[:-1]) / 2
-    first, last = 2 * values[0] - middles[0], 2 * values[-1] - middles[-1]
-    return np.concatenate([[first], middles, [last]])
+        return values + (0.05 * np.abs(values) or 1.0) * np.array([-1, 1])
+    around = np.pad(values, 1, mode="reflect", reflect_type="odd")
+    return (around[1:] + around[:-1]) / 2
 
 
-def cells(ax: Axes, plane: xr.DataArray, mask: NDArray[np.bool_], look: Look) -> None:
+def cells(ax: Axes, plane: xr.DataArray, mask: Any, look: Look) -> None:
     """Paint the cells of a mask of the shape of a plane, of dimensions (up, across)."""
-    if not mask.any():
+    row, column = np.nonzero(np.asarray(mask))
+    if not row.size:
         return
     up, across = (edges(plane[str(dim)]) for dim in plane.dims)
-    row, column = np.nonzero(mask)
-    corners = np.stack(
-        [across[column[:, None] + [0, 1, 1, 0]], up[row[:, None] + [0, 0, 1, 1]]], axis=-1
-    )
-    outline = Path.make_compound_path_from_polys(corners)
-    paint = {"fc": look.face, "hatch": look.hatch, "ec": look.ink if look.hatch else "none"}
-    plain = {"antialiased": False, "rasterized": not look.hatch}
-    ax.add_patch(PathPatch(outline, label=look.label, lw=0, **paint, **plain))
+    corners = (across[column[:, None] + [0, 1, 1, 0]], up[row[:, None] + [0, 0, 1, 1]])
+    outline = Path.make_compound_path_from_polys(np.stack(corners, axis=-1))
+    paint = {**look.paint, "antialiased": False, "rasterized": not look.hatch}
+    ax.add_artist(PathPatch(outline, lw=0, **paint))
 
 
-def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] | None = None) -> None:
+def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
     """Paint each cell in the look of its word, and none where that is "".
 
     flag : words, shape (up, across)
     looks : of words, beside those of `LOOKS`
     """
     said = words(flag)
-    for word, look in looks_of(np.unique(said[said != ""]).tolist()).items():
-        cells(ax, flag, said == word, {word: look, **(looks or {})}[word])
+    for word, look in looks_of(said[said != ""]).items():
+        cells(ax, flag, said == word, looks.get(word, look))
     frame(ax, flag)
 
 
@@ -232,27 +209,14 @@ def strip(ax: Axes, flag: xr.DataArray, low: float = 0.0) -> None:
     low : lower edge of the strip, share of the panel
     """
     said, sides = words(flag), edges(flag[str(flag.dims[0])])
-    for word, look in looks_of(np.unique(said[said != ""]).tolist()).items():
-        ax.fill_between(
-            np.repeat(sides, 2)[1:-1],
-            low,
-            1,
-            np.repeat(said == word, 2),
-            transform=ax.get_xaxis_transform(),
-            fc=look.face,
-            hatch=look.hatch,
-            ec=look.ink if look.hatch else "none",
-            label=look.label,
-            zorder=0,
-        )
+    x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
+    for word, look in looks_of(said[said != ""]).items():
+        here = np.repeat(said == word, 2)
+        ax.fill_between(x, low, 1, here, transform=place, zorder=0, **look.paint)
 
 
 def number_map(
-    ax: Axes,
-    x: xr.DataArray,
-    missing: xr.DataArray | None = None,
-    looks: Mapping[str, Look] | None = None,
-    **colours: Any,
+    ax: Axes, x: xr.DataArray, missing: xr.DataArray | None = None, **colours: Any
 ) -> Any:
     """Paint numbers in colours, and points without one in the look of their class.
 
@@ -262,15 +226,12 @@ def number_map(
 
     Returns the mesh, for a bar.
     """
-    across, up = edges(x[str(x.dims[1])]), edges(x[str(x.dims[0])])
-    finite = np.isfinite(x.values.astype(float))
+    up, across = (edges(x[str(dim)]) for dim in x.dims)
+    finite = np.isfinite(x)
     mesh = ax.pcolormesh(across, up, x.where(finite), rasterized=True, **colours)
-    if not finite.all():
-        why = np.full(x.shape, "no_value", dtype=object) if missing is None else missing
-        no_value = LOOKS["no_value"]._replace(label=missing_text(x))
-        gaps = x.copy(data=np.where(finite, "", why))
-        class_map(ax, gaps, {"no_value": no_value, **(looks or {})})
-    frame(ax, x)
+    gaps = np.where(finite, "", "no_value" if missing is None else missing)
+    no_value = LOOKS["no_value"]._replace(label=missing_text(x))
+    class_map(ax, x.copy(data=gaps), {"no_value": no_value})
     return mesh
 
 
@@ -280,16 +241,14 @@ def missing_text(x: xr.DataArray) -> str:
     return f"no value: {why}" if why else "no value"
 
 
-def lone_cells(flag: xr.DataArray) -> NDArray[np.bool_]:
+def lone_cells(flag: xr.DataArray) -> xr.DataArray:
     """Single cells of a class between two of another one, along or across: it is narrower than the
     cells."""
-    said = words(flag)
-    alone = np.zeros(said.shape, dtype=bool)
-    for axis in (0, 1):
-        turned, marked = np.moveaxis(said, axis, 0), np.moveaxis(alone, axis, 0)
-        before, here, after = turned[:-2], turned[1:-1], turned[2:]
-        marked[1:-1] |= (before == after) & (here != before)
-    return alone & (said != "") & (said != "excluded")
+    alone = xr.zeros_like(flag, dtype=bool)
+    for dim in flag.dims:
+        before, after = flag.shift({dim: 1}), flag.shift({dim: -1})
+        alone |= (before == after) & (flag != before)
+    return alone & flag.notnull() & ~flag.isin(["", "excluded"])
 
 
 def unresolved(ax: Axes, flag: xr.DataArray) -> None:
@@ -297,30 +256,29 @@ def unresolved(ax: Axes, flag: xr.DataArray) -> None:
     cells(ax, flag, lone_cells(flag), UNRESOLVED)
 
 
-def growth_colours(*rates: xr.DataArray) -> dict[str, Any]:
+def growth_colours(rate: xr.DataArray) -> dict[str, Any]:
     """Colours of growth rates: neutral at zero, and nearly logarithmic beyond a thirtieth of the
     end of the scale."""
-    sizes = np.abs(np.concatenate([each.values.ravel() for each in rates]))
-    sizes = sizes[np.isfinite(sizes)]
-    end = LARGEST_RATE
+    sizes, end = np.abs(finite_of(rate)), LARGEST_RATE
     if sizes.size and np.median(sizes) > LARGEST_RATE:
         end = float(np.quantile(sizes, COMMON))
     return {"cmap": cm.vik, "norm": AsinhNorm(end / 30, -end, end)}
 
 
-def usual_colours(*arrays: xr.DataArray, log: bool = False) -> dict[str, Any]:
+def usual_colours(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
     """Colours of other numbers, around zero if they have both signs."""
-    values = np.concatenate([np.asarray(each, dtype=float).ravel() for each in arrays])
-    values = values[np.isfinite(values)]
-    if log:
-        values = values[values > 0]
+    values = finite_of(x.where(x > 0) if log else x)
     low, high = (values.min(), values.max()) if values.size else (0.1, 1.0)
-    if log:
-        return {"cmap": cm.batlow, "norm": LogNorm(low, high)}
     if low < 0 < high:
-        end = max(-low, high)
-        return {"cmap": cm.vik, "norm": Normalize(-end, end)}
-    return {"cmap": cm.batlow, "norm": Normalize(low, high)}
+        high = max(-low, high)
+        return {"cmap": cm.vik, "norm": Normalize(-high, high)}
+    return {"cmap": cm.batlow, "norm": (LogNorm if log else Normalize)(low, high)}
+
+
+def finite_of(x: xr.DataArray) -> NDArray[np.float64]:
+    """The finite numbers of an array, shape (n,)."""
+    values = x.values.astype(float)
+    return values[np.isfinite(values)]
 
 
 def colours_of(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
@@ -335,20 +293,19 @@ def is_rate(x: xr.DataArray) -> bool:
 
 def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
     """The bar of colours beside panels; its ends are open where numbers lie beyond them."""
-    low, high = bool((x < mesh.norm.vmin).any()), bool((x > mesh.norm.vmax).any())
-    extend = {(0, 0): "neither", (1, 0): "min", (0, 1): "max", (1, 1): "both"}[low, high]
-    bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), extend=extend, pad=0.01)
-    if isinstance(mesh.norm, AsinhNorm):  # its own ticks meet at zero
-        end = float(mesh.norm.vmax or 1)
-        ticks = [sign * end / part for sign in (-1, 1) for part in (1, 3, 10)] + [0]
-        texts = [f"{float(f'{tick:.1g}'):g}".replace("-", "−") for tick in ticks]
-        bar.set_ticks(ticks, labels=texts)
+    norm = mesh.norm
+    beyond = int((x < norm.vmin).any()) + 2 * int((x > norm.vmax).any())
+    ends = ("neither", "min", "max", "both")[beyond]
+    bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), extend=ends, pad=0.01)
+    if isinstance(norm, AsinhNorm):  # its own ticks meet at zero
+        bar.set_ticks(norm.vmax * TICKS_OF_RATES)
+        bar.ax.yaxis.set_major_formatter("{x:.2g}")
         bar.minorticks_off()
 
 
 def sign_changes(ax: Axes, rate: xr.DataArray, name: str) -> None:
     """The line at which a rate changes its sign between cells, of dimensions (up, across)."""
-    if min(rate.shape) > 1 and bool((rate > 0).any()) and bool((rate < 0).any()):
+    if min(rate.shape) > 1 and rate.min() < 0 < rate.max():
         up, across = (rate[str(dim)] for dim in rate.dims)
         ax.contour(across, up, rate, [0], colors=BLACK, linewidths=0.8)
         ax.plot([], [], color=BLACK, lw=0.8, label=name)
@@ -356,22 +313,22 @@ def sign_changes(ax: Axes, rate: xr.DataArray, name: str) -> None:
 
 def frame(ax: Axes, plane: xr.DataArray) -> None:
     """Labels, scales and limits of a map of dimensions (up, across)."""
-    for letter, dim in zip("yx", plane.dims, strict=True):
-        along = plane[str(dim)]
-        ends = edges(along)[[0, -1]]
-        ax.set(**{f"{letter}label": label(along), f"{letter}lim": tuple(ends)})
-        if is_geometric(along.values):
-            ax.set(**{f"{letter}scale": "log"})
-            plain_numbers(getattr(ax, f"{letter}axis"))
+    up, across = (plane[str(dim)] for dim in plane.dims)
+    scale(ax.yaxis, up)
+    scale(ax.xaxis, across)
+    ax.set(ylim=edges(up)[[0, -1]], xlim=edges(across)[[0, -1]])
     if len(ax.get_shared_y_axes().get_siblings(ax)) > 1:
         ax.label_outer()
 
 
-def plain_numbers(axis: Any) -> None:
-    """Plain numbers along a logarithmic axis."""
-    axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-    axis.set_major_formatter("{x:g}")
-    axis.set_minor_formatter("")
+def scale(axis: Any, x: xr.DataArray) -> None:
+    """Label an axis, and make it logarithmic, with plain numbers, if the ratios of values are equal."""
+    axis.set_label_text(label(x))
+    if not is_words(x) and is_geometric(x.values):
+        axis.axes.set(**{f"{axis.axis_name}scale": "log"})
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter("")
 
 
 # ---- Lines and points
@@ -425,52 +382,47 @@ def lines(
     look : options of matplotlib
     """
     by = next((str(dim) for dim in y.dims if dim != x), "")
-    none = xr.zeros_like(y, dtype=bool)
-    hollow = each_value(none if doubtful is None else doubtful.transpose(*y.dims), by)
-    markers = ["o", "s", "^", "D", "v", "<", ">", "p", "h"] * 9
+    unsure = xr.zeros_like(y, dtype=bool) if doubtful is None else doubtful
+    parts = each_value(xr.Dataset({"drawn": y, "unsure": unsure}), by)
     why = missing_text(y) if missing is None else missing
+    if is_words(y) or is_words(y[x]):
+        look = wished(look) | {"linestyle": ""}
     drawn = []
-    for (name, part), (_, unsure), marker in zip(each_value(y, by), hollow, markers, strict=False):
-        along, values = places(ax.xaxis, part[x]), places(ax.yaxis, part)
-        finite = np.where(np.isfinite(values), values, np.nan)
-        breaks = np.flatnonzero(np.abs(np.diff(np.arcsinh(finite / 0.1))) > jump) + 1
+    for (name, part), marker in zip(parts, cycle("os^Dv<>ph"), strict=False):
+        points = places(ax.xaxis, part[x]), places(ax.yaxis, part["drawn"])
         own = wished(look, marker=marker, label=name)
-        if is_words(y) or is_words(y[x]):
-            own["linestyle"] = ""
-        [line] = ax.plot(np.insert(along, breaks, np.nan), np.insert(finite, breaks, np.nan), **own)
-        drawn.append((line, along, values, unsure.values))
-    for line, along, values, unsure in drawn:
+        drawn.append((*ax.plot(*opened(*points, jump), **own), *points, part["unsure"].values))
+    for line, across, up, hollow in drawn:  # after all lines in the legend
         same = {"color": line.get_color(), "marker": line.get_marker()}
-        mark_points(ax, along[unsure], values[unsure], f"hollow: {doubt}", **same)
-        lowest = np.isneginf(values)
-        mark_missing(ax, along[lowest], BELOW_ANY, line.get_color(), marker="v")
+        mark_points(ax, across[hollow], up[hollow], f"hollow: {doubt}", **same)
+        below = np.isneginf(up)
+        mark_missing(ax, across[below], BELOW_ANY, line.get_color(), marker="v")
         if why:
-            mark_missing(ax, along[~np.isfinite(values) & ~lowest], why, line.get_color())
-    ax.set(xlabel=label(y[x]), ylabel=label(y))
-    if not is_words(y[x]) and is_geometric(y[x].values):
-        ax.set_xscale("log")
-        plain_numbers(ax.xaxis)
+            mark_missing(ax, across[~np.isfinite(up) & ~below], why, line.get_color())
+    scale(ax.xaxis, y[x])
+    ax.set_ylabel(label(y))
+
+
+def opened(x: Any, y: Any, jump: float) -> Any:
+    """A line of finite numbers that is open at each step of asinh(y / 0.1) beyond some size."""
+    finite = np.where(np.isfinite(y), y, np.nan)
+    steps = np.abs(np.diff(np.arcsinh(finite / LINEAR_RATE)))
+    breaks = np.flatnonzero(steps > jump) + 1
+    return np.insert(x, breaks, np.nan), np.insert(finite, breaks, np.nan)
 
 
 def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
     """Hollow marks at points, which no line joins; nothing without a point."""
     if np.isfinite(np.asarray(y, dtype=float)).any():
-        own = {"label": once(ax, name), "linestyle": "", "markerfacecolor": "white", "zorder": 3}
-        ax.plot(x, y, **wished(look, **own))
+        own = wished(look, label=once(ax, name), linestyle="", markerfacecolor="white", zorder=3)
+        ax.plot(x, y, **own)
 
 
-def mark_missing(
-    ax: Axes, x: Any, why: str, colour: Any = BLACK, along: str = "x", marker: str = "x"
-) -> None:
-    """Crosses along the lower, or the left, edge of a panel at points without a value."""
-    if not np.size(x):
-        return
-    places = [np.asarray(x, dtype=float), np.full(np.shape(x), 0.015)]
-    to_page = ax.get_xaxis_transform() if along == "x" else ax.get_yaxis_transform()
-    if along == "y":
-        places.reverse()
-    look = {"ls": "", "marker": marker, "ms": 3.5, "mew": 0.7, "color": colour, "clip_on": False}
-    ax.plot(*places, transform=to_page, label=once(ax, why), **look)
+def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, marker: str = "x") -> None:
+    """Crosses along the lower edge of a panel at points without a value."""
+    look = {"marker": marker, "color": colour, "mfc": colour, "clip_on": False}
+    edge = np.full(np.shape(x), 0.015)
+    mark_points(ax, x, edge, why, transform=ax.get_xaxis_transform(), **look)
 
 
 def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:
@@ -495,23 +447,17 @@ def shares(ax: Axes, x: xr.DataArray, fractions: xr.DataArray, classes: str) -> 
     classes : the dimension of words
     """
     sides, bottom = edges(x), np.zeros(x.size)
-    names = [str(word) for word in fractions[classes].values]
-    looks = looks_of(names)
-    for word in names:
-        look = looks[word]
+    looks = looks_of(fractions[classes].values)
+    for word in fractions[classes].values:
         share = fractions.sel({classes: word}).values
-        if not (share > 0).any():
-            continue
-        ink = look.ink if look.hatch else GREY
-        paint: dict[str, Any] = {"fc": look.face, "hatch": look.hatch, "ec": ink}
-        wide = np.diff(sides)
-        ax.bar(sides[:-1], share, wide, bottom, align="edge", label=look.label, lw=0.4, **paint)
-        bottom = bottom + share
-    ax.set(xlabel=label(x), ylim=(0, 1), xlim=(sides[0], sides[-1]))
+        if share.any():
+            ax.bar(sides[:-1], share, np.diff(sides), bottom, align="edge", **looks[word].paint)
+            bottom = bottom + share
+    ax.set(xlabel=label(x), ylim=(0, 1), xlim=sides[[0, -1]])
 
 
-def wilson(hits: Any, n: Any, z: float = 1.96) -> tuple[Any, Any]:
+def wilson(hits: Any, n: Any) -> tuple[Any, Any]:
     """Middle and half width of Wilson's interval of a share, of 95 %."""
-    share = hits / n
-    spread = np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
-    return (share + z**2 / (2 * n)) / (1 + z**2 / n), z * spread / (1 + z**2 / n)
+    share, more = hits / n, 1.96**2 / n
+    spread = np.sqrt(more * (share * (1 - share) + more / 4))
+    return (share + more / 2) / (1 + more), spread / (1 + more)

@@ -111,10 +111,12 @@ def _prepared(plot: Plot, data: xr.Dataset) -> xr.Dataset:
 
 
 def save(figure: Figure, path: str | Path, title: str = "") -> None:
-    """Write a figure with its title; equal figures give equal bytes."""
+    """Write a figure with its title; equal figures give equal bytes. Further files have the layout of
+    the first."""
     stamps = {".pdf": "CreationDate"}
     metadata: dict[str, Any] = {stamps.get(Path(path).suffix, "Software"): None}
     if title:
         metadata["Title"] = title
     with styled():
         figure.savefig(path, metadata=metadata)
+        figure.set_layout_engine(None)

@@ -28,6 +28,12 @@ class Look(NamedTuple):
     hatch: str = ""
     ink: str = BLACK
 
+    @property
+    def paint(self) -> dict[str, Any]:
+        """What matplotlib calls them."""
+        ink = self.ink if self.hatch else "none"
+        return {"label": self.label, "fc": self.face, "hatch": self.hatch, "ec": ink}
+
 
 STABLE = Look("stable", "none", "...")
 """Of growth rates below zero, over their colours: grey print does not show their sign."""

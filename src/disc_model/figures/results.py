@@ -201,6 +201,7 @@ def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: An
             runs.draw_history(column, each, given.variables)
     runs.mark_first_separation(axes.flat, case)
     for ax in axes.flat:
+        ax.margins(x=0)
         ax.label_outer()
         break_label(ax, ROW)
     figure.align_ylabels()
@@ -268,7 +269,8 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     if is_of_sweep(data):
         each = f"disc_model.Branch.from_dataset({selected_text(data, 'study')})"
         raise ParameterError(Fault(("study",), "", f"holds branches: draw one by {each}.plot()"))
-    data = swapped(data.squeeze().compute(), x)
+    single = [dim for dim, size in data.sizes.items() if size == 1 and dim != x]
+    data = swapped(data.squeeze(single).compute(), x)
     name = chosen(data, variable, x)
     numbers = number_axes(data, name)
     data = shown(data.sortby(numbers), units)

@@ -124,7 +124,7 @@ def name_of(x: xr.DataArray) -> str:
 
 def label(x: xr.DataArray) -> str:
     """The label of an axis or of a bar of colours, of an array as it is shown."""
-    unit = x.attrs.get("units", "")
+    unit = x.attrs.get("units", "").replace(" ", "\u00a0")  # no line ends within it
     name = str(x.attrs.get("long_name", x.name))
     return f"{name} ({unit})" if unit else name
 

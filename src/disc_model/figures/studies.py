@@ -1,7 +1,6 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
-from collections.abc import Mapping
-from itertools import cycle
+from itertools import product
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -15,6 +14,7 @@ from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.data.variables import presentation_of, stated_in, typeset
 from disc_model.figures.draw import (
     COLUMN,
+    NOTE,
     PAGE,
     bar_of,
     cells,
@@ -56,12 +56,15 @@ BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle end
 """What curves are, and their lines."""
 NOTHING: dict[str, Any] = {}
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
-MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
+MARKS: list[Any] = [
+    {"marker": marker, "color": colour, "ls": ""}
+    for marker, colour in zip("o^sD", LINE_COLOURS, strict=True)
+]
 DASHES = ("-", "--", ":")
 LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
+HOLLOW = "hollow: no frequency carries 95 % of height and contact force"
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
-NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 SHADE = "#e4e4e4"
 PALE = "#d8d8d8"  # dots on dark colours
 
@@ -129,10 +132,8 @@ def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = 
     figure, axes = panels([["a"]], COLUMN, 2.6)
     y = study[variable]
     of_cycle = variable == "growth_rate"  # which may be another one at the next value
-    every = y.sizes[x] // 12 if bool(y.notnull().all()) else 1  # a point alone needs its mark
     jump = 1.0 if of_cycle else np.inf
-    doubtful = in_doubt(study, variable)
-    lines(axes["a"], y, x, doubtful=doubtful, jump=jump, markevery=max(1, every))
+    lines(axes["a"], y, x, doubtful=in_doubt(study, variable), jump=jump)
     if of_cycle:
         rate_axis(axes["a"])
     elif is_rate(y):
@@ -148,37 +149,35 @@ def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
     x = data[variable]
     if is_rate(x) and "cycle" in data and data["cycle"].dims == x.dims:
         return data["cycle"]
-    if "status" in data and set(data["status"].dims) <= set(x.dims):
+    if "status" in data and {*data["status"].dims} <= {*x.dims}:
         status = data["status"].broadcast_like(x).transpose(*x.dims)
         return status.where(status != "ok", "no_value")
     return None
 
 
-DOUBTS = {
-    "settled": ("settled", "not settled"),
-    "sweep_settled": ("settled", "not settled"),
-    "converged": ("yes", "not converged"),
-}
-"""Variables that say whether others are sure, with the word for yes, and what is said otherwise."""
-LATE = ("_min", "_max", "_fraction", "_rate", "surface_speed")
+LATE = ("_min", "_max", "_fraction", "separation_rate", "surface_speed")
 """Ends of names of what `outcome` says of the late motion."""
+NO = ("undecided", "changing", "unknown", "no", "growing", "False", "0.0")
+DOUBTS: dict[str, Any] = {
+    "settled": ("", NO, "not settled"),
+    "sweep_settled": ("", NO, "not settled"),
+    "converged": ("", NO, "not converged"),
+    "at_lower_bound": (("value", "critical_speed"), ("True", "1"), "at the lower bound, or below"),
+    "outcome": (LATE, NO, "still growing, or undecided"),
+}
+"""Variables that say whether others are sure: the ends of their names, words of doubt, and its
+reason."""
 
 
 def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
     """Where a value is not known to be final, with the reason as `long_name`."""
-    x, found = data[variable], dict[str, Any]()
-    for name, (good, why) in DOUBTS.items():
-        if name in data and name != variable:
-            is_truth = data[name].dtype.kind in "bf"  # of sweeps in Python
-            found[why] = data[name] != (True if is_truth else good)
-    if "at_lower_bound" in data and variable in ("value", "critical_speed"):
-        found["at the lower bound, or below"] = data["at_lower_bound"] == 1
-    if {"outcome", "u_max"} <= {*data} and variable.endswith(LATE):
-        found["still growing, or undecided"] = data["outcome"].isin(["growing", "undecided"])
-    for why, unsure in found.items():
-        if {*unsure.dims} <= {*x.dims}:
-            whole: xr.DataArray = unsure.broadcast_like(x).transpose(*x.dims)
-            return whole.assign_attrs(long_name=why)
+    x = data[variable]
+    for name, (ends, doubts, why) in DOUBTS.items():
+        if name in data and name != variable and variable.endswith(ends):
+            unsure = data[name].astype(str).isin(doubts)
+            if {*unsure.dims} <= {*x.dims}:
+                whole: xr.DataArray = unsure.broadcast_like(x).transpose(*x.dims)
+                return whole.assign_attrs(long_name=why)
     return None
 
 
@@ -191,6 +190,14 @@ class Mark(Strict):
     x: Finite
     y: Finite
     paper_outcome: Literal["stick_slip", "growing", "separation"]
+
+
+SHAPES: dict[str, Any] = {
+    "stick_slip": ("o", 4, -6, "top"),
+    "growing": ("^", 6, -6, "top"),
+    "separation": ("s", 8, 6, "bottom"),
+}
+"""Marks of cases by what the paper says, their sizes, and the places of names: above or below."""
 
 
 @grid_figure("regions")
@@ -217,9 +224,10 @@ def region_map(
         axes[above[i]].set_title(titled(title, study))
         rate = plane["growth_rate"]
         mesh = rate_map(axes[below[i]], rate, plane["cycle"], curves is None, **scale)
-        if curves is not None:
-            beside = curves.sel({by: part[by].item()}) if by in curves.dims else curves
-            borders(axes[below[i]], beside, rate)
+        beside = curves
+        if curves is not None and by in curves.dims:
+            beside = curves.sel({by: part[by].item()})
+        borders(axes[below[i]], beside, rate)
     for name, mark in marks.items():
         draw_mark(axes[above[0]], name, mark, study[x], study[y])
     bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
@@ -232,18 +240,30 @@ def titled(title: str, study: xr.Dataset) -> str:
     return f"{title}: outcome within {horizon:g} s".removeprefix(": ")
 
 
-def borders(ax: Axes, curves: xr.Dataset, rate: xr.DataArray) -> None:
-    """Continued curves where they bound the cycle of a map.
+def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
+    """Continued curves where they pass between an area in which the cycle of a map is stable and one
+    beyond, both two cells wide or more: no curves of another cycle, and none finer than the cells.
 
     rate : of dimensions (up, across)
     """
-    for i in range(curves.sizes["curve"]):
-        curve = curves.isel(curve=i)
-        name, style = BORDERS.get(curve["kind"].item(), ("", ""))
-        up, across = (along(curve)[str(dim)] for dim in rate.dims)
-        up = up.where(bounding(curve, up, across, rate))
-        if name and up.notnull().any():
-            ax.plot(across, up, style, color=BLACK, label=name, scalex=False, scaley=False)
+    if curves is None:
+        return
+    up, across = (along(curves)[str(dim)] for dim in rate.dims)
+    known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
+    filled = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
+    beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
+    shown = up.where(known & beside).transpose("curve_point", ...)
+    for kind, (name, style) in BORDERS.items():
+        here = (curves["kind"] == kind).values
+        part = shown[:, here]
+        if part.notnull().any():
+            ax.plot(across.T[:, here], part, style, color=BLACK, label=name)
+
+
+def around(area: xr.DataArray) -> xr.DataArray:
+    """An area of a map with the cells beside it, without parts that are one cell wide."""
+    wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
+    return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
 
 
 def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
@@ -251,38 +271,15 @@ def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
     return {curves[axis].attrs["parameter"]: curves[axis] for axis in "xy"}
 
 
-def bounding(
-    curve: xr.Dataset, up: xr.DataArray, across: xr.DataArray, rate: xr.DataArray
-) -> xr.DataArray:
-    """Where a curve passes between an area in which the cycle is stable and one beyond, both two
-    cells wide or more: no curves of another cycle, and none finer than the cells."""
-    near = up.notnull() & (curve["adjoins_stable_cycle"] == "yes")
-    known = near.values.copy()
-    places = dict(zip(rate.dims, (up[known], across[known]), strict=True))
-    for area in (rate < 0, ~(rate < 0)):
-        padded = np.pad(area, 1, mode="edge")
-        wide = binary_opening(padded, np.ones((2, 2)))[1:-1, 1:-1]
-        around = area.copy(data=binary_dilation(wide, np.ones((3, 3))))
-        near[known] &= around.sel(places, method="nearest").values
-    return near
-
-
 def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray) -> None:
-    """A case of the paper: a frame around the look of what the paper says."""
+    """A case of the paper, in the colour and the shape of what the paper says."""
     at = (placed(x, mark.x), placed(y, mark.y))
-    said = mark.paper_outcome
-    shape, size = {"stick_slip": ("o", 3), "growing": ("^", 5), "separation": ("s", 7)}[said]
-    look: dict[str, Any] = {"clip_on": False, "zorder": 20 - size, "ls": "", "marker": shape}
-    ax.plot(*at, label="paper's case and outcome", ms=size + 3, **PAPER, **look)
-    ax.plot(*at, ms=size, color=LOOKS[said].face, mec=BLACK, mew=0.5, **look)
-
-    # its name towards the middle of the panel, and two at one place above and below
-    across, height = ax.transLimits.transform(ax.transScale.transform(at))
-    above = height < 0.85 and (said == "separation" or height < 0.15)
-    side, right = ("right", -6) if across > 0.7 else ("left", 6)
-    end, up = ("bottom", 6) if above else ("top", -6)
-    behind = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=behind, zorder=20, **NOTE)
+    shape, size, up, end = SHAPES[mark.paper_outcome]
+    look: dict[str, Any] = {"mfc": LOOKS[mark.paper_outcome].face, "mec": BLACK, "clip_on": False}
+    ax.plot(*at, shape, ms=size, zorder=20 - size, label="paper's case and outcome", **look)
+    side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
+    box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
+    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=box, zorder=20, **NOTE)
 
 
 FATES = {
@@ -305,20 +302,17 @@ def sliding_outcome(
     """What linear analysis of steady sliding says, and what the motion does, over two parameters; the
     legend has shares of the points of each panel."""
     motion, linear = xr.align(study, sliding.rename(value=x), join="inner")
-    outcome, rate = motion["outcome"], linear["largest_growth_rate"]
+    outcome = motion["outcome"]
+    stable = linear["largest_growth_rate"] <= NEUTRAL
     both = outcome.where(outcome == "excluded", "undecided")
     looks = {}
-    for fate, outcomes in FATES.items():
-        here = outcome.isin(outcomes)
-        for stability, mask, dots in (
-            ("stable", rate <= NEUTRAL, STABLE.hatch),
-            ("unstable", rate > NEUTRAL, ""),
-        ):
-            word = f"sliding {stability}, {fate}"
-            both = both.where(~(here & mask), word)
-            shares = [float((part == word).mean()) for _, part in each_value(both, by)]
-            said = ", ".join(f"{100 * share:.0f} %" for share in shares)
-            looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
+    for (fate, outcomes), stability in product(FATES.items(), ("stable", "unstable")):
+        word = f"sliding {stability}, {fate}"
+        here = outcome.isin(outcomes) & (stable == (stability == "stable"))
+        both = both.where(~here, word)
+        shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
+        look = LOOKS[outcomes[0]]._replace(label=f"{word}: {', '.join(shares)}", hatch="")
+        looks[word] = look._replace(hatch=STABLE.hatch) if stability == "stable" else look
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
     for ax, (title, part) in zip(axes, parts, strict=True):
@@ -357,14 +351,12 @@ def critical_speed(
         behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
     for ax in axes:
         onsets(ax, study)
-        mark_missing(ax, loads[study["critical_speed"].isnull().values], "_", along="y")
         ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
         ax.label_outer()
     axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
     for load, speed in paper_points.values():
         at = (placed(speeds, speed), placed(loads, load))
-        axes[0].plot(*at, "*", ms=9, zorder=5, **PAPER)
-        axes[0].annotate("paper", at, (6, -4), **NOTE)
+        axes[0].plot(*at, "*", ms=9, zorder=5, label="paper's critical speed", **PAPER)
     if hysteresis is not None:
         step = float(hysteresis["sweep_Omega"].diff("sweep_Omega")[0])
         axes[1].set_title(f"sweeps in steps of {step:g} {speeds.units}")
@@ -378,25 +370,26 @@ def critical_speed(
 def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
     """Outcomes of a map and the borders of its cycle, and where this is stable."""
     plane = cycle.transpose("N", "Omega", ...)
-    in_contact = plane["outcome"].isin(["other_cycle", "undecided"])
+    merged = plane["outcome"].isin(["other_cycle", "undecided"])
     others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
-    class_map(axes[0], plane["outcome"].where(~in_contact, "growing"), {"growing": others})
-    if curves is not None:
-        borders(axes[0], curves, plane["growth_rate"])
+    class_map(axes[0], plane["outcome"].where(~merged, "growing"), {"growing": others})
+    borders(axes[0], curves, plane["growth_rate"])
     stable = plane["growth_rate"] < 0
     for ax in axes[1:]:
-        cells(ax, stable, stable.values, Look("cycle stable", LOOKS["stable"].face))
+        cells(ax, stable, stable, Look("cycle stable", LOOKS["stable"].face))
 
 
 def onsets(ax: Axes, study: xr.Dataset) -> None:
-    """All speeds of a scan at which separation begins."""
-    further = study["crossing"].where(study["crossing_kind"] == "begins")
-    first = study["critical_speed"].expand_dims(crossing_number=[-1])
-    found = xr.concat([first, further], "crossing_number")
+    """All speeds of a scan at which separation begins, and crosses at the left edge without one."""
+    found = study["crossing"].where(study["crossing_kind"] == "begins")
     at, loads = xr.broadcast(found, study["N"])
-    look: dict[str, Any] = {"color": BLACK, "marker": "o", "ms": 3, "mew": 0.6}
-    name = "separation begins; × at edge: none found"
-    mark_points(ax, at.values.ravel(), loads.values.ravel(), name, **look)
+    look: dict[str, Any] = {"color": BLACK, "mew": 0.6}
+    mark_points(
+        ax, at.values.ravel(), loads.values.ravel(), "separation begins", marker="o", **look
+    )
+    none = study["N"][study["critical_speed"].isnull().values]
+    edge = {"transform": ax.get_yaxis_transform(), "clip_on": False, "marker": "x"}
+    mark_points(ax, 0 * none + 0.01, none, "separation not found", **edge, **look)
 
 
 def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
@@ -406,16 +399,16 @@ def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
     kept = sweep["separation_rate"] == 0
     unsure = kept & (sweep["sweep_settled"] != "settled")
     last_kept = along.where(kept.sel(direction="down")).max("sweep_Omega")
-    name = "sweeps: separation begins ▲ going up, ends ▼ going down; hollow: not settled"
     ends = down.fillna(along.min())  # without one, separation goes on at the lowest speed
-    ax.hlines(sweep["N"], ends, up, color=BLACK, lw=0.8, label=name)
-    for way, speeds, before, marker, colour in (
-        ("up", up, along < up, "^", RED),
-        ("down", down, along == last_kept, "v", BLUE),
+    ax.hlines(sweep["N"], ends, up, color=BLACK, lw=0.8, label="sweeps")
+    for way, speeds, before, name, marker, colour in (
+        ("up", up, along < up, "separation begins", "^", RED),
+        ("down", down, along == last_kept, "separation ends", "v", BLUE),
     ):
+        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 5}
+        ax.plot(speeds, sweep["N"], ls="", label=f"going {way}: {name}", **look)
         doubtful = (unsure.sel(direction=way) & before).any("sweep_Omega")
-        ax.plot(speeds, sweep["N"], marker, color=colour, ms=5)
-        ax.plot(speeds.where(doubtful), sweep["N"], marker, color=colour, mfc="white", ms=5)
+        mark_points(ax, speeds.where(doubtful), sweep["N"], "hollow: not settled", **look)
 
 
 def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
@@ -423,9 +416,8 @@ def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
     separating: the intervals of both shares exclude zero."""
     small = basins["basin_fraction_low"].sel(attractor_class="stick_slip") > 0
     both = basins["Omega"].where(small & (basins["separating_fraction_low"] > 0))
-    ax.plot(both, both * 0 + load, "-|", color=ORANGE, lw=2, ms=7, mew=1.5)
-    name = "random starts:\nsmall or separating"
-    ax.annotate(name, (float(both.min()), load), (-4, -6), ha="right", **NOTE)
+    name = "random starts: small or separating"
+    ax.plot(both, both * 0 + load, "-|", color=ORANGE, lw=2, ms=7, mew=1.5, label=name)
 
 
 @grid_figure("ramps")
@@ -475,20 +467,25 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     for i, (title, part) in enumerate(each_value(study, by)):
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
-        count = max(1, known.size)
-        shares = np.arange(times.size + 1) / count
-        colour, dashes = LINE_COLOURS[i % 4], DASHES[i % 3]
-        name = f"{title}: {counted(known.notnull())} starts"
-        steps = [0, *times, horizon]
-        ax.stairs(shares, steps, baseline=None, color=colour, ls=dashes, lw=1.4, label=name)
-        middle, half = wilson(times.size, count)
+        shares = np.arange(times.size + 1) / max(1, known.size)
+        colour, name = LINE_COLOURS[i % 4], f"{title}: {counted(known.notnull())} starts"
+        ax.step(
+            [0, *times, horizon],
+            [*shares, shares[-1]],
+            DASHES[i % 3],
+            color=colour,
+            label=name,
+            where="post",
+        )
+        middle, half = wilson(times.size, max(1, known.size))
         end = horizon * (1.02 + 0.02 * i)
-        ax.vlines(end, middle - half, middle + half, color=colour, lw=3, label="95 % confidence")
+        ax.vlines(end, middle - half, middle + half, colour, lw=3, label="95 % confidence")
     ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
     ax.set_xlim(0, None)
     return figure
 
 
+UNSETTLED = "not shown to settle"
 SETTLED = ("stick_slip", "other_cycle", "steady_sliding", "at_rest")
 """Outcomes that a longer time would not change."""
 
@@ -501,33 +498,29 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     thickness : of the disc, m: plate theory is not linear for larger ranges
     """
     height = study["u_max"].assign_attrs(long_name="Range of the slider's height")
-    late = height.copy(data=height - study["u_min"])
-    unsure = ~study["outcome"].isin(SETTLED)
-    data = study.assign(late=late, unsure=unsure, limit=lost_contact(study))
+    late, limits = height.copy(data=height - study["u_min"]), lost_contact(study)
     apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
-    lost = f"R, at which contact is lost; separating: {extent(apart / data['limit'])} R"
+    lost = f"R, at which contact is lost; separating: {extent(apart / limits)} R"
+    data = study.assign(late=late, unsure=~study["outcome"].isin(SETTLED))
 
     names = [name for name in ("late", "surface_speed") if name in data]
     figure, axes = panels([names], PAGE, 2.8, sharex=True)
-    for (title, part), colour in zip(each_value(data, "N"), cycle(LINE_COLOURS), strict=False):
-        if np.isfinite(part["limit"]):
-            axes["late"].axhline(float(part["limit"]), color=colour, ls=":", label=lost)
-        for contact, style, more in (
-            ("unilateral", "-", ""),
-            ("bilateral", "--", ", separation ignored"),
-        ):
-            one = part.sel(contact=contact)
-            look: dict[str, Any] = {"color": colour, "ls": style, "label": title + more}
-            look.update(doubtful=one["unsure"], doubt="not shown to settle")
-            for name, ax in axes.items():
-                lines(ax, one[name], "Omega", **look)
+    for name, ax in axes.items():
+        ax.set_prop_cycle(color=LINE_COLOURS[: study.sizes["N"]])
+        for contact, style in (("unilateral", "-"), ("bilateral", "--")):
+            one = data.sel(contact=contact)
+            lines(ax, one[name], "Omega", doubtful=one["unsure"], doubt=UNSETTLED, ls=style)
+    for limit, colour in zip(limits.dropna("N").values, LINE_COLOURS, strict=False):
+        axes["late"].axhline(limit, color=colour, ls=":", label=lost)
     beyond = placed(height, thickness)
     axes["late"].axhspan(beyond, 10 * beyond, color=SHADE, label="beyond linear plate theory")
     larger = extent(late.sel(contact="bilateral") / apart)
-    axes["late"].set(yscale="log", title=f"separation ignored: {larger} times the range")
-    for ax in [*axes.values()][1:]:
-        ax.set_title("above 1, friction reverses")
-        ax.axhline(1, color=GREY, lw=0.6, zorder=0)
+    ignored = f"dashed: separation ignored, {larger} times the range"
+    axes["late"].plot([], [], "--", color=BLACK, label=ignored)
+    axes["late"].set_yscale("log")
+    if "surface_speed" in axes:
+        axes["surface_speed"].set_title("above 1, friction reverses")
+        axes["surface_speed"].axhline(1, color=GREY, lw=0.6, zorder=0)
     return figure
 
 
@@ -543,13 +536,11 @@ def lost_contact(study: xr.Dataset) -> xr.DataArray:
     disc = stated_in(study, "discs").get(name, {})
     if "tangential" not in disc:
         return study["N"] * np.nan
-    fed = np.argmax(np.abs(disc["tangential"]))
-    frequency = disc["omega"][fed] / (2 * np.pi)
+    frequency = disc["omega"][np.argmax(np.abs(disc["tangential"]))] / (2 * np.pi)
     base = stated_in(study, "base")
-    slider = {name: base[name] for name in ("k", "m", "c")}
-    of_newton = pinned_range(Parameters(N=1.0, Omega=1.0, **slider), frequency)
-    loads = study["N"] / study["N"].attrs["factor"]
-    return placed(study["u_max"], of_newton) * loads
+    slider = Parameters(N=1.0, Omega=1.0, k=base["k"], m=base["m"], c=base["c"])
+    of_newton = placed(study["u_max"], pinned_range(slider, frequency))
+    return study["N"] * of_newton / study["N"].attrs["factor"]
 
 
 @grid_figure("range_law", takes=True)
@@ -562,23 +553,23 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
     """
     data = study.stack(motion=[*study["deviation"].dims], create_index=False)
     data = data.isel(motion=data["deviation"].notnull().values)
-    excess, apart = data["deviation"], data["separation_fraction"]
-    shares = np.minimum(data["vibration_share"].values, data["force_share"].values)
-    single = shares >= 0.95
-    groups = groups_of(data, set_apart)
-    inside = (abs(excess) <= BAND).values
+    excess, apart, range_ = data["deviation"], data["separation_fraction"], data["pinned_range"]
+    single = np.minimum(data["vibration_share"], data["force_share"]) >= 0.95
+    inside = abs(excess) <= BAND
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
-    hollow = "hollow: no frequency carries 95 % of height and contact force"
-    places = {"all": (data["pinned_range"], excess), "apart": (apart, excess.clip(*ENLARGED))}
+    model = data.coords.get(NORM, xr.DataArray("motions")).broadcast_like(excess)
+    group = model.copy(data=np.array([*map(value_text, model)], dtype=object))
+    for name, value in set_apart.items():
+        chosen = np.isclose(data[name], placed(data[name], value))
+        group[chosen] = value_text(data[name][chosen][0])
 
-    figure, axes = panels([[*places]], PAGE, 2.6)
-    for panel, (x, y) in places.items():
-        ax = axes[panel]
-        for name, (marker, colour) in zip(np.unique(groups), cycle(MARKS), strict=False):
-            look: dict[str, Any] = {"marker": marker, "color": colour, "ls": "", "ms": 3}
-            here = groups == name
-            ax.plot(x[here & single], y[here & single], label=name, **look)
-            mark_points(ax, x[here & ~single], y[here & ~single], hollow, mew=0.6, **look)
+    figure, axes = panels([["all", "apart"]], PAGE, 2.6)
+    points = ((range_, excess), (apart, excess.clip(*ENLARGED)))
+    for ax, (x, y) in zip(axes.values(), points, strict=True):
+        for name, look in zip(np.unique(group), MARKS, strict=False):
+            here = y.where(group == name)
+            ax.plot(x, here.where(single), label=name, **look)
+            mark_points(ax, x, here.where(~single), HOLLOW, **look)
         ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
         ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
         ax.set_ylabel("Excess of the range over R")
@@ -586,19 +577,8 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
     flights = np.vectorize(excess_of_flights)(times)
     axes["apart"].plot(times, flights, color=BLACK, label="by flights: (π · time apart)²/8")
     axes["apart"].set_xlabel("Share of time apart")
-    axes["all"].set(xscale="log", xlabel=f"{LIMIT} ({data['pinned_range'].units})")
+    axes["all"].set(xscale="log", xlabel=f"{LIMIT} ({range_.units})")
     return figure
-
-
-def groups_of(data: xr.Dataset, set_apart: Mapping[str, float]) -> Any:
-    """Names of the groups of motions: a value that sets some apart, else their normalization."""
-    groups = np.full(data.sizes["motion"], "motions", dtype=object)
-    if NORM in data and data[NORM].dims:
-        groups[:] = [value_text(each) for each in data[NORM]]
-    for name, value in set_apart.items():
-        chosen = np.isclose(data[name], placed(data[name], value), rtol=1e-9, atol=0)
-        groups[chosen] = value_text(data[name][chosen][0])
-    return groups
 
 
 # ---- Uncertain parameters
@@ -609,15 +589,12 @@ def sensitivity(study: xr.Dataset) -> Figure:
     """Probability of instability in the lowest and the highest third of each parameter's values, with
     intervals of 95 %, for each point of the study; the parameters that change it most stand above."""
     points = [str(dim) for dim in study["status"].dims if dim != "sample"]
-    cases = study.expand_dims("case")
-    if points:
-        cases = study.stack(case=points, create_index=False)
+    cases = study.expand_dims("one").stack(case=["one", *points], create_index=False)
     thirds = thirds_of(cases)
-    thirds = thirds.sortby(abs(thirds["share"][1] - thirds["share"][0]).max("case"))
-
+    thirds = thirds.sortby(abs(thirds["share"].diff("third")).max(["case", "third"]))
     rows = np.arange(thirds.sizes["parameter"])
-    name = f"all {cases.sizes['sample']} samples"
     failed = int((cases["cycle"] == "failed").sum())
+    name = f"all {cases.sizes['sample']} samples"
     if failed:
         name += f"; {failed} in all panels failed, and do not count"
     figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
@@ -637,26 +614,21 @@ def thirds_of(cases: xr.Dataset) -> xr.Dataset:
     """Shares of unstable samples with a parameter in its lowest and in its highest third, and the ends of
     their intervals, shape (third, case, parameter)."""
     values = cases["parameter_values"]
-    known = (cases["cycle"] != "failed") & (cases["status"] != "excluded")
-    unstable = known & ~cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
     low, high = (values.quantile(end, "sample", skipna=False) for end in (1 / 3, 2 / 3))
-    parts = []
-    for inside in (values <= low, values >= high):
-        count = (inside & known).sum("sample")
-        count = count.where(count > 0)
-        hits = (inside & unstable).sum("sample")
-        middle, half = wilson(hits, count)
-        ends = {"low": middle - half, "high": middle + half}
-        parts.append(xr.Dataset({"share": hits / count, **ends}))
-    return xr.concat(parts, "third")
+    inside = xr.concat([values <= low, values >= high], "third")
+    inside &= (cases["cycle"] != "failed") & (cases["status"] != "excluded")
+    stable = cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
+    count = inside.sum("sample")
+    count = count.where(count > 0)
+    share = (inside & ~stable).sum("sample") / count
+    middle, half = wilson(share * count, count)
+    return xr.Dataset({"share": share, "low": middle - half, "high": middle + half})
 
 
 def draw_thirds(ax: Axes, thirds: xr.Dataset, rows: Any) -> None:
     """A row for each parameter, with both shares, their intervals, and a line between them."""
     ax.hlines(rows, *thirds["share"].values, color=GREY, lw=0.8)
     for i, (name, face) in enumerate((("lowest", "white"), ("highest", BLUE))):
-        one = thirds.isel(third=i)
-        up = rows + 0.24 * i - 0.12
+        one, up = thirds.isel(third=i), rows + 0.24 * i - 0.12
         ax.hlines(up, one["low"], one["high"], color=BLUE, lw=0.8, label="95 % interval")
-        look: dict[str, Any] = {"color": BLUE, "mfc": face, "ms": 4, "ls": "", "marker": "o"}
-        ax.plot(one["share"], up, label=f"{name} third of its values", **look)
+        ax.plot(one["share"], up, "o", color=BLUE, mfc=face, label=f"{name} third of its values")

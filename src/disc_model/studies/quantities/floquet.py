@@ -27,8 +27,7 @@ class Floquet(Quantity):
     motion_by: ClassVar = {
         **dict.fromkeys(WORDS["cycle_statuses"], FROM_START),
         **SLIDING_BY,
-        "stable": "The stick-slip cycle itself, which is stable.",
-        "unstable": "The stick-slip cycle itself, which is unstable: the motion leaves it.",
+        "ok": motion,
     }
     COLUMNS: ClassVar = OF_QUANTITIES["floquet"]["columns"]
 
