@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError
 from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
-
-CONVENTIONS = "CF-1.11"
 
 
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:

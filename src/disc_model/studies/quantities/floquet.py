@@ -4,7 +4,7 @@ simulation."""
 import math
 from typing import Any, ClassVar
 
-from disc_model.data.variables import CYCLE_STATUSES, OF_QUANTITIES, CycleStatus, message_of
+from disc_model.data.variables import OF_QUANTITIES, WORDS, CycleStatus, message_of
 from disc_model.studies.quantity import Point, Quantity, State
 from disc_model.units import CycleTolerance
 
@@ -24,7 +24,11 @@ class Floquet(Quantity):
     points_per_job: ClassVar = 1000
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
-    motion_by: ClassVar = {**dict.fromkeys(CYCLE_STATUSES, FROM_START), **SLIDING_BY, "ok": motion}
+    motion_by: ClassVar = {
+        **dict.fromkeys(WORDS["cycle_statuses"], FROM_START),
+        **SLIDING_BY,
+        "ok": motion,
+    }
     COLUMNS: ClassVar = OF_QUANTITIES["floquet"]["columns"]
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
