@@ -231,7 +231,9 @@ def basins(study: xr.Dataset, x: str) -> Figure:
     for i, (_, part) in enumerate(parts):
         axes[f"{i}"].set_title(value_text(part["energy"]))
         _shares(axes[f"{i}"], part, x, interval)
-    axes["0"].set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s")
+    axes["0"].set_ylabel(
+        f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s"
+    )
     _attractors(axes["attractors"], study, x)
     _critical(axes["critical"], study, x)
     return figure
