@@ -128,8 +128,7 @@ def campbell(
     highest : upper end of the axis of frequencies, Hz
     multiples : of the stick-slip frequency, that are drawn over all speeds
     """
-    rows = [["frequency"], ["rate"]]
-    figure, axes = panels(rows, PAGE, 2.4, sharex=True, height_ratios=[3, 2])
+    figure, axes = panels([["frequency"], ["rate"]], PAGE, 2.4, sharex=True, height_ratios=[3, 2])
     draw_campbell([*axes.values()], study, highest, multiples)
     return figure
 
@@ -171,8 +170,14 @@ def draw_campbell(
         at = _crossing_at(data, i)
         if at is None:
             continue
-        where = at["crossing_Omega"], at["crossing_frequency"]
-        mark_points(above, *where, "crossing at a peak of growth", color=BLACK, marker="D")
+        mark_points(
+            above,
+            at["crossing_Omega"],
+            at["crossing_frequency"],
+            "crossing at a peak of growth",
+            color=BLACK,
+            marker="D",
+        )
         multiple = at["crossing_multiple"].item()
         line = multiple * slips
         above.plot(slips["Omega"], line, "--", color=GREY, lw=0.8, label="multiple of $f_s$")
