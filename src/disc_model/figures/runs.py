@@ -189,7 +189,8 @@ def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
     rows: Any = np.reshape([*axes.values()], layout.shape)
     for row, each in zip(rows, cases, strict=True):
         draw_sections(row, each)
-        row[0].set_title(", ".join(fate_of(each)))
+        values = [value_text(each[name]) for name in ("N", "Omega")]
+        row[0].set_title(", ".join([*values, *fate_of(each)]))
         row[1].set_title(f"disc of thickness {value_text(each['h'])}")
     for column in rows.T:
         compare(column)
