@@ -1,6 +1,7 @@
 """Every kind of figure names the quantities on its axes and their units, and shows the values of its
 data in these units."""
 
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -8,10 +9,22 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.colors import to_rgb
 from matplotlib.figure import Figure
 
+from disc_model.figures.draw import PAGE, edges, lone_cells
 from disc_model.figures.kinds import KINDS, kind_of, render, save
-from tests.figures.examples import EXAMPLES, KINDS_OF_STUDIES, Example, simulated
+from disc_model.figures.looks import LOOKS, looks_of
+from disc_model.studies.registry import quantity_names, quantity_of
+from tests.figures.examples import (
+    DAMPERS,
+    EXAMPLES,
+    KINDS_OF_STUDIES,
+    PERIODS,
+    SPRINGS,
+    Example,
+    simulated,
+)
 from tests.figures.measured import assert_shows
 
 OF_GRIDS = [function.__name__ for function in KINDS_OF_STUDIES]
@@ -107,6 +120,115 @@ def test_models_stand_beside_each_other_and_are_told_apart(
     phrase = {**example.phrase, "by": "k", "names": names}
     figure = drawn(kind, example._replace(phrase=phrase, inputs=inputs))
     assert all(text in said(figure) for text in expected)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in OF_GRIDS if len(EXAMPLES[kind]().inputs) > 1])
+def test_further_studies_may_be_left_out(kind: str) -> None:
+    example = EXAMPLES[kind]()
+    needed = {"study", *(name for name, role in KINDS[kind].roles.items() if role.required)}
+    inputs = {name: study for name, study in example.inputs.items() if name in needed}
+    overlays = {name: "s" for name in inputs if name != "study"}
+    phrase = {**example.phrase, "overlays": overlays}
+    drawn(kind, example._replace(phrase=phrase, inputs=inputs)).draw_without_rendering()
+
+
+# ---- Where values are
+
+
+def test_a_point_of_a_line_is_at_its_value() -> None:
+    example = EXAMPLES["curve"]()
+    lines = drawn("curve", example).axes[0].lines
+    for drawn_line, periods in zip(lines, PERIODS, strict=False):
+        np.testing.assert_allclose(drawn_line.get_xdata(), DAMPERS, rtol=1e-12)
+        np.testing.assert_allclose(drawn_line.get_ydata(), 1e3 * periods, rtol=1e-12)
+
+
+def test_a_cell_of_a_map_is_at_its_point() -> None:
+    figure = drawn("heat_map", EXAMPLES["heat_map"]())
+    [mesh] = figure.axes[0].collections
+    corners = mesh.get_coordinates()
+    middles = (corners[1:, 1:] + corners[:-1, :-1]) / 2
+    np.testing.assert_allclose(middles[0, :, 0], DAMPERS)
+    np.testing.assert_allclose(middles[:, 0, 1], np.array(SPRINGS) / 1e3)
+    np.testing.assert_allclose(mesh.get_array(), 1e3 * PERIODS)
+
+
+def test_a_class_of_a_map_is_painted_at_its_points() -> None:
+    """The cell at 14 rad/s and 310 N grows, those beside it separate."""
+    ax = drawn("region_map", EXAMPLES["region_map"]()).axes[0]
+    areas = {patch.get_label(): patch.get_path() for patch in ax.patches}
+    for label, inside, outside in (
+        ("growing, in contact", (14, 310), (16, 310)),
+        ("stick-slip, small", (12, 310), (14, 310)),
+        ("separation", (14, 120), (14, 310)),
+    ):
+        assert areas[label].contains_point(inside), label
+        assert not areas[label].contains_point(outside), label
+
+
+def test_a_value_along_another_dimension_is_chosen() -> None:
+    """By its number in SI units, or with a unit."""
+    for value in (5e4, "50 kN/m"):
+        phrase = {"variable": "period", "x": "c_p", "at": {"k_p": value}}
+        ax = drawn("curve", Example(phrase, EXAMPLES["curve"]().inputs)).axes[0]
+        np.testing.assert_allclose(ax.lines[0].get_ydata(), 1e3 * PERIODS[1], rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("values", "expected"),
+    [
+        ([1.0, 2.0, 4.0], [0.5, 1.5, 3.0, 5.0]),
+        ([1.0, 10.0, 100.0], 10.0 ** np.array([-0.5, 0.5, 1.5, 2.5])),
+        ([8.0], [7.6, 8.4]),
+        ([0.0], [-1.0, 1.0]),
+    ],
+)
+def test_cells_end_halfway_between_values(values: list[float], expected: Any) -> None:
+    np.testing.assert_allclose(edges(xr.DataArray(values)), expected)
+
+
+def test_single_cells_of_a_class_are_hatched_as_finer_than_the_grid() -> None:
+    words = np.full((3, 5), "a", dtype=object)
+    words[1, 2] = "b"
+    words[:, 4] = "c"
+    alone = lone_cells(xr.DataArray(words, dims=("N", "Omega")))
+    assert np.argwhere(alone.values).tolist() == [[1, 2]]
+
+
+def test_classes_of_a_flag_are_told_apart_in_grey_print() -> None:
+    """By lightness, or by pattern, and none is called as another."""
+    for name in quantity_names():
+        for variable, column in quantity_of(name).COLUMNS.items():
+            words = [str(word) for word in column.flags if word in LOOKS]
+            for one, other in combinations(looks_of(words).values(), 2):
+                assert one.label != other.label, variable
+                apart = abs(lightness(one.face) - lightness(other.face))
+                assert one.hatch != other.hatch or apart > 0.03, (variable, one, other)
+
+
+def lightness(colour: str) -> float:
+    """Of a colour in grey print; paper is seen where nothing is painted."""
+    return float(np.dot(to_rgb(colour.replace("none", "white")), (0.3, 0.59, 0.11)))
+
+
+# ---- Titles, widths, and figures of several cases
+
+
+def test_a_title_stands_above_a_figure_unless_it_has_a_caption() -> None:
+    example = EXAMPLES["curve"]()
+    for caption, head in (("", "Periods"), ("Periods of cycles.", "")):
+        phrase = {**example.phrase, "title": "Periods", "caption": caption, "width": "page"}
+        figure = drawn("curve", example._replace(phrase=phrase))
+        assert figure.get_suptitle() == head
+        assert figure.get_figwidth() == PAGE
+
+
+def test_cases_below_each_other_say_what_differs_and_what_they_come_to() -> None:
+    inputs = {"A": simulated(True), "B": simulated(False)}
+    figure = drawn("poincare", Example({"case": "A", "below": ["B"]}, inputs))
+    assert len(figure.axes) == 4
+    assert "(a) Ω = 15.1 rad/s, first separation at 54.42 s, not shown to settle" in said(figure)
+    assert "(c) Ω = 15 rad/s, no separation" in said(figure)
 
 
 # ---- Doubts, gaps, and units of the reader

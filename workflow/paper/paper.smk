@@ -61,6 +61,7 @@ rule make_table:
     shell:
         "job ../paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
+
 rule show_model:
     # A drawing that was made once, with the radii of Table 1.
     input:
@@ -75,6 +76,8 @@ rule show_model:
         ),
     log:
         f"{RESULTS}/logs/show_model.log",
+    conda:
+        "../envs/disc_model.yaml"
     shell:
         "cp {input:q} {output:q} > {log} 2>&1"
 

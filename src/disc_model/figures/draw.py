@@ -46,7 +46,7 @@ SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
 NO_LOOKS: dict[str, Look] = {}
-SIDES = (("right", -2), ("left", 2))  # of lines, for their names
+SIDES = ("right", "left")  # of lines, for their names
 NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
 BELOW_ANY = "−∞, below any number"
 
@@ -131,11 +131,10 @@ def threshold(ax: Axes, places: Mapping[str, float], others: Sequence[Axes] = ()
 
     others : panels that have the same lines, without names
     """
-    for (name, x), (side, shift) in zip(places.items(), cycle(SIDES), strict=False):
+    for (name, x), side in zip(places.items(), cycle(SIDES), strict=False):
         for panel in (ax, *others):
             panel.axvline(x, color=BLACK, lw=0.6, ls=":", zorder=0)
-        at = ax.get_xaxis_transform()
-        ax.annotate(name, (x, 0.02), (shift, 0), xycoords=at, ha=side, **NOTE)
+        ax.text(x, 0.02, f" {name} ", transform=ax.get_xaxis_transform(), ha=side, fontsize=7)
 
 
 def compare(axes: Sequence[Axes]) -> None:
@@ -162,7 +161,7 @@ def is_geometric(values: NDArray[Any]) -> bool:
     return bool(np.isclose(steps, np.median(steps), rtol=1e-6).mean() > 0.75)
 
 
-def edges(x: xr.DataArray) -> NDArray[np.float64]:
+def edges(x: xr.DataArray) -> Any:
     """Edges of cells halfway between values, in their ratio where these are equal."""
     values = np.atleast_1d(x.values.astype(float))
     if is_geometric(values):
@@ -170,7 +169,7 @@ def edges(x: xr.DataArray) -> NDArray[np.float64]:
     return _between(values)
 
 
-def _between(values: NDArray[np.float64]) -> NDArray[np.float64]:
+def _between(values: NDArray[np.float64]) -> Any:
     """Middles between values, and ends as far outside as these are inside."""
     if values.size == 1:
         return values + (0.05 * np.abs(values) or 1.0) * np.array([-1, 1])
@@ -296,8 +295,8 @@ def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
     """The bar of colours beside panels; its ends are open where numbers lie beyond them."""
     norm = mesh.norm
     beyond = int((x < norm.vmin).any()) + 2 * int((x > norm.vmax).any())
-    look = {"extend": ("neither", "min", "max", "both")[beyond], "pad": 0.01}
-    bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), **look)
+    ends = ("neither", "min", "max", "both")[beyond]
+    bar = figure.colorbar(mesh, ax=axes, label=fill(label(x), 38), extend=ends, pad=0.01)
     if isinstance(norm, AsinhNorm):  # its own ticks meet at zero
         bar.set_ticks(norm.vmax * TICKS_OF_RATES)
         bar.ax.yaxis.set_major_formatter("{x:.2g}")
@@ -404,7 +403,7 @@ def lines(
     ax.set_ylabel(label(y))
 
 
-def opened(x: Any, y: Any, jump: float) -> tuple[Any, Any]:
+def opened(x: Any, y: Any, jump: float) -> Any:
     """A line of finite numbers that is open at each step of asinh(y / 0.1) beyond some size."""
     finite = np.where(np.isfinite(y), y, np.nan)
     steps = np.abs(np.diff(np.arcsinh(finite / LINEAR_RATE)))
@@ -415,15 +414,15 @@ def opened(x: Any, y: Any, jump: float) -> tuple[Any, Any]:
 def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
     """Hollow marks at points, which no line joins; nothing without a point."""
     if np.isfinite(np.asarray(y, dtype=float)).any():
-        own = {"label": once(ax, name), "linestyle": "", "markerfacecolor": "white", "zorder": 3}
-        ax.plot(x, y, **wished(look, **own))
+        own = wished(look, label=once(ax, name), linestyle="", markerfacecolor="white", zorder=3)
+        ax.plot(x, y, **own)
 
 
 def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, marker: str = "x") -> None:
     """Crosses along the lower edge of a panel at points without a value."""
-    look = {"marker": marker, "color": colour, "mfc": colour, "ms": 3.5, "clip_on": False}
+    look = {"marker": marker, "color": colour, "mfc": colour, "clip_on": False}
     edge = np.full(np.shape(x), 0.015)
-    mark_points(ax, x, edge, why, mew=0.7, transform=ax.get_xaxis_transform(), **look)
+    mark_points(ax, x, edge, why, transform=ax.get_xaxis_transform(), **look)
 
 
 def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:

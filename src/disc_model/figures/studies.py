@@ -1,5 +1,6 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
+from itertools import product
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -55,7 +56,10 @@ BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle end
 """What curves are, and their lines."""
 NOTHING: dict[str, Any] = {}
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
-MARKS = [*zip("o^sD", LINE_COLOURS, strict=True)]
+MARKS: list[Any] = [
+    {"marker": marker, "color": colour, "ls": ""}
+    for marker, colour in zip("o^sD", LINE_COLOURS, strict=True)
+]
 DASHES = ("-", "--", ":")
 LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
 HOLLOW = "hollow: no frequency carries 95 % of height and contact force"
@@ -128,10 +132,8 @@ def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = 
     figure, axes = panels([["a"]], COLUMN, 2.6)
     y = study[variable]
     of_cycle = variable == "growth_rate"  # which may be another one at the next value
-    every = y.sizes[x] // 12 if bool(y.notnull().all()) else 1  # a point alone needs its mark
     jump = 1.0 if of_cycle else np.inf
-    doubtful = in_doubt(study, variable)
-    lines(axes["a"], y, x, doubtful=doubtful, jump=jump, markevery=max(1, every))
+    lines(axes["a"], y, x, doubtful=in_doubt(study, variable), jump=jump)
     if of_cycle:
         rate_axis(axes["a"])
     elif is_rate(y):
@@ -156,7 +158,7 @@ def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
 LATE = ("_min", "_max", "_fraction", "separation_rate", "surface_speed")
 """Ends of names of what `outcome` says of the late motion."""
 NO = ("undecided", "changing", "unknown", "no", "growing", "False", "0.0")
-DOUBTS = {
+DOUBTS: dict[str, Any] = {
     "settled": ("", NO, "not settled"),
     "sweep_settled": ("", NO, "not settled"),
     "converged": ("", NO, "not converged"),
@@ -188,6 +190,14 @@ class Mark(Strict):
     x: Finite
     y: Finite
     paper_outcome: Literal["stick_slip", "growing", "separation"]
+
+
+SHAPES: dict[str, Any] = {
+    "stick_slip": ("o", 4, -6, "top"),
+    "growing": ("^", 6, -6, "top"),
+    "separation": ("s", 8, 6, "bottom"),
+}
+"""Marks of cases by what the paper says, their sizes, and the places of names: above or below."""
 
 
 @grid_figure("regions")
@@ -240,14 +250,14 @@ def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
     known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
-    filled = zip(rate.dims, (up.fillna(up.max()), across.fillna(across.max())), strict=True)
+    filled = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
     beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
     shown = up.where(known & beside).transpose("curve_point", ...)
     for kind, (name, style) in BORDERS.items():
-        part = shown[:, (curves["kind"] == kind).values]
+        here = (curves["kind"] == kind).values
+        part = shown[:, here]
         if part.notnull().any():
-            own = {"color": BLACK, "label": name, "scalex": False, "scaley": False}
-            ax.plot(across.T[:, (curves["kind"] == kind).values], part, style, **own)
+            ax.plot(across.T[:, here], part, style, color=BLACK, label=name)
 
 
 def around(area: xr.DataArray) -> xr.DataArray:
@@ -264,16 +274,10 @@ def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
 def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray) -> None:
     """A case of the paper, in the colour and the shape of what the paper says."""
     at = (placed(x, mark.x), placed(y, mark.y))
-    said = mark.paper_outcome
-    shape, size = {"stick_slip": ("o", 4), "growing": ("^", 6), "separation": ("s", 8)}[said]
-    look: dict[str, Any] = {"mfc": LOOKS[said].face, "mec": BLACK, "clip_on": False}
+    shape, size, up, end = SHAPES[mark.paper_outcome]
+    look: dict[str, Any] = {"mfc": LOOKS[mark.paper_outcome].face, "mec": BLACK, "clip_on": False}
     ax.plot(*at, shape, ms=size, zorder=20 - size, label="paper's case and outcome", **look)
-
-    # its name towards the middle of the panel, and two at one place above and below
-    across, height = ax.transLimits.transform(ax.transScale.transform(at))
-    above = height < 0.85 and (said == "separation" or height < 0.15)
-    side, right = ("right", -6) if across > 0.7 else ("left", 6)
-    end, up = ("bottom", 6) if above else ("top", -6)
+    side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
     box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
     ax.annotate(name, at, (right, up), ha=side, va=end, bbox=box, zorder=20, **NOTE)
 
@@ -298,20 +302,17 @@ def sliding_outcome(
     """What linear analysis of steady sliding says, and what the motion does, over two parameters; the
     legend has shares of the points of each panel."""
     motion, linear = xr.align(study, sliding.rename(value=x), join="inner")
-    outcome, rate = motion["outcome"], linear["largest_growth_rate"]
+    outcome = motion["outcome"]
+    stable = linear["largest_growth_rate"] <= NEUTRAL
     both = outcome.where(outcome == "excluded", "undecided")
     looks = {}
-    for fate, outcomes in FATES.items():
-        here = outcome.isin(outcomes)
-        for stability, mask, dots in (
-            ("stable", rate <= NEUTRAL, STABLE.hatch),
-            ("unstable", rate > NEUTRAL, ""),
-        ):
-            word = f"sliding {stability}, {fate}"
-            both = both.where(~(here & mask), word)
-            shares = [float((part == word).mean()) for _, part in each_value(both, by)]
-            said = ", ".join(f"{100 * share:.0f} %" for share in shares)
-            looks[word] = Look(f"{word}: {said}", LOOKS[outcomes[0]].face, dots)
+    for (fate, outcomes), stability in product(FATES.items(), ("stable", "unstable")):
+        word = f"sliding {stability}, {fate}"
+        here = outcome.isin(outcomes) & (stable == (stability == "stable"))
+        both = both.where(~here, word)
+        shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
+        look = LOOKS[outcomes[0]]._replace(label=f"{word}: {', '.join(shares)}", hatch="")
+        looks[word] = look._replace(hatch=STABLE.hatch) if stability == "stable" else look
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
     for ax, (title, part) in zip(axes, parts, strict=True):
@@ -369,7 +370,9 @@ def critical_speed(
 def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
     """Outcomes of a map and the borders of its cycle, and where this is stable."""
     plane = cycle.transpose("N", "Omega", ...)
-    class_map(axes[0], plane["outcome"])
+    merged = plane["outcome"].isin(["other_cycle", "undecided"])
+    others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
+    class_map(axes[0], plane["outcome"].where(~merged, "growing"), {"growing": others})
     borders(axes[0], curves, plane["growth_rate"])
     stable = plane["growth_rate"] < 0
     for ax in axes[1:]:
@@ -464,19 +467,25 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     for i, (title, part) in enumerate(each_value(study, by)):
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
-        count = max(1, known.size)
-        look: dict[str, Any] = {"color": LINE_COLOURS[i % 4], "ls": DASHES[i % 3]}
-        look["label"] = f"{title}: {counted(known.notnull())} starts"
-        shares = np.arange(times.size + 1) / count
-        ax.stairs(shares, [0, *times, horizon], baseline=None, lw=1.4, **look)
-        middle, half = wilson(times.size, count)
-        ends = (middle - half, middle + half)
-        ax.vlines(horizon * (1.02 + 0.02 * i), *ends, look["color"], lw=3, label="95 % confidence")
+        shares = np.arange(times.size + 1) / max(1, known.size)
+        colour, name = LINE_COLOURS[i % 4], f"{title}: {counted(known.notnull())} starts"
+        ax.step(
+            [0, *times, horizon],
+            [*shares, shares[-1]],
+            DASHES[i % 3],
+            color=colour,
+            label=name,
+            where="post",
+        )
+        middle, half = wilson(times.size, max(1, known.size))
+        end = horizon * (1.02 + 0.02 * i)
+        ax.vlines(end, middle - half, middle + half, colour, lw=3, label="95 % confidence")
     ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
     ax.set_xlim(0, None)
     return figure
 
 
+UNSETTLED = "not shown to settle"
 SETTLED = ("stick_slip", "other_cycle", "steady_sliding", "at_rest")
 """Outcomes that a longer time would not change."""
 
@@ -500,8 +509,7 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
         ax.set_prop_cycle(color=LINE_COLOURS[: study.sizes["N"]])
         for contact, style in (("unilateral", "-"), ("bilateral", "--")):
             one = data.sel(contact=contact)
-            settles = {"doubtful": one["unsure"], "doubt": "not shown to settle"}
-            lines(ax, one[name], "Omega", ls=style, **settles)
+            lines(ax, one[name], "Omega", doubtful=one["unsure"], doubt=UNSETTLED, ls=style)
     for limit, colour in zip(limits.dropna("N").values, LINE_COLOURS, strict=False):
         axes["late"].axhline(limit, color=colour, ls=":", label=lost)
     beyond = placed(height, thickness)
@@ -546,22 +554,22 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
     data = study.stack(motion=[*study["deviation"].dims], create_index=False)
     data = data.isel(motion=data["deviation"].notnull().values)
     excess, apart, range_ = data["deviation"], data["separation_fraction"], data["pinned_range"]
-    single = np.minimum(data["vibration_share"], data["force_share"]).values >= 0.95
-    inside = (abs(excess) <= BAND).values
+    single = np.minimum(data["vibration_share"], data["force_share"]) >= 0.95
+    inside = abs(excess) <= BAND
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
     model = data.coords.get(NORM, xr.DataArray("motions")).broadcast_like(excess)
-    groups = np.array([value_text(each) for each in model], dtype=object)
+    group = model.copy(data=np.array([*map(value_text, model)], dtype=object))
     for name, value in set_apart.items():
         chosen = np.isclose(data[name], placed(data[name], value))
-        groups[chosen] = value_text(data[name][chosen][0])
+        group[chosen] = value_text(data[name][chosen][0])
 
     figure, axes = panels([["all", "apart"]], PAGE, 2.6)
     points = ((range_, excess), (apart, excess.clip(*ENLARGED)))
     for ax, (x, y) in zip(axes.values(), points, strict=True):
-        for name, (marker, colour) in zip(np.unique(groups), MARKS, strict=False):
-            here, look = groups == name, {"color": colour, "marker": marker}
-            ax.plot(x.where(here & single), y, label=name, ls="", **look)
-            mark_points(ax, x[here & ~single], y[here & ~single], HOLLOW, **look)
+        for name, look in zip(np.unique(group), MARKS, strict=False):
+            here = y.where(group == name)
+            ax.plot(x, here.where(single), label=name, **look)
+            mark_points(ax, x, here.where(~single), HOLLOW, **look)
         ax.axhspan(-BAND, BAND, color=SHADE, zorder=0, label=band)
         ax.yaxis.set_major_formatter(PercentFormatter(1, 0))
         ax.set_ylabel("Excess of the range over R")
@@ -586,12 +594,14 @@ def sensitivity(study: xr.Dataset) -> Figure:
     thirds = thirds.sortby(abs(thirds["share"].diff("third")).max(["case", "third"]))
     rows = np.arange(thirds.sizes["parameter"])
     failed = int((cases["cycle"] == "failed").sum())
-    name = f"all {cases.sizes['sample']} samples; in all panels {failed} failed, and do not count"
+    name = f"all {cases.sizes['sample']} samples"
+    if failed:
+        name += f"; {failed} in all panels failed, and do not count"
     figure, axes = row(cases.sizes["case"], 0.8 + 0.2 * rows.size)
     for i, ax in enumerate(axes):
         draw_thirds(ax, thirds.isel(case=i), rows)
         overall = float(cases["probability_unstable"][i])
-        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label=name.split("; in all panels 0")[0])
+        ax.axvline(overall, color=BLACK, ls="--", lw=0.8, label=name)
         along = [each[i] for each in cases.coords.values() if each.dims == ("case",)]
         ax.set_title(", ".join(map(value_text, along)))
         ax.set(xlabel="Probability of instability", xlim=(-0.03, 1.03))
