@@ -54,7 +54,6 @@ LOOKS = {
     "quasi_periodic": Look("quasi-periodic", "#b5dcf2", "\\\\\\\\"),
     "irregular": Look("irregular", "#7a4b12", "oo", "#ffffff"),
     "undecided": Look("undecided", "#43372a"),
-    "undecided_lost": Look("undecided, contact lost", "#43372a", "---", "#ffffff"),
     "failed": Look("failed", "#000000", "xxx", "#ffffff"),
     "not_simulated": Look("not simulated", "#ffffff", "**"),
     # the search for a cycle

@@ -43,7 +43,7 @@ def window_of(case: xr.DataTree, name: str) -> xr.Dataset:
     if window.sizes["time"] < 2:
         raise Missing(f"has too few samples in {name}")
     for variable, x in window.items():
-        if str(variable).startswith("w_point"):
+        if "w_point" in str(variable):
             x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
     return window
 
@@ -263,7 +263,7 @@ def draw_spectrum(
 ) -> None:
     """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
     strongest; raises `Missing` if there are none."""
-    x = samples[variable].copy()
+    x = samples[variable]
     signal = samples["time"].values, x.values
     found = lines(*signal, below=highest or np.inf, floor=0.01)
     if not found:
