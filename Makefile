@@ -17,7 +17,7 @@ TESTED_validation := tests/validation tests/simulation
 TESTED_stability := tests/stability
 TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
-TESTED_others := tests/paper tests/data tests/disc tests/docs tests/explorer tests/packaging $(wildcard tests/test_*.py)
+TESTED_others := tests/paper tests/data tests/disc tests/docs tests/packaging $(wildcard tests/test_*.py)
 
 .PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
 
@@ -39,8 +39,8 @@ reproduce: env
 report: env
 	$(BIN)/snakemake --report results/paper/report.html all $(wildcard results/paper/normalisation.html results/paper/survival.html)
 
-# One HTML page to look at every grid point, at motions and at the figures: results/paper/explorer.html; or, with
-# STUDY=my_study.yaml, that of another study.
+# One HTML page to look at every grid point and at motions: results/paper/explorer.html; or, with STUDY=my_study.yaml, that
+# of another study.
 explore: env
 	$(BIN)/snakemake -j$(CORES) explorer $(if $(STUDY),--configfile $(STUDY))
 

@@ -52,6 +52,7 @@ def test_key_changes_with_every_field(name: str) -> None:
     other["friction_decay"] = 2.0
     other["friction_law"] = "exponential"
     other["viscous_friction"] = 0.1
+    other["stretching"] = "clamped"
     other["disc"] = Disc(diameters=[1], omega=[1500.0], amplitude=[2.0])
     assert p.replace(**{name: other.get(name) or getattr(p, name) * 0.999}).key != p.key
 

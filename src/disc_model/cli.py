@@ -224,12 +224,12 @@ def floquet(p: Parameters, _: Strict) -> None:
 def sliding(p: Parameters, _: Strict) -> None:
     """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates,
     damping."""
-    from disc_model.stability.sliding import SlidingStatus, steady_sliding
+    from disc_model.stability.sliding import steady_sliding
     from disc_model.stability.sliding_modes import sliding_modes
 
     state = steady_sliding(p)
     print_rows([model_line(p), *state.summary()])
-    if state.status is not SlidingStatus.OK:
+    if not state.status.exists:
         raise typer.Exit(1)
     modes = sliding_modes(p, state)
     forward = []

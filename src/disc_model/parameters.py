@@ -25,7 +25,10 @@ SURFACE = "surface"  # value of ``friction_offset`` by which friction acts on th
 # parameters in rules that relate several
 RELATED = ("mu_s", "mu_k", "a", "b", "r_0", "E", "h", "nu", "disc")
 # parameters of the plate, which have no meaning for a disc that is given by its modes
-PLATE = ("D_star", "E", "a", "b", "h", "nu", "rho", "n_diameters", "n_circles", "normalization")
+PLATE = (
+    *("D_star", "E", "a", "b", "h", "nu", "rho"),
+    *("n_diameters", "n_circles", "normalization", "stretching"),
+)
 PLATE_NAME = "plate"
 """What a disc is called that is given by its sizes and material, beside discs given by their modes."""
 RATIOS = {  # of two parameters, which may stand for the first one
@@ -179,6 +182,11 @@ class Parameters(Strict):
     damping_ratio: Annotated[Real, Field(ge=0, lt=1, allow_inf_nan=False)] | None = _field(
         None, "1", "damping ratio of every mode of the plate, from 0 to below 1, instead of D_star"
     )
+    stretching: Literal["none", "clamped", "free"] = _field(
+        "none",
+        "",
+        "whether the plate stretches as it bends, with its inner edge clamped or free in its plane",
+    )
     disc: Annotated[Disc, BeforeValidator(_READ, json_schema_input_type=str)] | None = _field(
         None, "", "a disc given by its modes, instead of the plate"
     )
@@ -193,7 +201,7 @@ class Parameters(Strict):
             normalization: str = ..., contact: str = ..., contact_compliance: Quantity = ...,
             contact_arc: Quantity = ..., contact_force: str = ..., friction_offset: Quantity = ...,
             friction_decay: Quantity = ..., friction_law: str = ..., viscous_friction: Quantity = ...,
-            damping_ratio: Quantity | None = ..., disc: Disc | None = ...,
+            damping_ratio: Quantity | None = ..., stretching: str = ..., disc: Disc | None = ...,
             mu_k_over_mu_s: float = ..., k_p_over_k: float = ..., c_p_over_c: float = ...,
             a_over_b: float = ..., r_0_over_b: float = ..., h_over_b: float = ...,
         ) -> None: ...  # fmt: skip
@@ -220,8 +228,11 @@ class Parameters(Strict):
     def _with_ratios_in_json(
         self, handler: Any, info: pydantic.SerializationInfo
     ) -> dict[str, Any]:
-        """In JSON, have the ratios by which the case was given, and not what follows from them."""
+        """In JSON, have the ratios by which the case was given, and not what follows from them.
+        Leave out a plate that does not stretch, so that older content addresses stay valid."""
         values = handler(self)
+        if values.get("stretching") == "none":
+            del values["stretching"]
         if info.mode == "json":
             return _as_stated(values, self._ratios)
         return values

@@ -24,7 +24,7 @@ PACKAGE = Path(__file__).resolve().parent
 TABLE = "data/variables.toml"
 """The table of variables, of which only flags, dimensions and types count as a part on its own: what they
 are called is attached when results are merged or read."""
-TEXTS = ("units", "long_name", "comment", "missing", "shown", "parameters", "arguments")
+TEXTS = ("units", "long_name", "comment", "missing", "shown", "symbols", "parameters", "arguments")
 """Keys of the table that change no number."""
 PHYSICS = (
     "analysis",

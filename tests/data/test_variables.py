@@ -5,18 +5,25 @@ import pytest
 import xarray as xr
 
 from disc_model import Parameters
+from disc_model.analysis.classify import Settled
 from disc_model.data.described import known_of
 from disc_model.data.variables import (
     OF_ARGUMENTS,
     OF_QUANTITIES,
     OF_RESULTS,
+    PHASES,
     SCALARS,
     SERIES,
+    STABLE_CYCLES,
     STATUSES,
+    WORDS,
+    CycleStatus,
+    Outcome,
     Variable,
     attributes,
     flag_names,
 )
+from disc_model.errors import Status
 from disc_model.simulation.result import EVENT_ROW, FOLDED, SAMPLE_ROW
 
 
@@ -76,7 +83,7 @@ def test_long_names_are_short_labels(part: str) -> None:
         assert text or variable.parameter, name
         assert len(text) <= 40, name
         assert text[:1] == text[:1].lower() or text.startswith(NAMES), name
-        assert ", nan " not in text + variable.comment, name
+        assert ", nan " not in text, name
         assert not variable.missing.startswith(("if ", "unless ", "nan")), name
 
 
@@ -92,6 +99,18 @@ def test_names_of_what_runs_hold_are_short_too(name: str) -> None:
     assert len(attributes(name)["long_name"]) <= 40
     if name in FOLDED:
         assert all(len(attributes(f"{name}_{end}")["long_name"]) <= 40 for end in ("min", "max"))
+
+
+def test_words_of_flags_are_those_of_the_enumerations() -> None:
+    assert {*WORDS["statuses"]} == {*Status, "failed"}
+    assert [*WORDS["point_statuses"]] == ["ok", *(x for x in Status if not x.complete), "failed"]
+    assert [*WORDS["cycle_statuses"]] == [*CycleStatus, "failed"]
+    assert {*WORDS["outcomes"], *WORDS["long_term"]} == {*Outcome, "failed"}
+    assert [*WORDS["answers"]] == [*Settled]
+    assert WORDS["attractors"][1:] == WORDS["long_term"][1:]
+    assert WORDS["sample_outcomes"][1:] == WORDS["outcomes"]
+    assert {*STABLE_CYCLES} < {*WORDS["sample_cycles"]}
+    assert WORDS["sampled_phases"][1:] == PHASES
 
 
 def test_the_engine_records_what_the_table_describes() -> None:

@@ -204,19 +204,6 @@ def spectrum() -> Example:
     )
 
 
-def spectrogram() -> Example:
-    return Example(
-        {"case": "A", "window": "tone", "variable": "w", "highest": 400},
-        {"A": vibration()},
-        (
-            Shown(0, "x", "Time", [0.5, 1.0, 3.0], "s", "linear"),
-            Shown(0, "y", "Frequency", [TONE, 400.0], "Hz", "linear"),
-            Shown(1, "bar", "Power (dB re strongest line)", [0.0]),
-        ),
-        ("Disc under the slider w",),
-    )
-
-
 # ---- Kinds of planes of two parameters
 
 WIDE = [8.0, 10.0, 12.0, 14.0, 16.0]  # rad/s
@@ -550,7 +537,6 @@ def branches() -> Example:
             "steady sliding: unstable",
             "simulated, rising",
             "simulated, falling",
-            "jump",
         ),
     )
 
@@ -605,7 +591,7 @@ def basins() -> Example:
             Shown(1, "y", "", [0, 0.75, 0.375, 0.875], "", "linear"),
             Shown(2, "x", SPEED, SPEEDS, "rad/s", "linear"),
             Shown(2, "y", "Height range on the attractor", [2e-5, 3e-5, 0.031, 0.029], "m", "log"),
-            Shown(3, "y", "Energy", [*CRITICAL, *ENERGIES], "J", "symlog"),
+            Shown(3, "y", "Critical energy", [*CRITICAL, *ENERGIES], "J", "symlog"),
         ),
         (
             "Energy = 0.01 J",
@@ -701,7 +687,7 @@ def campbell() -> Example:
             Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
             Shown(1, "y", GROWTH, study["growth_rate"], "1/s"),
         ),
-        ("mode of steady sliding", "multiple of $f_s$"),
+        ("mode of steady sliding", "2 $f_s$"),
     )
 
 
@@ -724,7 +710,7 @@ def sliding_modes() -> Example:
     )
 
 
-KINDS_OF_CASES = (history, poincare, portrait, spectrum, spectrogram)
+KINDS_OF_CASES = (history, poincare, portrait, spectrum)
 KINDS_OF_STUDIES = (
     heat_map,
     curve,

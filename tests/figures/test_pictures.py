@@ -246,8 +246,10 @@ def test_cases_below_each_other_say_what_differs_and_what_they_come_to() -> None
     inputs = {"A": simulated(True), "B": simulated(False)}
     figure = drawn("poincare", Example({"case": "A", "below": ["B"]}, inputs))
     assert len(figure.axes) == 4
-    assert "(a) Ω = 15.1 rad/s, first separation at 54.42 s, not shown to settle" in said(figure)
-    assert "(c) Ω = 15 rad/s, no separation" in said(figure)
+    assert "N = 385 N, Ω = 15.1 rad/s, first separation at 54.42 s, not shown to settle" in said(
+        figure
+    )
+    assert "Ω = 15 rad/s, no separation" in said(figure)
 
 
 # ---- Doubts, gaps, and units of the reader

@@ -13,6 +13,8 @@ travels over the material at the rate g, the slip speed v = r_0 g is the slider'
 surface's, v_s = sum t beta, and the modes are resolved about the material point of contact, which
 lies ``shift`` (rad) behind the slider.  The coefficient of friction falls with v by a hyperbola or an exponential, or
 at once, and may grow by a viscous part.
+
+A plate that stretches has the membrane energy V4 of `Stretching`, in products of complex harmonics.
 """
 
 from functools import cache
@@ -24,6 +26,7 @@ from numpy.polynomial.polynomial import polyval
 
 from disc_model import plate_modes
 from disc_model.disc.flexibility import contact_compliance
+from tests.references.membrane import Membrane
 from tests.references.stored import State, load
 
 LONG = np.longdouble
@@ -35,19 +38,105 @@ TRUNCATION = 1e-21
 COMPLIANCE = 2.656e-7
 
 
+class Stretching:
+    """Membrane energy sum_n Re(conj(S)^T G^n S), S = z_p z_q for the pairs of the harmonic n, with
+    z_0 = a_0, z_l = (a_l - i b_l)/2 and z_-l its conjugate.
+
+    coefficients : pairs (p, q) and the matrix G^n for every n
+    l : nodal diameters of the modes, one mode each
+    """
+
+    def __init__(self, coefficients, l):
+        self.of = {int(x): i for i, x in enumerate(l)}
+        self.parts = [(pairs, np.array(G, LONG)) for pairs, G in coefficients]
+
+    def waves(self, a, b):
+        """z_p of each harmonic p, of arrays whose last axis is that of the modes."""
+        z = {}
+        for l, i in self.of.items():
+            z[l] = (a[..., i] - 1j * b[..., i]) / 2 if l else a[..., i] + 0j * b[..., i]
+            z[-l] = z[l].conj()
+        return z
+
+    def forces(self, step, k):
+        """Order k of dV4/da and dV4/db; products of lower orders are kept in ``step``."""
+        z = self.waves(step.a[: k + 1], step.b[: k + 1])
+        along = np.zeros_like(step.a[0])
+        across = np.zeros_like(along)
+        for i, (pairs, G) in enumerate(self.parts):
+            S = np.array([product(z[p], z[q], k) for p, q in pairs])
+            kept = step.products.setdefault(i, np.zeros((len(step.a), len(pairs)), np.clongdouble))
+            kept[k] = G @ S
+            for j, (p, q) in enumerate(pairs):
+                W = kept[: k + 1, j].conj()
+                for one, other in ((p, q), (q, p)):
+                    by_z = 2 * product(W, z[other], k)
+                    at = self.of[abs(one)]
+                    if one == 0:
+                        along[at] += by_z.real
+                    else:
+                        along[at] += by_z.real / 2
+                        # dz/db is -i/2, or i/2 of the conjugate
+                        across[at] += np.sign(one) * by_z.imag / 2
+        return along, across
+
+    def energy(self, a, b):
+        """V4, J."""
+        z = self.waves(a, b)
+        total = LONG(0)
+        for pairs, G in self.parts:
+            S = np.array([z[p] * z[q] for p, q in pairs])
+            total += (S.conj() @ G @ S).real
+        return total
+
+    def rest(self, N, s, w2):
+        """a of the static start: Newton's method in steps of N, derivatives by differences of a
+        cubic, which are exact."""
+        a = np.zeros(len(s), LONG)
+        for preload in np.linspace(0, 1, 41, dtype=LONG)[1:] * N:
+            for _ in range(60):
+                left = w2 * a + self._pull(a) + preload * s
+                h = LONG(2) ** -30 * max(abs(a).max(), LONG(1e-9))
+                slopes = np.diag(w2)
+                for i, row in enumerate(np.eye(len(s), dtype=LONG) * h):
+                    near = self._pull(a + row) - self._pull(a - row)
+                    far = self._pull(a + 2 * row) - self._pull(a - 2 * row)
+                    slopes[:, i] += (8 * near - far) / (12 * h)
+                change = _solved(slopes, left)
+                a = a - change
+                if abs(change).max() <= 1e-18 * abs(a).max():
+                    break
+        return a
+
+    def _pull(self, a):
+        step = type("One", (), {"a": a[None], "b": 0 * a[None], "products": {}})
+        return self.forces(step, 0)[0]
+
+
+def _solved(matrix, right):
+    """Solution of a linear system in long double, refined from one in double."""
+    inverse = np.linalg.inv(matrix.astype(float)).astype(LONG)
+    x = inverse @ right
+    for _ in range(4):
+        x = x + inverse @ (right - matrix @ x)
+    return x
+
+
 class Problem:
     """A case's numbers in long double, from values by the names of `Parameters`, its modes and
     their nodal diameters.
 
     ``rates`` are those of Omega (rad/s^2) and N (N/s), from the time ``since`` on; ``offset`` is
     that of the friction surface (m), and ``tangential`` the modes' amplitudes there (1/sqrt(kg)) if
-    they do not follow from it.  A pad's arc is in the amplitudes already; ``point`` has those of a
-    single point.
+    they do not follow from it; ``membrane`` : `Stretching.coefficients`.  A pad's arc is in the
+    amplitudes already; ``point`` has those of a single point.
     """
 
     since = LONG(0)
 
-    def __init__(self, values, omega, psi, l, rates=(0.0, 0.0), offset=0.0, tangential=None):
+    def __init__(
+        self, values, omega, psi, l, rates=(0.0, 0.0), offset=0.0, tangential=None, membrane=()
+    ):
         self.Omega_rate = LONG(rates[0])
         self.N_rate = LONG(rates[1])
         for name in ("N", "Omega", "m", "k", "c", "k_p", "c_p", "mu_s", "mu_k", "r_0"):
@@ -78,7 +167,11 @@ class Problem:
 
         self.S2 = (self.s**2).sum()
         self.St = (self.t**2).sum()
-        self.w_0 = -self.N * (self.s**2 / self.w2).sum()
+        self.stretching = Stretching(membrane, l) if membrane else None
+        self.a_0 = -self.N * self.s / self.w2
+        if membrane:
+            self.a_0 = self.stretching.rest(self.N, self.s, self.w2)
+        self.w_0 = (self.s * self.a_0).sum()
         self.u_0 = self.w_0 - self.C * self.N
 
     def _damping(self, values, w):
@@ -100,7 +193,7 @@ class Problem:
         """The static start."""
         zero = np.zeros(len(self.s), LONG)
         o = LONG(0)
-        return State(o, "stick", 0, o, o, self.u_0, o, -self.N * self.s / self.w2, zero, zero, zero)
+        return State(o, "stick", 0, o, o, self.u_0, o, self.a_0, zero, zero, zero)
 
 
 def problem_of(p, rates=(0.0, 0.0)):
@@ -114,9 +207,33 @@ def problem_of(p, rates=(0.0, 0.0)):
         given = None
     else:
         given = sign * np.array(tangential)
+    membrane = stretching_of(p) if getattr(p, "stretching", "none") != "none" else ()
     return Problem(
-        values, modes["omega"], sign * modes["psi"], modes["diameters"], rates, offset, given
+        values,
+        modes["omega"],
+        sign * modes["psi"],
+        modes["diameters"],
+        rates,
+        offset,
+        given,
+        membrane,
     )
+
+
+def stretching_of(p, edge=""):
+    """`Stretching.coefficients` of a case without nodal circles, by an own computation; ``edge``
+    replaces the case's."""
+    found = Membrane(p, edge or p.stretching)
+    # the scale of the modes is that of their amplitudes under a point
+    psi = plate_modes(p.replace(contact_arc=0.0))["psi"].to_numpy()
+    orthonormal = plate_modes(p.replace(contact_arc=0.0, normalization="orthonormal"))["psi"]
+    kappa = abs(psi / orthonormal.to_numpy())
+    parts = []
+    for n in range(2 * p.n_diameters + 1):
+        pairs, G = found.coefficients(n)
+        scale = np.array([kappa[abs(p)] * kappa[abs(q)] for p, q in pairs])
+        parts.append((pairs, (G + G.T) / 2 * np.outer(scale, scale)))
+    return parts
 
 
 def surface_of(p):
@@ -155,6 +272,7 @@ class Step:
         self.q = q
         self.phase = phase
         self.direction = direction
+        self.products = {}
         for name in ("a", "b", "alpha", "beta", "ga"):
             setattr(self, name, np.zeros((K + 1, n), LONG))
         for name in ("a", "b", "alpha", "beta"):
@@ -198,6 +316,10 @@ class Step:
         # accelerations without forces, along and across
         along = -q.d * self.alpha[k] - q.w2 * self.a[k] + q.l * gq
         across = -q.d * self.beta[k] - q.w2 * self.b[k] - q.l * gp
+        if q.stretching:
+            pull_along, pull_across = q.stretching.forces(self, k)
+            along = along - pull_along
+            across = across - pull_across
         height = q.k * self.u[k] + q.c * self.v[k] + self.load[k] - (q.k * q.u_0 if k == 0 else 0)
         if self.phase != "separation":
             carried = q.l * (gq - q.l * product(self.g, self.ga, k))
@@ -455,6 +577,8 @@ class Reference:
         held = self.phase != "separation" and q.rigid
         u, rate = (w, velocity) if held else (self.u, self.v)
         disc = (self.alpha**2 + self.beta**2 + q.w2 * (self.a**2 + self.b**2)).sum() / 2
+        if q.stretching:
+            disc += q.stretching.energy(self.a, self.b)
         vertical = q.m * rate**2 / 2 + q.k * (u - q.u_0) ** 2 / 2 + q.N * u
         inplane = q.r_0**2 * (q.m * self.f**2 + q.k_p * self.psi**2) / 2
         contact = LONG(0)

@@ -81,7 +81,7 @@ def test_critical_values_of_a_mode_are_saved(tmp_path: Path) -> None:
     for units in (data["omega_2_0"].units, data["value"].units, swept["value"].units):
         assert units == "rad s-1"
     assert data["omega_2_0"].long_name == meaning
-    assert data["omega_2_0"].comment == "the mode of 2 nodal diameters and 0 circles"
+    assert data["omega_2_0"].comment == "2 nodal diameters and 0 circles"
     assert meaning in swept["border"].comment
     assert meaning in data["border"].comment
 

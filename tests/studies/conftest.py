@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 from disc_model.analysis.classify import Settled, Settling
-from disc_model.data.variables import POINT_STATUSES
+from disc_model.data.variables import WORDS
 from disc_model.errors import Status
 from disc_model.stability import attractors
 from disc_model.stability.outcome import OutcomeResult
@@ -170,13 +170,13 @@ def growth_over(N, Omega) -> xr.Dataset:
 def with_failed(study: xr.Dataset, **place) -> xr.Dataset:
     """The study with one point that failed; numbers that it has are not to be believed."""
     study = study.copy(deep=True)
-    study["status"].loc[place] = POINT_STATUSES.index("failed")
+    study["status"].loc[place] = WORDS["point_statuses"].index("failed")
     return study
 
 
 def made_up_samples(normalization: str = "orthonormal") -> tuple[xr.Dataset, xr.Dataset]:
     """Samples and exponents over three loads, for base values with this normalization."""
-    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(POINT_STATUSES)})
+    status = ("N", np.zeros(3, np.int8), {"flag_meanings": " ".join(WORDS["point_statuses"])})
     axes = {"N": ("N", [1.0, 2, 3], {"units": "N"})}
     attrs = {
         "base": json.dumps({"normalization": normalization}),

@@ -12,13 +12,7 @@ import pytest
 
 from disc_model import floquet
 from disc_model.data.described import known_of
-from disc_model.data.variables import (
-    COMMON,
-    POINT_STATUSES,
-    Variable,
-    attributes_of_number,
-    flag_names,
-)
+from disc_model.data.variables import COMMON, WORDS, Variable, attributes_of_number, flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.studies.batch import read_infinity
@@ -174,7 +168,7 @@ def test_a_numerical_failure_is_the_status_of_its_point() -> None:
         return {"status": "ok", "value": np.linalg.solve([[N]], [N**2])[0]}, ""
 
     table = compute(made_up_quantity(compute_point), [P, Q, P])
-    assert [POINT_STATUSES[i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
+    assert [WORDS["point_statuses"][i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
     np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
     assert table.messages == ["", "LinAlgError: Singular matrix", ""]
 

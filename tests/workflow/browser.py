@@ -21,9 +21,6 @@ OPTIONS = [
 OPTIONS.append("--disable-dev-shm-usage")
 
 
-CONTRAST = Path(__file__).with_name("contrast.js").read_text(encoding="utf-8")
-
-
 class Page:
     """A page opened in a browser of its own."""
 
@@ -65,16 +62,6 @@ class Page:
             "/goog/cdp/execute",
             {"cmd": "Emulation.setDeviceMetricsOverride", "params": metrics},
         )
-
-    def prefer(self, scheme: str) -> None:
-        """What the reader's system asks for: "light" or "dark"."""
-        features = [{"name": "prefers-color-scheme", "value": scheme}]
-        command = {"cmd": "Emulation.setEmulatedMedia", "params": {"features": features}}
-        self.call("POST", "/goog/cdp/execute", command)
-
-    def contrast(self, of: str) -> Any:
-        """The least contrast of these elements; the guidelines for accessible pages ask for 4.5."""
-        return self.run(CONTRAST, of)
 
     def point(self, x: float, y: float, *, click: bool = False) -> None:
         """Move the pointer to a place in the window, and click there."""

@@ -61,7 +61,6 @@ try:
         quantity_file,
         source_hash,
     )
-    from disc_model.studies.point_calls import call_of
     from disc_model.studies.study import (
         mapping,
         read_file,

@@ -1,20 +1,9 @@
-# A page that shows every grid study, motions and the report's figures: `snakemake explorer`, not part of `all`.
+# A page that shows every point of grid studies, and motions: `snakemake explorer`, not part of `all`.
 from itertools import chain
 
 # Studies of a whole plane come first.
 PLANES = ("outcome", "regions")
 EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in PLANES)
-# The report's figures, in its order.
-PICTURES = [
-    {
-        "heading": figure.section or figure.category,
-        "title": figure.title,
-        "caption": figure.caption,
-        "file": f"results/{study}/figures/{name}.png",
-    }
-    for (study, name), figure in FIGURES.items()
-    if study in (STUDY.name, *ASKED)
-]
 EXPLORER = json.dumps(
     {
         "title": STUDY.title or STUDY.name,
@@ -27,14 +16,23 @@ EXPLORER = json.dumps(
             }
             for study in EXPLORED
         ],
-        "pictures": PICTURES,
     }
 )
 
 
+def page_file(wildcards):
+    """The page, if there is what writes it."""
+    missing = [module for module in ("altair", "vl_convert") if find_spec(module) is None]
+    if missing and not CONDA:
+        raise WorkflowError(
+            f"There is no module {missing[0]}: `pip install 'disc_model[explorer]'` brings what the page needs."
+        )
+    return need([f"{RESULTS}/explorer.html"])
+
+
 rule explorer:
     input:
-        lambda wildcards: need([f"{RESULTS}/explorer.html"]),
+        page_file,
 
 
 rule compute_motions:
@@ -62,7 +60,6 @@ rule build_explorer:
     input:
         studies=[grid_file(study) for study in EXPLORED],
         motions=chain.from_iterable(map(motions_of, EXPLORED)),
-        pictures=[picture["file"] for picture in PICTURES],
     output:
         f"{RESULTS}/explorer.html",
     log:

@@ -71,26 +71,18 @@ def check_owner(files, owner):
 
 
 def stated_of(grid):
-    """What a study's file says of its page: units of the first figure that has any, axes of the first one that has two,
-    the variable of the first one that shows one, and values at which figures are drawn.
+    """What a study's file says of its page: units of figures, dimensions across and up in the first map, and what stored
+    motions are.
     """
     units = {}
-    places = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
-        places.update(getattr(plot, "at", {}))
-    maps = [plot.axes for plot in grid.plots.values() if len(plot.axes) == 2]
-    shown = [plot.variable for plot in grid.plots.values() if hasattr(plot, "variable")]
+    maps = [[plot.x, plot.y] for plot in grid.plots.values() if {"x", "y"} <= plot.axes.keys()]
     return {
-        "call": call_of(grid.quantity, grid.options).plain,
+        "units": units,
+        "axes": next(iter(maps), []),
         "motion": grid.options.motion,
         "motion_by": dict(grid.options.motion_by),
-        "units": units,
-        "has_figures": bool(grid.plots),
-        "axes": [*maps[0].values()] if maps else [],
-        "variable": shown[0] if shown else "",
-        "at": places,
-        "tables": dict(grid.file.tables),
     }
 
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from disc_model.data.dataset import load_result
 from disc_model.errors import script
-from disc_model.explorer import Picture, Stated, page, study_contents
+from disc_model.explorer import page, study_contents
 
 
 @script
@@ -19,13 +19,7 @@ def main(output: str) -> None:
             load_result(study[role]).to_dataset() if study[role] else None
             for role in ("data", "motions")
         )
-        stated = Stated(**study["stated"])
-        studies.append(study_contents(study["name"], data, motions, stated))
-    pictures = [
-        Picture(**{**picture, "file": Path(picture["file"])}) for picture in plan["pictures"]
-    ]
-    text = page(plan["title"], studies, pictures)
+        studies.append(study_contents(study["name"], data, motions, study["stated"]))
+    text = page(plan["title"], studies)
     Path(output).write_text(text, encoding="utf-8")
-    logging.info(
-        "%d studies, %d figures, %.1f MB", len(studies), len(pictures), len(text.encode()) / 1e6
-    )
+    logging.info("%d studies, %.1f MB", len(studies), len(text.encode()) / 1e6)

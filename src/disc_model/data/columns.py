@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
+from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError
 from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
-
-CONVENTIONS = "CF-1.11"
 
 
 def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
@@ -58,6 +57,7 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
     """The parameters by name: numbers in place of words where these stand for one, and nan for what
     has no value, or does not count beside another one."""
     values: dict[str, Any] = p.model_dump()
+    values["stretching"] = p.stretching
     values["disc"] = ""
     if p.disc is not None:
         values["disc"] = p.disc.model_dump_json()  # variables hold no mapping

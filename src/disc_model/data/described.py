@@ -1,6 +1,7 @@
 """What variables of datasets are, as attributes that the table of variables has: attached where results
 are merged or read, so that other words need no new computation."""
 
+from collections import ChainMap
 from collections.abc import Mapping
 from contextlib import suppress
 from types import MappingProxyType
@@ -8,27 +9,13 @@ from typing import Any
 
 import xarray as xr
 
-from disc_model.data.variables import (
-    COMMON,
-    COORDINATES,
-    OF_QUANTITIES,
-    OF_RESULTS,
-    OF_STATES,
-    SCALARS,
-    Variable,
-    attributes,
-)
-
-TEXTS = ("units", "long_name", "comment", "missing", "parameter")
-"""Attributes that the table of variables decides."""
+from disc_model.data.variables import COMMON, OF_QUANTITIES, OF_RESULTS, TEXTS, Variable, attributes
 
 
-def known_of(kind: str) -> dict[str, Variable]:
+def known_of(kind: str) -> Mapping[str, Variable]:
     """The variables of a quantity, of a class of results, or of a function of plain numbers."""
-    parts = [COMMON, *OF_QUANTITIES.get(kind, {}).values(), OF_RESULTS.get(kind, {})]
-    if kind == "Result":
-        parts.append(SCALARS)
-    return {name: variable for part in parts for name, variable in part.items()}
+    own = OF_QUANTITIES.get(kind, {}).values()
+    return ChainMap(OF_RESULTS.get(kind, {}), *own, COMMON)
 
 
 def described(
@@ -47,15 +34,10 @@ def described(
 
 
 def describe_run(tree: xr.DataTree) -> None:
-    """Have the variables in the tree of a run say what they are."""
-    of_states = {**COORDINATES, **OF_STATES}
+    """Have the variables in the tree of a named case say what they are."""
     for node in tree.subtree:
         for name, variable in node.variables.items():
-            # at the root the radii a and b, and not coordinates of modes
-            if name in of_states and node is not tree:
-                _describe(variable, of_states[str(name)].texts())
-                continue
-            with suppress(KeyError):
+            with suppress(KeyError):  # which are unknown
                 _describe(variable, attributes(str(name)))
 
 

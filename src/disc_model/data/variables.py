@@ -14,14 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from disc_model.display import counted, frequencies_text
-from disc_model.errors import Status, StatusBase
+from disc_model.errors import StatusBase
 from disc_model.mode_units import si_unit_of_mode
 from disc_model.parameters import RATIOS, Parameters
 
-# in the order of the engine's numbers for them
-PHASES = ("stick", "slip", "separation")
-EVENT_KINDS = ("stick_to_slip", "slip_to_stick", "slip_reversal", "separation", "reattachment")
-STATUSES = (*(status.value for status in Status), "failed")
+_TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
+WORDS = {name: tuple(words) for name, words in _TABLES["words"].items()}
+"""Words that the numbers of flags stand for, by the names that the table has for them."""
+PHASES, EVENT_KINDS, STATUSES = (WORDS[name] for name in ("phases", "events", "statuses"))
+UNKNOWN_OUTCOMES = ("undecided", "failed")
+"""Outcomes of starts of which it is not known what they come to."""
 
 
 class Outcome(enum.StrEnum):
@@ -81,17 +83,8 @@ def with_advice(found: str, status: StatusBase) -> str:
     return f"{found}. {status.advice}"
 
 
-# Flags of the outcomes of motions that are followed until they settle, and of those that are
-# followed to a horizon, or until they separate; `failed`: not computed.
-LONG_TERM_OUTCOMES = (
-    "failed",
-    *(word for word in Outcome if word not in (Outcome.GROWING, Outcome.SEPARATION)),
-)
-UNKNOWN_OUTCOMES = ("undecided", "failed")
-"""Outcomes of starts of which it is not known what they come to."""
-# words for motions that are followed beyond a separation
-_BEYOND_SEPARATION = (Outcome.SEPARATING, Outcome.QUASI_PERIODIC, Outcome.IRREGULAR)
-OUTCOMES_TO_HORIZON = ("failed", *(word for word in Outcome if word not in _BEYOND_SEPARATION))
+TEXTS = ("units", "long_name", "comment", "missing", "parameter")
+"""Attributes that say what a variable is."""
 
 
 class Variable(NamedTuple):
@@ -102,15 +95,9 @@ class Variable(NamedTuple):
     flags: tuple[str, ...] = ()  # the words that the values of a flag stand for
     dims: tuple[str, ...] = ()  # dimensions beyond those of the grid on which it is computed
     whole: bool = False  # whether its values are whole numbers
-    truth: bool = False  # whether they are 1 for True, 0 for False, and nan
     comment: str = ""  # the rest of the sentence of which the long name is the beginning
     missing: str = ""  # why there may be no value, such as "there is no cycle"
     parameter: str = ""  # the number of the case whose values they are, or the option that names it
-
-    @property
-    def has_classes(self) -> bool:
-        """Whether its values are words, or true or false, and so have no scale."""
-        return bool(self.flags) or self.truth
 
     @property
     def attributes(self) -> dict[str, Any]:
@@ -132,14 +119,11 @@ class Variable(NamedTuple):
         options : of the quantity, which may name the parameter whose unit, and name unless it has one
             of its own, the variable has
         """
-        texts = {"long_name": self.long_name, "comment": self.comment, "missing": self.missing}
-        if self.truth:
-            texts.update(TRUTH)
-        stated = {name: text for name, text in texts.items() if text}
+        stated = {name: getattr(self, name) for name in TEXTS[:4] if getattr(self, name)}
         if self.parameter:
             number = options.get(self.parameter, self.parameter)
             return {**attributes_of_number(number), **stated, "parameter": number}
-        return {"units": self.units, **stated} if self.units else stated
+        return stated
 
     @property
     def dtype(self) -> type[np.generic]:
@@ -164,51 +148,18 @@ class Variable(NamedTuple):
         return np.full(shape, self.unknown, dtype=self.dtype)
 
 
-STABLE_CYCLES = (
-    "stable",
-    "steady_sliding",
-    "at_rest",
-)  # motions near the static start: a cycle, sliding, rest
-POINT_STATUSES = ("ok", *(status.value for status in Status if not status.complete), "failed")
-CYCLE_STATUSES = (*(status.value for status in CycleStatus), "failed")
-
-_TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-_WORDS: Mapping[str, tuple[str, ...]] = {
-    "": (),
-    **{name: tuple(words) for name, words in _TABLES["words"].items()},
-    "events": EVENT_KINDS,
-    "phases": PHASES,
-    "statuses": STATUSES,
-    "point_statuses": POINT_STATUSES,
-    "cycle_statuses": CYCLE_STATUSES,
-    "outcomes": OUTCOMES_TO_HORIZON,
-    "sample_outcomes": ("not_simulated", *OUTCOMES_TO_HORIZON),
-    "long_term": LONG_TERM_OUTCOMES,
-    "attractors": ("none", *LONG_TERM_OUTCOMES[1:]),
-}
-"""Words of flags by the names that the table has for them."""
-_COMMON: Mapping[str, Any] = {
-    **_TABLES["modal"],
-    **_TABLES["series"],
-    **_TABLES["scalars"],
-    **_TABLES["common"],
-}
-"""What entries of quantities and results have that they do not state themselves."""
+# motions near the static start that last: a cycle, sliding, rest
+STABLE_CYCLES = ("stable", "steady_sliding", "at_rest")
+_COMMON = {**_TABLES["modal"], **_TABLES["series"], **_TABLES["scalars"], **_TABLES["common"]}
+"""What entries have that they do not state themselves."""
 
 
-def _variables(
-    table: Mapping[str, Any], common: Mapping[str, Any] = MappingProxyType({})
-) -> dict[str, Variable]:
+def _variables(table: Mapping[str, Any]) -> dict[str, Variable]:
     """The variables of a part of the table, by name."""
     variables = {}
     for name, stated in table.items():
-        entry = {"flags": "", "dims": (), **common.get(name, {}), **stated}
-        why = [_TABLES["missing"][dim] for dim in entry["dims"] if dim in _TABLES["missing"]]
-        if why and "missing" not in stated:
-            entry["missing"] = why[-1]
-        if entry["flags"] or entry.get("whole"):
-            entry.pop("missing", None)
-        entry.update(flags=_WORDS[entry["flags"]], dims=tuple(entry["dims"]))
+        entry = {"flags": "", "dims": (), **_COMMON.get(name, {}), **stated}
+        entry |= {"flags": WORDS[entry["flags"]], "dims": tuple(entry["dims"])}
         variables[name] = Variable(**entry)
     return variables
 
@@ -219,10 +170,11 @@ SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS = (
 )
 OF_ARGUMENTS = {name: _variables(part) for name, part in _TABLES["arguments"].items()}
 """Arguments of functions that are no options of a quantity, by function."""
-OF_RESULTS = {name: _variables(part, _COMMON) for name, part in _TABLES["results"].items()}
+OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
+OF_RESULTS["Result"].update(SCALARS)
 """Variables of results by their class or function, which may mean something else elsewhere."""
 OF_QUANTITIES = {
-    quantity: {name: _variables(part, _COMMON) for name, part in parts.items()}
+    quantity: {name: _variables(part) for name, part in parts.items()}
     for quantity, parts in _TABLES["quantities"].items()
 }
 """Variables of quantities, by quantity, and by what they are there: its "columns", "coordinates", its "summary",
@@ -234,15 +186,19 @@ BESIDE_WINDOWS = frozenset({*GROUPS, *SCALARS, *Parameters.model_fields})
 """Groups and variables beside the windows in a file; no window may have such a name."""
 CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
-    for name in ("normalization", "contact", "contact_force", "friction_law")
+    for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
 _OF_RATIOS = {
     name: Variable("1", f"{name_above} relative to {other}")
     for name, (name_above, other) in RATIOS.items()
 }
 # names in tables and figures of points without a stick-slip cycle, by their status
-WITHOUT_CYCLE = {"no_cycle": "no cycle found", "separates": "immediate separation"}
-WITHOUT_CYCLE |= {"no_stick_slip": "steady sliding", "at_rest": "permanent stick"}
+WITHOUT_CYCLE = {
+    "no_cycle": "no cycle found",
+    "separates": "immediate separation",
+    "no_stick_slip": "steady sliding",
+    "at_rest": "permanent stick",
+}
 EXCLUDED = (
     "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
 )
@@ -302,13 +258,15 @@ def flag_names(variable: Any) -> np.ndarray:
     values = variable.values
     if variable.dtype.kind in "UO":
         # as of words that xarray's where has masked
-        known, places = np.unique(np.where(variable.isnull(), "", values), return_inverse=True)
+        words = np.where(variable.isnull(), "", values).astype(str)
     else:
         known = np.array([*variable.attrs["flag_meanings"].split(), ""])
         # the last one is that of a missing value
-        places = np.where(np.isnan(values), -1, values).astype(int)
-    words = np.array([FORMER_WORDS.get(word, word) for word in known.tolist()], dtype=str)
-    return words[places].reshape(values.shape)
+        words = known[np.where(np.isnan(values), -1, values).astype(int)]
+    for former, word in FORMER_WORDS.items():
+        if former in words:
+            words = np.where(words == former, word, words)
+    return np.asarray(words)
 
 
 def typeset(text: str) -> str:
@@ -332,19 +290,7 @@ for _name, (_upper, _lower) in RATIOS.items():
     SHOWN[_name] = Shown("Ratio", f"{SHOWN[_upper].symbol}/{SHOWN[_lower].symbol}", "")
 
 
-class OfMode(NamedTuple):
-    """A number that the table of a disc states of each mode: its symbol for readers, and what it is."""
-
-    symbol: str
-    variable: Variable
-
-
-_OF_A_MODE = {
-    "omega": OfMode("ω", Variable("rad s-1", "natural frequency")),
-    "amplitude": OfMode("Ψ", Variable("kg^-1/2", "amplitude")),
-    "damping_ratio": OfMode("ζ", Variable("1", "damping ratio")),
-    "tangential": OfMode("t", Variable("kg^-1/2", "tangential amplitude")),
-}
+_OF_A_MODE = _variables(_TABLES["of_modes"])
 
 
 def presentation_of(name: str) -> Shown:
@@ -353,19 +299,13 @@ def presentation_of(name: str) -> Shown:
     if name in SHOWN:
         return SHOWN[name]
     column, diameters, circles = name.rsplit("_", 2)
-    number = _OF_A_MODE[column]
-    return Shown("", f"{number.symbol}({diameters}, {circles})", si_unit_of_mode(name))
-
-
-FOUND_SPEEDS = ("critical_speed", "onset_speed", "offset_speed")
-"""Variables that are speeds of the drive, which were sought."""
-_RANGE_END = re.compile("_(min|max)$")
+    return Shown("", f"{_TABLES['symbols'][column]}({diameters}, {circles})", si_unit_of_mode(name))
 
 
 def ranged_variable(name: str) -> str:
     """The sampled variable whose range a variable is an end of, such as P of P_max; the name itself of
     any other."""
-    return _RANGE_END.sub("", name)
+    return re.sub("_(min|max)$", "", name)
 
 
 def unit_of_parameter(name: str) -> str:
@@ -395,10 +335,10 @@ def value_with_unit(name: str, value: float) -> str:
 def attributes_of_mode(name: str) -> dict[str, Any]:
     """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
     column, diameters, circles = name.rsplit("_", 2)
-    number = _OF_A_MODE[column].variable
-    nodes = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
+    number = _OF_A_MODE[column]
     long_name = f"{number.long_name} of the mode ({diameters}, {circles})"
-    return number._replace(long_name=long_name, comment=f"the mode of {nodes}").attributes
+    lines = counted(int(diameters), "nodal diameter"), counted(int(circles), "circle")
+    return number._replace(long_name=long_name, comment=" and ".join(lines)).attributes
 
 
 def attributes_of_number(name: str) -> dict[str, Any]:
@@ -408,57 +348,34 @@ def attributes_of_number(name: str) -> dict[str, Any]:
     return attributes_of_mode(name)
 
 
-def axis_of(name: str, where: str = "") -> tuple[str, float]:
-    """Label of an axis, with a text after the name, such as an angle; and the factor from SI to its
-    unit."""
-    shown = presentation_of(name)
-    unit = f" ({shown.unit})" if shown.unit else ""
-    return typeset(f"{shown.name} {shown.symbol}".strip()) + where + unit, shown.factor
-
-
 def stated_in(study: Any, what: str) -> dict[str, Any]:
     """What the dataset of a grid study or of a sweep states, such as its "base" or "options"; empty
     without."""
     return json.loads(study.attrs.get(what, "{}"))
 
 
-def _disc_text(frequencies: Sequence[float | None]) -> str:
-    """What tells a disc that is given by its modes from others, whose table is too long: how many
-    there are, and the range of their frequencies, given in rad/s, unless one is None, as it varies."""
-    counted_modes = f"a disc given by {counted(len(frequencies), 'mode')}"
-    known = [omega for omega in frequencies if omega is not None]
-    if len(known) < len(frequencies):
-        return counted_modes
-    return f"{counted_modes} of {frequencies_text(known)}"
-
-
 def values_text(
     values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})
 ) -> str:
     """N, Omega and all values that differ from Table 1, in units of `SHOWN` or in `units`, with
-    factors from SI."""
+    factors from SI; of a disc that is given by its modes their number and frequencies."""
     texts = []
     for name, field in Parameters.model_fields.items():
-        if name in values and name not in ("normalization", "contact"):
-            value = values[name]
-            if name == "disc" and value:
-                texts.append(
-                    _disc_text(value["omega"] if isinstance(value, Mapping) else value.omega)
-                )
-            elif name in ("N", "Omega") or value != field.default:
-                shown = SHOWN.get(name) or Shown(
-                    name, name, Parameters.unit(name).removeprefix("1")
-                )
-                unit, factor = units.get(name, (shown.unit, shown.factor))
-                number = isinstance(
-                    value, float | int
-                )  # some parameters may be words, which have no unit
-                unit = unit if value else unit.removeprefix("10⁻⁵ ")
-                text = (
-                    f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵")
-                    if number
-                    else str(value)
-                )
-                texts.append(f"{shown.symbol or name} = {text}")
+        value: Any = values.get(name)
+        is_usual = value in (field.default, str(field.default)) and name not in ("N", "Omega")
+        if name not in values or is_usual or name in ("normalization", "contact"):
+            continue
+        if name == "disc":
+            omega = dict(value)["omega"]
+            modes = counted(len(omega), "mode")
+            texts.append(f"a disc given by {modes} of {frequencies_text(omega)}")
+            continue
+        shown = SHOWN.get(name) or Shown(name, name, Parameters.unit(name).removeprefix("1"))
+        unit, factor = units.get(name, (shown.unit, shown.factor))
+        text = str(value)  # some parameters may be words, which have no unit
+        if isinstance(value, float | int):
+            unit = unit if value else unit.removeprefix("10⁻⁵ ")
+            text = f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵")
+        texts.append(f"{shown.symbol or name} = {text}")
     texts += [f"{SHOWN[name].symbol} = {values[name]:g}" for name in RATIOS if name in values]
     return ", ".join(texts)

@@ -102,6 +102,15 @@ def mode_shapes(p: Parameters, r: Array) -> Array:
     return around[:, None] * radial / root_of_mass
 
 
+def mode_slopes(p: Parameters, r: Array) -> tuple[Array, Array]:
+    """Amplitudes of the modes of a plate at radii r (m, shape (k,)), and their derivatives by r, in
+    kg^-1/2 and kg^-1/2 m^-1, both (n_modes, k)."""
+    shapes = _shapes(p.a / p.b, p.nu, p.n_diameters, p.n_circles)
+    value, slope = shapes.with_slopes(r / p.b, p.normalization == "orthonormal")
+    scale = np.where(shapes.l > 0, np.sqrt(2), 1.0) / np.sqrt(p.rho * p.h * p.b**2)
+    return scale[:, None] * value, scale[:, None] * slope / p.b
+
+
 def radial_range(p: Parameters) -> tuple[float, float]:
     """Least and greatest radius (m) of the known shapes; raises ParameterError if the table of a
     disc has none."""
@@ -306,6 +315,18 @@ class _Shapes:
             rule = "overflows when its coefficient of J_l is 1; use fewer diameters or normalization='orthonormal'"
             raise ModeError(f"normalization='as_published': {mode} {rule}")
         return amplitude
+
+    def with_slopes(self, x: Array, orthonormal: bool) -> tuple[Array, Array]:
+        """R and its derivative at radii x (k,) of every mode in the requested normalisation, both
+        (n, k)."""
+        value, slope, logs = _with_slope(self.l[:, None], self.lam[:, None] * x)
+        factors = self.coefficients[..., None] * np.exp(logs - self.exponents[..., None])
+        scale = self.norm**-0.5
+        if not orthonormal:
+            scale = np.exp(self.exponents[0]) / self.coefficients[0]
+        R = np.sum(factors * value, axis=0)
+        rate = self.lam[:, None] * np.sum(factors * slope, axis=0)
+        return scale[:, None] * R, scale[:, None] * rate
 
 
 @lru_cache(maxsize=256)

@@ -21,6 +21,7 @@ from .jit import helper, inlined
 from .laws import friction_coefficient, hold_per_radius
 from .model import drive_now, load_now
 from .state import DIRECTION, PHASE, PHI_RATE, PSI, SEPARATION, SLIP, STICK, U_VELOCITY, U
+from .stretching import membrane_at, membrane_force0
 from .transitions import (
     disc_point,
     inplane_force_per_radius,
@@ -61,6 +62,8 @@ def transverse_energy(model, state, phase):
     u = state.x[U]
     v = state.x[U_VELOCITY]
     energy = 0.0
+    if model.has_stretching:
+        membrane_at(model, state)
     if phase != SEPARATION:
         if model.has_compliance:
             w, _, _ = disc_point(model, state)
@@ -69,8 +72,12 @@ def transverse_energy(model, state, phase):
             u, v, _ = disc_point(model, state)
     for j in range(len(model.shift)):
         energy += state.e[j] ** 2 + model.stiffness[j] * state.z[j] ** 2
+        if model.has_stretching:
+            energy += 0.5 * state.membrane[j] * state.z[j]
     for j in range(len(model.mode_amplitude0)):
         energy += state.g[j] ** 2 + model.stiffness0[j] * state.y[j] ** 2
+        if model.has_stretching:
+            energy += 0.5 * membrane_force0(model, state.membrane, 1, 0, j) * state.y[j]
     raised = u - model.u_0
     slider = 0.5 * model.m * v * v + 0.5 * model.k * raised**2
     return 0.5 * energy + slider + load_now(model, state) * raised

@@ -31,6 +31,7 @@ from .state import (
 from .stick_modes import Components, StickModes, build_stick_modes, no_modes
 
 ROWS = 48  # number of coefficients of a series
+MEMBRANE_GROUP = 3  # vectors of the membrane's products that one loop takes side by side
 MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of them must not overflow
 
 # Rows of ``Model.lanes``. Sums over lanes of a row times the displacements z, or the velocities e:
@@ -57,6 +58,33 @@ MOST_FREE = 1e4  # longest ``Model.free_unit``: the highest power of eight of th
     SLOPE_RATE,
 ) = range(14)
 _N_ROWS = SLOPE_RATE + ROWS
+
+
+@packed()
+class Membrane(NamedTuple):
+    """The membrane of a plate that stretches, see `stretching`: the map from s to K, vector by
+    vector, and where numbers stand in work space."""
+
+    owns: np.ndarray  # vectors of displacements: blocks of pairs, and modes without nodal diameter
+    groups: np.ndarray  # the first group of vectors with each of these, and their number
+    partners: np.ndarray  # vector of displacements that each vector multiplies it by, (vectors,)
+    sources: np.ndarray  # the first vector of K that is the same, (vectors,)
+    begins: np.ndarray  # first entry of each vector of K, (vectors + 1,)
+    places: np.ndarray  # of the number of s that an entry multiplies, (entries,)
+    values: np.ndarray  # the vector by which, (entries * 8,)
+    table: np.ndarray  # place of K_ij; i, j: lanes, then modes without nodal diameter
+    rest: np.ndarray  # static displacements of these
+    softness: float  # -du_0 / dN, m/N
+    displacements: int  # where sections of the work space begin, for one order
+    coefficients: int
+    products: int
+    length: int  # of the work space beyond ``products``
+
+
+_NONE = np.zeros(0, np.int64)
+NO_MEMBRANE = Membrane(
+    _NONE, _NONE, _NONE, _NONE, _NONE, _NONE, np.zeros(0), _NONE, np.zeros(0), 0.0, 0, 0, 0, 0
+)
 
 
 @packed()
@@ -110,12 +138,14 @@ class Model(NamedTuple):
     onset_friction: float  # coefficient of friction where slip begins
     viscous: float  # r_0 times ``viscous_friction``, s/rad
     modes: StickModes  # closed form of stick
+    membrane: Membrane
     has_more_blocks: tuple[bool, ...]  # whether there is more than one block of lanes
     has_compliance: tuple[bool, ...]  # whether the contact is compliant
     has_normal_force: tuple[bool, ...]  # whether the contact force is normal to the bent disc
     has_moving_surface: tuple[bool, ...]  # whether the surface on which friction acts moves
     has_varying_friction: tuple[bool, ...]  # whether friction in slip depends on the speed
     has_exponential_friction: tuple[bool, ...]  # whether it falls exponentially, not as a hyperbola
+    has_stretching: tuple[bool, ...]  # whether the plate stretches
     has_ramp: tuple[bool, ...] = ()  # whether Omega and N may change with time
     ramp_begin: float = 0.0  # s
     ramp_angle: float = 0.0  # rad, of the drive point at the ramp's begin
@@ -132,6 +162,11 @@ class DiscModes(NamedTuple):
     psi_at_point: np.ndarray  # of a single point at r_0: a pad has the mean over its arc
     damping: np.ndarray  # 2 xi omega, 1/s
     tangential: np.ndarray  # amplitude at the surface on which friction acts, kg^-1/2
+    # of a plate that stretches: the tensor T of `stretching`, static displacements a under the
+    # preload, shape (n_modes,), and -du_0/dN of rigid contact, m/N
+    quartic: np.ndarray = np.zeros((0, 0, 0, 0))
+    rest: np.ndarray = np.zeros(0)
+    softness: float = 0.0
 
 
 class Contact(NamedTuple):
@@ -168,6 +203,11 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
     free_unit = _time_unit(omega, 0.0, slider_rate) / unit
 
     rows = _rows(modes, unit)
+    membrane = NO_MEMBRANE
+    u_0 = -N * (float(np.sum(psi**2 / omega**2)) + compliance)
+    if modes.quartic.size:
+        membrane = _membrane(modes, compliance)
+        u_0 = float(psi @ modes.rest) - N * compliance
     return Model(
         lanes=_in_blocks(rows),
         shift=rows[SHIFT],
@@ -179,7 +219,7 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         damping0=modes.damping[single],
         mode_amplitude0=psi[single],
         **slider,
-        u_0=-N * (float(np.sum(psi**2 / omega**2)) + compliance),
+        u_0=u_0,
         inverse_effective_mass=S,
         damped_inverse_mass=float(np.sum(modes.damping * psi**2)),
         unit=unit,
@@ -198,14 +238,19 @@ def build_model(modes: DiscModes, slider: Mapping[str, Any], contact: Contact) -
         fall_of_friction=slider["mu_s"] - slider["mu_k"] if falls else 0.0,
         onset_friction=slider["mu_s"] if falls else slider["mu_k"],
         viscous=slider["r_0"] * float(contact.viscous_friction),
-        # under the normal force friction in stick is no linear function of the state
-        modes=no_modes() if contact.normal else _stick_modes(modes, slider, compliance, unit),
+        # under the normal force friction in stick is no linear function of the state, nor is the
+        # membrane's force
+        modes=no_modes()
+        if contact.normal or modes.quartic.size
+        else _stick_modes(modes, slider, compliance, unit),
+        membrane=membrane,
         has_more_blocks=_flag(rows.shape[1] > WIDTH),
         has_compliance=_flag(compliance),
         has_normal_force=_flag(contact.normal),
         has_moving_surface=_flag(np.any(rows[TANGENTIAL])),
         has_varying_friction=_flag(falls or contact.viscous_friction > 0.0),
         has_exponential_friction=_flag(falls and contact.exponential),
+        has_stretching=_flag(modes.quartic.size),
     )
 
 
@@ -255,6 +300,94 @@ def _in_blocks(rows: np.ndarray) -> np.ndarray:
     return lanes
 
 
+def _membrane(modes: DiscModes, compliance: float) -> Membrane:
+    """Return the membrane of modes with a ``quartic`` form."""
+    pairs = np.flatnonzero(modes.diameters > 0)
+    single = np.flatnonzero(modes.diameters == 0)
+    width = lanes_for(len(pairs))
+    n = width + len(single)
+
+    # T of lanes and of modes without nodal diameter, where n stands for none
+    of_a = pair_lanes(len(pairs))
+    places = np.concatenate([of_a, of_a + HALF, np.arange(width, n)])
+    of_b = len(modes.diameters) + np.arange(len(pairs))
+    coordinates = np.concatenate([pairs, of_b, single])
+    T = np.zeros(4 * (n + 1,))
+    T[np.ix_(*4 * [places])] = modes.quartic[np.ix_(*4 * [coordinates])]
+    rest = np.zeros(n)
+    rest[places] = np.append(modes.rest, np.zeros(len(pairs)))[coordinates]
+
+    # vectors of displacements, and groups of partners of an own
+    lane = np.arange(WIDTH)
+    vectors = [b + (lane ^ r) for b in range(0, width, WIDTH) for r in range(WIDTH)]
+    vectors += [np.full(WIDTH, j) for j in range(width, n + 1)]
+    owns = [*range(0, width, WIDTH), *range(width, n)]
+    groups = [0]
+    partners: list[int] = []
+    for own in owns:
+        partners += range(n) if own < width else owns
+        partners += [n] * (-len(partners) % MEMBRANE_GROUP)
+        groups.append(len(partners) // MEMBRANE_GROUP)
+
+    # both factors in each lane of each vector; two modes without nodal diameter fill one lane
+    of_own = np.repeat(np.array(vectors)[owns], np.diff(groups) * MEMBRANE_GROUP, axis=0)
+    of_partner = np.array(vectors)[partners]
+    of_partner[(of_own >= width) & (of_partner >= width) & (lane > 0)] = n
+    table = np.zeros((n + 1, n + 1), np.int64)
+    sources = np.arange(len(partners))
+    for v, (i, j) in enumerate(zip(of_own, of_partner, strict=True)):
+        if i[0] >= width > j[0]:  # a mode by a block is the block by this mode
+            sources[v] = table[j[0], i[0]] // WIDTH
+        table[i, j] = sources[v] * WIDTH + lane
+    begins, columns, values = _map_of(T, of_own, of_partner)
+    coefficients = (len(owns) + len(vectors)) * WIDTH
+    products = coefficients + len(partners) * WIDTH
+    return Membrane(
+        owns=np.array(owns),
+        groups=np.array(groups),
+        partners=np.array(partners),
+        sources=sources,
+        begins=begins,
+        places=columns,
+        values=values,
+        table=table[:n, :n].ravel(),
+        rest=rest,
+        softness=modes.softness + compliance,
+        displacements=len(owns) * WIDTH,
+        coefficients=coefficients,
+        products=products,
+        length=len(partners) * WIDTH,
+    )
+
+
+def _map_of(T: np.ndarray, own: np.ndarray, partner: np.ndarray) -> tuple[np.ndarray, ...]:
+    """Return ``begins``, ``places`` and ``values`` of a `Membrane`; own, partner: both factors of
+    each vector, (vectors, 8)."""
+    product = np.minimum(own, partner) * len(T) + np.maximum(own, partner)
+    products, first = np.unique(product, return_index=True)  # a place of each
+    k, l = np.divmod(products, len(T))
+    by_product = np.where(k == l, 1.0, 2.0) * T[:, :, k, l]
+    begins = [0]
+    places: list[int] = []
+    values: list[np.ndarray] = []
+    for rows in by_product[own, partner]:
+        used = np.flatnonzero(rows.any(axis=0))
+        places += first[used].tolist()
+        values += [*rows[:, used].T]
+        if len(places) % 2:  # entries are taken in twos
+            places.append(0)
+            values.append(np.zeros(WIDTH))
+        begins.append(len(places))
+    flat = aligned(len(values) * WIDTH)
+    flat[:] = np.ravel(values)
+    return np.array(begins), np.array(places), flat
+
+
+def work_space(model: Model, orders: int) -> int:
+    """Return the length of the work space of `stretching` for so many orders."""
+    return orders * model.membrane.products + model.membrane.length
+
+
 def _point_amplitudes(modes: DiscModes) -> np.ndarray:
     """Return ``Model.point_amplitude``."""
     pairs = np.flatnonzero(modes.diameters > 0)
@@ -298,13 +431,17 @@ def build_state(model: Model) -> EngineState:
     """Return the static start: equilibrium under the preload, in stick, spring relaxed."""
     width = len(model.mode_amplitude)
     n_single = len(model.mode_amplitude0)
-    state = views_of_disc(width, n_single, bool(model.has_compliance))
+    compliant = bool(model.has_compliance)
+    state = views_of_disc(width, n_single, compliant, work_space(model, 1))
+    state.x[U] = model.u_0
+    state.x[PHASE] = STICK
+    if model.has_stretching:
+        state.z[:], state.y[:] = np.split(model.membrane.rest, [width])
+        return state
     exists = model.stiffness > 0
     np.divide(-model.N * model.mode_amplitude, model.stiffness, out=state.z, where=exists)
     exists0 = model.stiffness0 > 0
     np.divide(-model.N * model.mode_amplitude0, model.stiffness0, out=state.y, where=exists0)
-    state.x[U] = model.u_0
-    state.x[PHASE] = STICK
     return state
 
 

@@ -70,6 +70,7 @@ from .series import (
     velocity,
     velocity_at,
 )
+from .stretching import membrane_force, membrane_force0, membrane_order
 
 # ---- Sums over all modes
 
@@ -153,6 +154,8 @@ def begin_turning(model, series):
     f_0 = series.f[0]
     up = series.up[0]
     zero = splat(0.0)
+    if model.has_stretching:
+        membrane_order(model, series, 0)
     now = zero
     now_along = zero
     pending = zero
@@ -170,6 +173,9 @@ def begin_turning(model, series):
 
         # the modes' own equations
         bound = constants(model, DAMPING, b) * e + constants(model, STIFFNESS, b) * z
+        if model.has_stretching:
+            bound = bound + membrane_force(series.membrane, ROWS, 0, b)
+            now, now_along = _pulled_back(model, series, 0, b, now, now_along)
         z_next = (e + f_0 * (shift * swap_halves(z))) * up
         e_next = (f_0 * (shift * swap_halves(e)) - bound) * up
         carried = f_0 * z_next
@@ -220,6 +226,8 @@ def next_turning(model, series, k, f_k, V_impulse, H_impulse, pending):
     """
     push = pushed(model, V_impulse, H_impulse)
     up, along = pending
+    if model.has_stretching:
+        membrane_order(model, series, k)
     next_up = splat(0.0)
     next_along = splat(0.0)
     for b in range(0, lane_count(model), WIDTH):
@@ -252,6 +260,8 @@ def _turning_block(model, series, b, k, f_k, push, next_along):
     along = splat(0.0)
     if model.has_moving_surface:
         along = constants(model, TANGENTIAL_TURN, b) * e_inner
+    if model.has_stretching:
+        part, along = _pulled_back(model, series, k, b, part, along)
 
     # velocities of order k, displacements of order k + 1
     shift = constants(model, SHIFT, b)
@@ -265,6 +275,8 @@ def _turning_block(model, series, b, k, f_k, push, next_along):
 
     # velocities of order k + 1
     bound = damping * e + constants(model, STIFFNESS, b) * z_last
+    if model.has_stretching:
+        bound = bound + membrane_force(series.membrane, ROWS, k, b)
     turned = swap_halves(e_inner + f_k * velocity(series, 0, b) + f_0 * e)
     e_next = (shift * turned - bound) * up
     put_velocity(series, k, b, e)
@@ -275,6 +287,16 @@ def _turning_block(model, series, b, k, f_k, push, next_along):
     if model.has_moving_surface:
         next_along = _known_along(model, series, b, e_next, z_next, next_along)
     return Parts(part, along), Parts(next_up, next_along)
+
+
+@inlined
+def _pulled_back(model, series, k, b, up, along):
+    """What the membrane's force on a block changes of the `Parts` of order k, added to these."""
+    force = membrane_force(series.membrane, ROWS, k, b)
+    up = up - constants(model, AMPLITUDE, b) * force
+    if model.has_moving_surface:
+        along = along - constants(model, TANGENTIAL, b) * force
+    return up, along
 
 
 @inlined
@@ -408,6 +430,18 @@ def begin_stick(model, series):
 
 
 @inlined
+def stretched_stick(model, series, k, parts):
+    """Enter the membrane's force of order k in stick. Returns the `Parts` of order k with what it
+    changes."""
+    up, along = parts
+    if model.has_stretching:
+        membrane_order(model, series, k)
+        for b in range(0, lane_count(model), WIDTH):
+            up, along = _pulled_back(model, series, k, b, up, along)
+    return Parts(up, along)
+
+
+@inlined
 def next_stick(model, series, k, V_impulse, H_impulse):
     """Order k of all modes in stick, from the forces V and H of order k - 1 times unit / k.
 
@@ -422,6 +456,8 @@ def next_stick(model, series, k, V_impulse, H_impulse):
         z = displacement(series, k, b)
         e = velocity(series, k, b) + push * constants(model, FORCES, b)
         bound = constants(model, DAMPING, b) * e + constants(model, STIFFNESS, b) * z
+        if model.has_stretching:
+            bound = bound + membrane_force(series.membrane, ROWS, k, b)
         z_next = e * up
         e_next = 0.0 - bound * up
         put_velocity(series, k, b, e)
@@ -490,6 +526,8 @@ def _axisymmetric_mode(model, series, k, j, V_impulse):
     amplitude = item(model.mode_amplitude0, j)
     damping = item(model.damping0, j)
     pull = item(model.stiffness0, j) * item(series.y, at)
+    if model.has_stretching:
+        pull += membrane_force0(model, series.membrane, ROWS, k, j)
     g = item(series.g, at)
     part = -amplitude * (damping * g + pull)
     g -= amplitude * V_impulse

@@ -45,6 +45,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
+from .stretching import membrane_change, membrane_force0
 from .tangent import point_change, surface_change
 from .transitions import (
     AT_REST,
@@ -80,6 +81,8 @@ def rates(model, state, out):
         shift = model.shift[j]
         other = other_lane(j)
         own = -model.damping[j] * state.e[j] - model.stiffness[j] * state.z[j]
+        if model.has_stretching:
+            own -= state.membrane[j]
         out[j * WIDTH] = state.e[j] + shift * f * state.z[other]
         row = velocity_place(model, j)
         out[row * WIDTH] = own + shift * f * state.e[other] - model.mode_amplitude[j] * V
@@ -87,6 +90,8 @@ def rates(model, state, out):
             out[row * WIDTH] += model.tangential[j] * H
     for j in range(len(model.mode_amplitude0)):
         own = -model.damping0[j] * state.g[j] - model.stiffness0[j] * state.y[j]
+        if model.has_stretching:
+            own -= membrane_force0(model, state.membrane, 1, 0, j)
         out[displacement0_place(model, j) * WIDTH] = state.g[j]
         out[velocity0_place(model, j) * WIDTH] = own - model.mode_amplitude0[j] * V
 
@@ -160,6 +165,15 @@ def put_changes(model, state, tangent, rows, block, changes):
 
 
 @inlined
+def _stretched(model, state, j):
+    """Displacement in lane j, with that which the membrane's force would make: what a change of
+    stiffness multiplies, as it is the plate's material that changes."""
+    if model.has_stretching:
+        return state.z[j] + state.membrane[j] / model.stiffness[j]
+    return state.z[j]
+
+
+@inlined
 def _free_change(model, state, tangent, rows, block, changes):
     """Change of A, ``laws.Instant.free`` (lanes); arguments as in `put_changes`."""
     at = now_at(tangent, block)
@@ -178,20 +192,28 @@ def _free_change(model, state, tangent, rows, block, changes):
             part = part - model.damping[j] * entry(rows, at, alpha_row)
             part = part + (2.0 * l * f) * entry(rows, at, beta_row)
             part = part + (2.0 * l * state.e[i] - 2.0 * l * l * f * state.z[j]) * df
+            if model.has_stretching:
+                part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, j)
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
-                part = part - state.z[j] * d_stiffness - state.e[j] * d_damping
+                part = part - _stretched(model, state, j) * d_stiffness - state.e[j] * d_damping
             acceleration = acceleration + model.mode_amplitude[j] * part
     for j in range(len(model.mode_amplitude0)):
         y_row = displacement0_place(model, j)
         g_row = velocity0_place(model, j)
         part = -model.stiffness0[j] * entry(rows, at, y_row)
         part = part - model.damping0[j] * entry(rows, at, g_row)
+        if model.has_stretching:
+            row = len(model.shift) + j
+            part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, row)
         if changes:
             d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + y_row)
             d_damping = entry(tangent.inputs, inputs, N_INPUTS + g_row)
-            part = part - state.y[j] * d_stiffness - state.g[j] * d_damping
+            y = state.y[j]
+            if model.has_stretching:
+                y += membrane_force0(model, state.membrane, 1, 0, j) / model.stiffness0[j]
+            part = part - y * d_stiffness - state.g[j] * d_damping
         acceleration = acceleration + model.mode_amplitude0[j] * part
     return acceleration
 
@@ -212,10 +234,12 @@ def _along_change(model, state, tangent, rows, block, changes):
             part = -model.stiffness[i] * entry(rows, at, i)
             part = part - model.damping[i] * entry(rows, at, velocity_place(model, i))
             part = part - (l * f) * entry(rows, at, alpha_row) - (l * state.e[j]) * df
+            if model.has_stretching:
+                part = part - membrane_change(model, state.membrane, 1, 0, rows, at, 0, i)
             if changes:
                 d_stiffness = entry(tangent.inputs, inputs, N_INPUTS + j)
                 d_damping = entry(tangent.inputs, inputs, N_INPUTS + alpha_row)
-                part = part - state.z[i] * d_stiffness - state.e[i] * d_damping
+                part = part - _stretched(model, state, i) * d_stiffness - state.e[i] * d_damping
             acceleration = acceleration + model.tangential[i] * part
     return acceleration
 

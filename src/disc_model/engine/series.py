@@ -11,7 +11,7 @@ import numpy as np
 from .jit import inlined
 from .jit.packing import Part, packed
 from .jit.simd import WIDTH, aligned, load, store
-from .model import ROWS, Model, drive_now, load_now
+from .model import ROWS, Model, drive_now, load_now, work_space
 from .state import PHI_RATE, PSI, SURFACE_TURN, U_VELOCITY, U
 from .stick_modes import padded
 
@@ -77,6 +77,7 @@ class Series(NamedTuple):
     amplitudes: (
         np.ndarray
     )  # of the modes of stick: real, imaginary parts; then those at a later time
+    membrane: np.ndarray  # work space of `stretching`
 
 
 def build_series(model: Model, order: int) -> Series:
@@ -95,6 +96,7 @@ def build_series(model: Model, order: int) -> Series:
         g=aligned(ROWS * n_single),
         roots=aligned(_ROOT_ROWS * (padded(order + 1) + WIDTH)).reshape(_ROOT_ROWS, -1),
         amplitudes=aligned(4 * len(model.modes.gain)),
+        membrane=aligned(work_space(model, ROWS)),
         quantities=quantities,
         **rows,
     )

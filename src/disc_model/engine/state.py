@@ -47,6 +47,7 @@ class EngineState(NamedTuple):
     y: np.ndarray  # displacements of the modes without nodal diameter
     g: np.ndarray  # their velocities
     x: np.ndarray  # scalars, at the places above
+    membrane: np.ndarray  # work space of `stretching`, for one order; empty if no plate stretches
 
 
 # ---- Places in the array of modes, and in columns
@@ -101,12 +102,13 @@ def disc_size(width: int, n_single: int, compliant: bool) -> int:
     return padded(2 * (width + n_single) + slider)
 
 
-def views_of_disc(width: int, n_single: int, compliant: bool) -> EngineState:
-    """Return a state of zeros, for so many lanes and modes without nodal diameter."""
+def views_of_disc(width: int, n_single: int, compliant: bool, membrane: int = 0) -> EngineState:
+    """Return a state of zeros, for so many lanes and modes without nodal diameter; membrane: length
+    of its work space."""
     disc = aligned(disc_size(width, n_single, compliant))
     ends = np.cumsum([width, width, n_single, n_single])
     z, e, y, g, _ = np.split(disc, ends)
-    return EngineState(disc, z, e, y, g, np.zeros(SCALARS))
+    return EngineState(disc, z, e, y, g, np.zeros(SCALARS), aligned(membrane))
 
 
 # ---- What Python reads and writes

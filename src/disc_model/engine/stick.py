@@ -15,6 +15,7 @@ from .modes import (
     put_last_forces,
     rest_on_disc,
     slope,
+    stretched_stick,
     surface_velocity,
 )
 
@@ -39,6 +40,7 @@ def stick_series(model, series, order):
     V_impulse = 0.0
     H_impulse = 0.0
     for k in range(order):
+        pending = stretched_stick(model, series, k, pending)
         pairs = total(pending.up)
         along = pending.along
         single, pending = next_stick(model, series, k, V_impulse, H_impulse)

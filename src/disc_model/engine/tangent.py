@@ -53,6 +53,7 @@ from .state import (
     velocity0_place,
     velocity_place,
 )
+from .stretching import membrane_change, membrane_force0, membrane_force_on
 
 
 def longest_step(order: int, tolerance: float) -> float:
@@ -236,6 +237,15 @@ def _pair_rates(model, series, tangent, block, k, j, phase):
     # the modes' own equations
     rate_alpha = 0.0 - (model.stiffness[j] * da + model.damping[j] * d_alpha)
     rate_beta = 0.0 - (model.stiffness[j] * db + model.damping[j] * d_beta)
+    if model.has_stretching:
+        stride = tangent.rows * WIDTH
+        work = series.membrane
+        rate_alpha = rate_alpha - membrane_change(
+            model, work, ROWS, k, tangent.series, here, stride, j
+        )
+        rate_beta = rate_beta - membrane_change(
+            model, work, ROWS, k, tangent.series, here, stride, i
+        )
     if phase != STICK:
         l = model.shift[j]
         turned = _turned(model, series, tangent, block, k, j)
@@ -255,6 +265,10 @@ def _pair_rates(model, series, tangent, block, k, j, phase):
         b = series.modes[z + HALF]
         alpha = series.modes[e]
         beta = series.modes[e + HALF]
+        if model.has_stretching:
+            # it is the plate's material that changes, and with it the membrane in the same ratio
+            a += membrane_force_on(series.membrane, ROWS, k, j) / model.stiffness[j]
+            b += membrane_force_on(series.membrane, ROWS, k, j + HALF) / model.stiffness[j]
         rate_alpha = rate_alpha - (d_stiffness * a + d_damping * alpha)
         rate_beta = rate_beta - (d_stiffness * b + d_damping * beta)
     db_next = d_beta * up
@@ -332,12 +346,20 @@ def _axisymmetric_rates(model, series, tangent, block, k, j):
     dy = entry(tangent.series, here, y_row)
     dg = entry(tangent.series, here, g_row)
     rate = 0.0 - (model.stiffness0[j] * dy + model.damping0[j] * dg)
+    if model.has_stretching:
+        stride = tangent.rows * WIDTH
+        row = len(model.shift) + j
+        rate = rate - membrane_change(
+            model, series.membrane, ROWS, k, tangent.series, here, stride, row
+        )
     if has_inputs(tangent, block):
         at = inputs_at(tangent, block)
         d_stiffness = entry(tangent.inputs, at, N_INPUTS + y_row)
         d_damping = entry(tangent.inputs, at, N_INPUTS + g_row)
         y = series.y[j * ROWS + k]
         g = series.g[j * ROWS + k]
+        if model.has_stretching:
+            y += membrane_force0(model, series.membrane, ROWS, k, j) / model.stiffness0[j]
         rate = rate - (d_stiffness * y + d_damping * g)
     put_entry(tangent.series, there, y_row, dg * series.up[k])
     put_entry(tangent.series, there, g_row, rate)

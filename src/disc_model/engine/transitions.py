@@ -23,6 +23,7 @@ from .state import (
     U_VELOCITY,
     U,
 )
+from .stretching import membrane_at, membrane_force, membrane_force0
 
 # Exit codes of events, of runs and of integrations. The motion continues after an event, after a
 # pause because a buffer is full, after a stop at the first loss of contact, and at the end time or
@@ -96,6 +97,8 @@ def free_acceleration(model, state):
         turned = f * load(model.shift, b)
         stiffness = load(model.stiffness, b) + turned * turned
         pull = stiffness * z + load(model.damping, b) * e
+        if model.has_stretching:
+            pull = pull + membrane_force(state.membrane, 1, 0, b)
         # 2 l f beta_l: dw_dtheta is l psi_l in the lanes of b
         driven = (2.0 * f) * (load(model.dw_dtheta, b) * e)
         part = driven - load(model.mode_amplitude, b) * pull
@@ -105,6 +108,8 @@ def free_acceleration(model, state):
     size = total(sizes)
     for j in range(len(model.mode_amplitude0)):
         pull = model.damping0[j] * state.g[j] + model.stiffness0[j] * state.y[j]
+        if model.has_stretching:
+            pull += membrane_force0(model, state.membrane, 1, 0, j)
         part = -model.mode_amplitude0[j] * pull
         acceleration += part
         size += abs(part)
@@ -140,6 +145,8 @@ def surface_acceleration(model, state):
         for b in range(0, len(model.shift), WIDTH):
             e = load(state.e, b)
             pull = load(model.stiffness, b) * load(state.z, b) + load(model.damping, b) * e
+            if model.has_stretching:
+                pull = pull + membrane_force(state.membrane, 1, 0, b)
             turned = f * (load(model.shift, b) * swap_halves(e))
             part = load(model.tangential, b) * (turned - pull)
             parts = parts + part
@@ -157,7 +164,10 @@ def slider_rate(model, state):
 
 @inlined
 def instant(model, state):
-    """Return the arguments of the laws of contact, and `Sizes`."""
+    """Return the arguments of the laws of contact, and `Sizes`. Enters the membrane's force at the
+    state."""
+    if model.has_stretching:
+        membrane_at(model, state)
     w, velocity, dw_dtheta = disc_point(model, state)
     acceleration, size = free_acceleration(model, state)
     along, along_size = surface_acceleration(model, state)

@@ -1,16 +1,14 @@
 """Figures of motions over a parameter: what they come to, from where, and after how long they
 repeat."""
 
-from typing import Annotated, Any
+from itertools import groupby
+from operator import itemgetter
+from typing import Annotated
 
 import numpy as np
-import pandas as pd
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
-from pydantic import Field
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
@@ -19,7 +17,9 @@ from disc_model.figures.draw import (
     each_value,
     lines,
     mark_points,
+    once,
     panels,
+    rate_axis,
     shares,
     strip,
     threshold,
@@ -27,25 +27,26 @@ from disc_model.figures.draw import (
 from disc_model.figures.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED
 from disc_model.figures.schema import Role, grid_figure
 from disc_model.figures.shown import label, placed, value_text
+from disc_model.figures.stability import stable_between, thicken
 from disc_model.units import Finite, Unit
 
-Named = Annotated[dict[str, Finite] | None, Unit(of="x")]
+Named = Annotated[dict[str, Finite], Unit(of="x")]
 """Values of x by names."""
+NOTHING: dict[str, float] = {}
+
+
+def _places(along: xr.DataArray, values: dict[str, float]) -> dict[str, float]:
+    """Named values in the unit of an axis."""
+    return {name: placed(along, value) for name, value in values.items()}
 
 
 # ---- Bifurcation diagrams
 
-MARKS: dict[str, dict[str, Any]] = {
-    "stick": {"marker": "4", "ms": 4.0, "mew": 0.6},
-    "slip": {"marker": ".", "ms": 1.5},
-    "separation": {"marker": "^", "ms": 2.2, "mew": 0},
-}
-"""Marks of phases, whose colours are alike in grey print."""
-RINGS = {"stick": "o", "slip": "s", "separation": "^"}
-MOST_RINGS = 12  # number of samples of a motion that has not settled: more rings would merge
 EVENTS = {"stick": "at release of stick", "separation": "at loss of contact"}
 """Names of events by the phases there."""
-CLASSES = 0.07  # share of the panel of samples for classes of motion
+MARKS = {"stick": "s", "slip": "o", "separation": "^"}
+"""Marks of phases, whose colours are alike in grey print."""
+MOST_HOLLOW = 12  # number of samples of a motion that has not settled: more marks would merge
 ERRORS = 4  # half length of bars of exponents, in standard errors
 
 
@@ -53,7 +54,7 @@ ERRORS = 4  # half length of bars of exponents, in standard errors
 def bifurcation(
     study: xr.Dataset,
     x: str,
-    paper_cases: Named = None,
+    paper_cases: Named = NOTHING,
     lyapunov: Annotated[xr.Dataset | None, Role("lyapunov")] = None,
 ) -> Figure:
     """Samples of motions over a parameter, their classes and periods, and exponents.
@@ -66,29 +67,22 @@ def bifurcation(
     ratios = [*heights.values()]
     figure, axes = panels([[n] for n in heights], PAGE, 1.7, sharex=True, height_ratios=ratios)
     _samples(axes["samples"], study, x)
-    events = study["period_events"]
     lines(
         axes["period"],
-        events.where(events > 0),
+        study["period_events"].where(study["period_events"] > 0),
         x,
         missing="not shown to repeat",
         color=BLACK,
-        marker="o",
         ls="",
         ms=1.5,
     )
-    axes["period"].set(yscale="log", ylabel="Events in a period", ylim=(0.7, None), xlabel="")
+    axes["period"].set(yscale="log", ylabel="Events in a period")
+    axes["period"].label_outer()
     if lyapunov is not None:
         _exponents(axes["exponents"], lyapunov, x)
     first, *others = axes.values()
-    others[-1].set_xlabel(label(study[x]))
     threshold(first, _places(study[x], paper_cases), others)
     return figure
-
-
-def _places(along: xr.DataArray, values: dict[str, float] | None) -> dict[str, float]:
-    """Named values in the unit of an axis."""
-    return {name: placed(along, value) for name, value in (values or {}).items()}
 
 
 def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
@@ -99,20 +93,25 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     if options["section"] != "event":
         names = {}
         said = ", once per turn of the drive"
+    samples = study["psi"].transpose(x, ...)
+    late = study["settled"] != "settled"
+    for phase, marker in MARKS.items():
+        mark_points(
+            ax,
+            study[x],
+            samples.where((study["phase"] == phase) & ~late),
+            names.get(phase, phase),
+            marker=marker,
+            color=OF_PHASE[phase],
+            mfc=OF_PHASE[phase],
+            ms=2.0,
+            mew=0,
+        )
+    few = samples.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
-    samples = study[["psi", "phase", "settled"]].stack(point=[x, "sample"])
-    settled = samples["settled"] == "settled"
-    first = samples["sample"] <= MOST_RINGS
-    for word, look in MARKS.items():
-        heights = samples["psi"].where(samples["phase"] == word)
-        colour = OF_PHASE[word]
-        named = {"name": names.get(word, word), "color": colour, "mfc": colour}
-        mark_points(ax, samples[x], heights.where(settled), **named, **look)
-        late = heights.where(~settled & first)
-        mark_points(ax, samples[x], late, doubt, marker=RINGS[word], color=GREY, mew=0.5)
-    low, high = ax.get_ylim()
-    ax.set_ylim(low, high + 1.5 * CLASSES * (high - low))
-    strip(ax, study["kind"], 1 - CLASSES)
+    mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
+    ax.margins(y=0.1)  # room for the classes
+    strip(ax, study["kind"], 0.93)
     study["psi"].attrs["long_name"] += said
     ax.set_ylabel(label(study["psi"]))
 
@@ -120,28 +119,24 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
 def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
     """Exponents with their errors; points of different motions are not joined, so none are."""
     numbers = lyapunov["exponent_number"]
-    numbers.attrs["names"] = {f"{i}": f"exponent {i + 1}" for i in numbers.values}
+    numbers.attrs["names"] = {f"{i}": f"exponent {i + 1}" for i in range(numbers.size)}
     ax.set_prop_cycle(color=[BLACK, BLUE, ORANGE, GREY])
     moving = lyapunov["converged"] != "yes"
-    exponents = lyapunov["exponent"]
-    lines(ax, exponents, x, doubtful=moving, doubt="not converged", ls="", ms=2.5)
+    lines(ax, lyapunov["exponent"], x, doubtful=moving, doubt="not converged", ls="", ms=2.5)
     bars = f"± {ERRORS} standard errors"
-    for number in numbers:
-        one = lyapunov.sel(exponent_number=number)
+    for _, one in each_value(lyapunov, "exponent_number"):
         errors = ERRORS * one["exponent_error"]
         ax.errorbar(one[x], one["exponent"], errors, fmt="none", ecolor=GREY, label=bars)
-    ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+    rate_axis(ax)
 
 
 # ---- Branches
 
 REST = 1e-3  # range up to which the axis is linear, mm
-NOISE = 1e-4  # range that counts as none in a sweep, mm
-JUMP = 10.0  # ratio of ranges from which a sweep jumps
 
 
 @grid_figure("branches")
-def branches(study: xr.Dataset, paper_cases: dict[str, Finite] | None = None) -> Figure:
+def branches(study: xr.Dataset, paper_cases: dict[str, Finite] = NOTHING) -> Figure:
     """Ranges of cycles along branches, and of sweeps that stay at each value until the motion
     settles.
 
@@ -150,24 +145,17 @@ def branches(study: xr.Dataset, paper_cases: dict[str, Finite] | None = None) ->
     figure, axes = panels([["a"]], PAGE, 3.2)
     ax = axes["a"]
     along = study["sweep_value"]
-    branch_line(ax, along, 0 * along, study["sliding_growth_rate"], GREY, "steady sliding")
+    _branch(ax, along, 0 * along, study["sliding_growth_rate"], "steady sliding", GREY)
     for i in range(int(study["n_branches"])):
         branch = study.isel(branch=i).dropna("branch_point", subset=["value"])
         drawn = branch["value"], branch["range"], branch["growth_rate"]
         if branch["separations"] > 0:
-            branch_line(ax, *drawn, RED, "separating cycle")
+            _branch(ax, *drawn, "separating cycle", RED)
         else:
-            branch_line(ax, *drawn, BLACK, "cycle in contact")
-    _sweep(ax, study.sel(direction="up"), "^", "simulated, rising")
-    _sweep(
-        ax,
-        study.sel(direction="down").isel(sweep_value=slice(None, None, -1)),
-        "v",
-        "simulated, falling",
-    )
-    if ax.texts:
-        ax.plot([], [], color=GREY, ls="", marker=r"$\rightarrow$", ms=8, label="jump")
-    ax.set_yscale("symlog", linthresh=REST, linscale=0.4, subs=range(2, 10))
+            _branch(ax, *drawn, "cycle in contact", BLACK)
+    _sweep(ax, study.sel(direction="up"), "simulated, rising", "^")
+    _sweep(ax, study.sel(direction="down"), "simulated, falling", "v")
+    ax.set_yscale("symlog", linthresh=REST, linscale=0.4)
     ax.set(
         xlim=along.values[[0, -1]],
         ylim=(-REST, None),
@@ -178,38 +166,19 @@ def branches(study: xr.Dataset, paper_cases: dict[str, Finite] | None = None) ->
     return figure
 
 
-def branch_line(
-    ax: Axes, x: xr.DataArray, y: xr.DataArray, rate: xr.DataArray, colour: str, name: str
+def _branch(
+    ax: Axes, x: xr.DataArray, y: xr.DataArray, rate: xr.DataArray, name: str, colour: str
 ) -> None:
     """A branch of motions, thick where it is stable.
 
     rate : growth rate of disturbances, 0 where stability changes
     """
-    points = np.column_stack([x, y])
-    parts = np.stack([points[:-1], points[1:]], axis=1)
-    stable = stable_between(rate.values)
-    for text, kept, width in (("unstable", ~stable, 0.7), ("stable", stable, 2.0)):
-        if kept.any():
-            line = LineCollection(
-                parts[kept], colors=colour, lw=width, capstyle="round", label=f"{name}: {text}"
-            )
-            ax.add_collection(line)
+    ax.plot(x, y, color=colour, lw=0.7, label=once(ax, f"{name}: unstable"))
+    thicken(ax, x, y, stable_between(rate.values), f"{name}: stable", color=colour)
 
 
-def stable_between(rate: Any) -> Any:
-    """Whether a branch is stable between each point and the next one, shape (n - 1,), from growth
-    rates, which are 0 where stability changes."""
-    stable = np.maximum(rate[:-1], rate[1:]) <= 0
-    for i in np.flatnonzero((rate[:-1] == 0) & (rate[1:] == 0)):
-        stable[i] = i > 0 and not stable[i - 1]
-    return stable
-
-
-def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
-    """Marks of a sweep in its order, filled where motions have not settled, and arrows where it
-    jumps."""
-    x = sweep["sweep_value"].values
-    heights = sweep["sweep_range"]
+def _sweep(ax: Axes, sweep: xr.Dataset, name: str, marker: str) -> None:
+    """Marks of a sweep, filled where motions have not settled."""
     apart = sweep["sweep_separation_rate"] > 0
     late = sweep["sweep_settled"] != "settled"
     for text, here, colour, face in (
@@ -219,8 +188,8 @@ def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
     ):
         mark_points(
             ax,
-            x,
-            heights.where(here),
+            sweep["sweep_value"],
+            sweep["sweep_range"].where(here),
             text,
             marker=marker,
             color=colour,
@@ -229,90 +198,74 @@ def _sweep(ax: Axes, sweep: xr.Dataset, marker: str, name: str) -> None:
             mew=0.5,
             clip_on=False,
         )
-    ratio = np.diff(np.log(heights.clip(NOISE)))
-    for i in np.flatnonzero(np.abs(ratio) > np.log(JUMP)):
-        arrow = {"arrowstyle": "->", "color": GREY, "lw": 1.0}
-        ax.annotate("", (x[i + 1], heights[i + 1]), (x[i], heights[i]), arrowprops=arrow)
 
 
 # ---- Basins of attraction
 
-ENERGY = "energy"
-LOST = "undecided_lost"
-STACKED = (
-    "separating stick_slip other_cycle quasi_periodic irregular steady_sliding at_rest "
-    f"undecided {LOST} failed"
-).split()
+STACKED = [
+    "separating",
+    "stick_slip",
+    "other_cycle",
+    "quasi_periodic",
+    "irregular",
+    "steady_sliding",
+    "at_rest",
+    "undecided",
+    "failed",
+]
 """Classes from below: those that separate begin at zero, as their intervals do."""
 LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square points
 
 
-@grid_figure("basins", inner=[ENERGY])
-def basins(study: xr.Dataset, x: str, by: str = "") -> Figure:
-    """Outcomes of random starts, attractors, and the critical energy of separation over a parameter;
-    or the outcomes over the energy.
-
-    x : the parameter, or "energy"
-    by : over the energy, the parameter with a panel for each value
-    """
-    study[ENERGY].attrs["long_name"] = "Energy"
-    over_energy = x == ENERGY
-    across = by if over_energy else ENERGY
-    parts = each_value(study, across)
-    names = [str(i) for i in range(len(parts))]
-    rows = [np.repeat(names, 2).tolist()]
-    if not over_energy:
-        rows.append(["attractors"] * len(parts) + ["critical"] * len(parts))
-    figure, axes = panels(rows, PAGE, 2.2, sharex=True)
-    for name, (_, part) in zip(names, parts, strict=True):
-        if across:
-            axes[name].set_title(value_text(part[across]))
-        _shares(axes[name], part, x)
-    if not over_energy:
-        _attractors(axes["attractors"], study, x)
-        _critical(axes["critical"], study, x)
-    for ax in axes.values():
-        ax.tick_params(labelbottom=True)
-    for name in names[1:]:
-        axes[name].set(ylabel="", yticklabels=[])
+@grid_figure("basins")
+def basins(study: xr.Dataset, x: str) -> Figure:
+    """Outcomes of random starts of each energy, attractors, and the critical energy of separation over
+    a parameter."""
+    study["energy"].attrs["long_name"] = "Energy"
+    options = stated_in(study, "options")
+    parts = each_value(study, "energy")
+    names = [f"{i // 2}" for i in range(2 * len(parts))]
+    below = ["attractors"] * len(parts) + ["critical"] * len(parts)
+    figure, axes = panels([names, below], PAGE, 2.2)
+    interval = f"{100 * options['confidence']:g} % interval: separating"
+    for i, (_, part) in enumerate(parts):
+        axes[f"{i}"].set_title(value_text(part["energy"]))
+        _shares(axes[f"{i}"], part, x, interval)
+    axes["0"].set_ylabel(
+        f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s"
+    )
+    _attractors(axes["attractors"], study, x)
+    _critical(axes["critical"], study, x)
     return figure
 
 
-def _shares(ax: Axes, part: xr.Dataset, x: str) -> None:
-    """Stacked shares of what starts come to, with the interval of those that separate; energies at
-    equal distances, since one may be 0."""
-    along = part[x]
-    if x == ENERGY:
-        along = along.copy(data=np.arange(along.size))
-    lost = (part["kind"] == "undecided") & (part["lost_contact"] == "yes")
-    kind = part["kind"].where(~lost, LOST)
-    found = [word for word in STACKED if (kind == word).any()]
-    each = [(kind == word).mean("start") for word in found]
-    shares(ax, along, xr.concat(each, pd.Index(found, name="word")).T, "word")
-    if x == ENERGY:
-        ax.set_xticks(along, [f"{energy:g}" for energy in part[x].values])
-    options = stated_in(part, "options")
+def _shares(ax: Axes, part: xr.Dataset, x: str, interval: str) -> None:
+    """Stacked shares of what starts come to, with the interval of those that separate."""
+    kinds = xr.DataArray(STACKED, dims="word", coords={"word": STACKED})
+    shares(ax, part[x], (part["kind"] == kinds).mean("start"), "word")
     separating = part.sel(attractor_class="separating")
-    low, high = (separating[f"basin_fraction_by_energy_{end}"] for end in ("low", "high"))
-    name = f"{100 * options['confidence']:g} % interval: separating"
-    around = [withStroke(linewidth=2.5, foreground="white")]
-    ax.vlines(along, low, high, color=BLACK, lw=0.9, path_effects=around, label=name)
-    ax.set_ylabel(f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s")
+    low = separating["basin_fraction_by_energy_low"]
+    high = separating["basin_fraction_by_energy_high"]
+    ax.vlines(part[x], low, high, color=BLACK, lw=1.2, label=interval)
 
 
 def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
     """Attractors by range, with areas as their shares of all starts; diamonds for classes with a
     pattern."""
     starts = study["attractor_starts"]
-    areas = LARGEST * starts / (study["kind"].size / study.sizes[x])
-    at = study[x].broadcast_like(areas)
+    at = study[x].broadcast_like(starts)
     ax.set_yscale("log")
     for word in STACKED:
-        ranges = study["attractor_range"].where(study["attractor_kind"] == word)
         look = LOOKS[word]
-        shape = "D" if look.hatch else "o"
-        ax.scatter(at, ranges, areas, color=look.face, marker=shape, ec=BLACK, lw=0.4)
-    ax.set_title("attractors; area: share of starts")
+        ax.scatter(
+            at,
+            study["attractor_range"].where(study["attractor_kind"] == word),
+            LARGEST * starts / (study["kind"].size / study[x].size),
+            color=look.face,
+            marker="D" if look.hatch else "o",
+            ec=BLACK,
+            lw=0.4,
+        )
     ax.set(xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
 
 
@@ -327,19 +280,23 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
         color=RED,
         marker="v",
     )
-    sampled = study["critical_energy_sampled"]
-    ax.plot(study[x], sampled, "_", color=BLACK, ms=6, label="least energy of the starts")
-    energies = study[ENERGY]
-    ax.set_yscale("symlog", linthresh=float(energies.where(energies > 0).min()) / 10)
-    ax.set_title("critical energy of separation")
-    ax.set_ylabel(label(study[ENERGY]))
+    mark_points(
+        ax,
+        study[x],
+        study["critical_energy_sampled"],
+        "least energy of the starts",
+        color=BLACK,
+        marker="_",
+        ms=6,
+    )
+    ax.set_yscale("symlog", linthresh=1e-3 * float(study["energy"].max()))
 
 
 # ---- Locking
 
-Zooms = Annotated[tuple[tuple[Finite, Finite], ...], Field(max_length=3), Unit(of="x")]
+Zooms = Annotated[tuple[tuple[Finite, Finite], ...], Unit(of="x")]
 SAME_HEIGHT = 1e-6  # change of asinh(10 height) up to which a step goes on
-APART = 0.04  # least distance of numbers of releases over the width of the page
+APART = 0.04  # least distance of numbers of releases over the width of a panel
 
 
 @grid_figure("locking")
@@ -347,20 +304,20 @@ def staircase(
     study: xr.Dataset,
     x: str,
     zooms: Zooms = (),
+    paper_cases: Named = NOTHING,
     fine: Annotated[xr.Dataset | None, Role("locking")] = None,
     slipping: Annotated[xr.Dataset | None, Role("locking")] = None,
 ) -> Figure:
     """Separations per release of stick, a step for each period, with its number of releases.
 
     zooms : ends of parts of the axis that are shown enlarged, each within the one before
+    paper_cases : values of x by the paper's names of cases
     """
-    names = [f"zoom {i}" for i in range(len(zooms))]
-    rows = [["whole"] * max(1, len(names)), names]
-    figure, axes = panels([row for row in rows if row], PAGE, 2.4)
+    figure, axes = panels([[i] for i in range(1 + len(zooms))], PAGE, 1.9)
     before, *zoomed = axes.values()
     parts = [part for part in (study, fine) if part is not None]
     data = xr.concat(parts, x, combine_attrs="override").sortby(x)
-    _steps(before, data, x, APART)
+    _steps(before, data, x)
     if slipping is not None:
         places = slipping[x].where(slipping["motion"] == "without_stick")
         before.plot(
@@ -372,20 +329,22 @@ def staircase(
             clip_on=False,
             label="a motion that never sticks exists beside",
         )
+    cases = {}
+    for name, value in _places(study[x], paper_cases).items():
+        releases = study["period_releases"].sel({x: value}, method="nearest").item()
+        cases[f"{name}: {releases} releases"] = value
+    threshold(before, cases, zoomed)
     for ax, ends in zip(zoomed, zooms, strict=True):
         low, high = (placed(study[x], end) for end in ends)
-        _steps(ax, data.sel({x: slice(low, high)}), x, APART * len(names))
+        _steps(ax, data.sel({x: slice(low, high)}), x)
         ax.set_xlim(low, high)
-        before.axvspan(low, high, color="0.9", zorder=0)
+        before.axvspan(low, high, color="0.9", zorder=-1)
         before = ax
     return figure
 
 
-def _steps(ax: Axes, data: xr.Dataset, x: str, apart: float) -> None:
-    """Steps of separations per release, and their numbers of releases, the widest first.
-
-    apart : least distance of numbers, share of the panel
-    """
+def _steps(ax: Axes, data: xr.Dataset, x: str) -> None:
+    """Steps of separations per release, and their numbers of releases, the longest first."""
     heights = data["separations_per_release"]
     lines(
         ax,
@@ -403,20 +362,18 @@ def _steps(ax: Axes, data: xr.Dataset, x: str, apart: float) -> None:
         lw=1.4,
     )
     ax.margins(y=0.15)
-    ax.xaxis.set_major_formatter("{x:.6g}")
     ax.locator_params(axis="x", nbins=5)
-    at = data[x].values
-    releases = data["period_releases"].values
-    begins = np.flatnonzero(np.diff(releases, prepend=0))
-    middles = (at[begins] + at[np.append(begins[1:], at.size) - 1]) / 2
-    taken: list[float] = []
-    for i in np.argsort(at[begins] - middles, kind="stable"):
-        middle = middles[i]
-        number = releases[begins[i]]
-        if number and all(abs(middle - other) > apart * np.ptp(at) for other in taken):
-            taken.append(middle)
-            place = (middle, heights[begins[i]])
-            ax.annotate(number, place, (0, 3), textcoords="offset points", ha="center", fontsize=7)
+    points = zip(data["period_releases"].values, data[x].values, heights.values, strict=True)
+    steps = [[*step] for _, step in groupby(points, itemgetter(0))]
+    taken = [np.inf]
+    for step in sorted(steps, key=len, reverse=True):
+        number, first, height = step[0]
+        at = (first + step[-1][1]) / 2
+        if number and np.abs(np.subtract(taken, at)).min() > APART * np.ptp(data[x].values):
+            taken.append(at)
+            ax.annotate(
+                number, (at, height), (0, 3), textcoords="offset points", ha="center", fontsize=7
+            )
 
 
 @grid_figure("locking")
@@ -426,36 +383,29 @@ def phase_map(study: xr.Dataset) -> Figure:
     figure, axes = panels([["whole", "near"]], PAGE, 3.0)
     whole, near = axes.values()
     own = study["release_phase"].dropna("release").values
-    if not own.size or study["map_phase"].isnull().all():
+    if not own.size:
         raise Missing("has no release of stick")
-    margin = 0.15 * np.ptp(own)
-    low = own.min() - margin
-    high = own.max() + margin
-    for i, (number, part) in enumerate(study.groupby("map_separations")):
-        at = part["map_phase"].values
-        after = part["map_next_phase"].values
-        for ax in (whole, near):
-            ax.plot(at, after, ".", color=(BLACK, RED)[i % 2], ms=2, label="slider held once")
-        inside = np.flatnonzero((low < np.minimum(at, after)) & (np.maximum(at, after) < high))
-        if inside.size > 2:
-            slope = part["map_slope"].values[inside].mean()
-            text = f"{number:g} separations,\nslope {slope:.2f}"
-            place = (at[inside[-1]], after[inside[-1]])
-            near.annotate(text, place, (6, 0), textcoords="offset points", va="center")
-    for ax, start, end in ((whole, float(study["map_phase"].min()), 1.0), (near, low, high)):
-        ax.axline((0, 0), slope=1, color=GREY, lw=0.6, zorder=0)
-        ax.set(
-            xlim=(start, end),
-            ylim=(start, end),
-            aspect="equal",
-            xlabel="Phase of a release",
-            ylabel="Phase of the next one",
-        )
-    window = (low, low, high - low, high - low)
-    whole.indicate_inset(window, edgecolor=BLUE, linewidth=0.8)
     period = study["period_releases"].item()
     said = "motion itself"
     if period:
         said += f": repeats after {period} releases"
     mark_points(near, own[:-1], own[1:], said, color=BLUE, marker="o", mfc="none")
+    near.margins(0.25)
+    window = near.viewLim.bounds
+    near.autoscale(False)
+    whole.indicate_inset(window, edgecolor=BLUE, linewidth=0.8)
+    separations = study["map_separations"]
+    for i, number in enumerate(np.unique(separations.dropna("probe"))):
+        piece = study.isel(probe=np.flatnonzero(separations == number))
+        at = piece["map_phase"]
+        after = piece["map_next_phase"]
+        for ax in axes.values():
+            ax.plot(at, after, ".", color=(BLACK, RED)[i % 2], ms=2, label="slider held once")
+        text = f"{number:g} separations,\nslope {piece['map_slope'].mean():.2f}"
+        near.annotate(
+            text, (at[0], after[0]), (4, -2), textcoords="offset points", va="top", fontsize=7
+        )
+    for ax in axes.values():
+        ax.axline((1, 1), slope=1, color=GREY, lw=0.6, zorder=0)
+        ax.set(xlabel="Phase of a release", ylabel="Phase of the next one")
     return figure

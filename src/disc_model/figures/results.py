@@ -201,6 +201,7 @@ def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: An
             runs.draw_history(column, each, given.variables)
     runs.mark_first_separation(axes.flat, case)
     for ax in axes.flat:
+        ax.margins(x=0)
         ax.label_outer()
         break_label(ax, ROW)
     figure.align_ylabels()

@@ -4,6 +4,7 @@ What they draw on axes are windows of a `shown` case, see `window_of`.
 """
 
 from collections.abc import Iterable, Sequence
+from operator import itemgetter
 from typing import Annotated, Any
 
 import numpy as np
@@ -13,43 +14,37 @@ from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from matplotlib.patheffects import withStroke
 from pydantic import Field
 
 from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import radial_range
-from disc_model.figures.draw import COLUMN, PAGE, bar_of, compare, number_map, panels
+from disc_model.figures.draw import COLUMN, PAGE, compare, mark_points, number_map, panels
 from disc_model.figures.looks import BLACK, OF_PHASE, OF_VARIABLE, RED, SKY
-from disc_model.figures.schema import Cases, Either, InTime, Sampled, Samples, case_figure
-from disc_model.figures.shown import key_of, label, value_text, words
+from disc_model.figures.schema import Cases, Either, Sampled, Samples, case_figure
+from disc_model.figures.shown import label, value_text, words
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import deflection
 from disc_model.units import Positive, Unit
 
-NO_BREAK = "\N{NO-BREAK SPACE}"
-HALO = [withStroke(linewidth=2, foreground="white")]
-Look = dict[str, Any]
-"""Options of matplotlib."""
 Hertz = Annotated[Positive, Unit("Hz")]
 
 
 # ---- Windows of a case
 
 
-def window_of(case: xr.DataTree, name: str, at_least: int = 2) -> xr.Dataset:
+def window_of(case: xr.DataTree, name: str) -> xr.Dataset:
     """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
-    if it has fewer samples."""
+    if it has fewer than two samples."""
     if name not in case.children:
-        failed = str(case["status"].item()) == "failed"
-        raise Missing("failed" if failed else f"did not record {name}")
-    window: xr.Dataset = case.children[name].to_dataset(inherit=False)
-    size = window.sizes["time"]
-    if size < at_least:
-        raise Missing(f"has {size} samples in {name}, at least {at_least} are needed")
-    for of_point in (x for x in window if str(x).startswith("w_point")):
-        place = f"θ = {window.attrs['theta']:g} rad".replace(" ", NO_BREAK)
-        window[of_point].attrs["long_name"] += f", {place}"
+        why = {"failed": "failed"}
+        raise Missing(why.get(case["status"].item(), f"did not record {name}"))
+    window: xr.Dataset = case.children[name].to_dataset(inherit=False).copy()
+    if window.sizes["time"] < 2:
+        raise Missing(f"has too few samples in {name}")
+    for variable, x in window.items():
+        if str(variable).startswith("w_point"):
+            x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
     return window
 
 
@@ -64,16 +59,15 @@ def mark_first_separation(axes: Iterable[Axes], case: xr.DataTree) -> None:
     for ax in axes:
         low, high = ax.get_xlim()
         if low < first < high:
-            look: Look = {"color": RED, "ls": (0, (4, 2)), "lw": 0.8, "path_effects": HALO}
-            ax.axvline(first, label=f"first separation, {first:.2f} s", **look)
+            ax.axvline(
+                first, color=RED, linestyle="dashed", label=f"first separation, {first:.2f} s"
+            )
 
 
 # ---- Histories
 
-MOST_SHADED = 60
-"""Stretches of a phase that are shaded; more would be as dense as a fill."""
-OPACITY = {"stick": 0.22, "separation": 0.5}
-"""Of phases behind a history, which differ in darkness."""
+MOST_CHANGES = 120  # of a phase that is shaded; more would be as dense as a fill
+OPACITY = {"stick": 0.22, "separation": 0.5}  # of phases behind a history
 
 
 @case_figure()
@@ -110,8 +104,9 @@ def draw_history(axes: Sequence[Axes], samples: xr.Dataset, variables: Sequence[
 
 def draw_range(ax: Axes, samples: xr.Dataset, name: str, **look: Any) -> None:
     """Draw the range of a variable against time, as a band that is seen where it is thin."""
-    low, high = (samples[f"{name}_{end}"] for end in ("min", "max"))
-    ax.fill_between(samples["time"], low, high, lw=0.5, **look)
+    ax.fill_between(
+        samples["time"], samples[f"{name}_min"], samples[f"{name}_max"], linewidth=0.5, **look
+    )
 
 
 def shade_phases(ax: Axes, samples: xr.Dataset, phases: Iterable[str] = OPACITY) -> None:
@@ -120,24 +115,29 @@ def shade_phases(ax: Axes, samples: xr.Dataset, phases: Iterable[str] = OPACITY)
     if "phase" not in samples:
         return
     said = words(samples["phase"])
-    to_page = ax.get_xaxis_transform()
     for phase in phases:
         inside = said == phase
-        if not 0 < np.diff(inside, prepend=False).sum() <= 2 * MOST_SHADED:
+        if not 0 < np.diff(inside, prepend=False).sum() <= MOST_CHANGES:
             continue
         inside[1:] |= inside[:-1]  # a phase lasts up to the next sample
-        look: Look = {"color": OF_PHASE[phase], "alpha": OPACITY[phase], "lw": 0, "zorder": 0}
-        ax.fill_between(samples["time"], 0, 1, inside, transform=to_page, label=phase, **look)
+        ax.fill_between(
+            samples["time"],
+            0,
+            1,
+            inside,
+            transform=ax.get_xaxis_transform(),
+            label=phase,
+            color=OF_PHASE[phase],
+            alpha=OPACITY[phase],
+            lw=0,
+            zorder=0,
+        )
 
 
 # ---- Phase portraits
 
-LINES: dict[str, Look] = {
-    "slip": {"lw": 0.5},
-    "stick": {"lw": 2.0, "path_effects": [withStroke(linewidth=2.8, foreground=BLACK)]},
-    "separation": {"lw": 1.4, "ls": (0, (2.0, 0.8))},
-}
-"""Of phases: thin, edged and dashed, and so told apart in grey print."""
+# of the lines of phases, which are so told apart in grey print
+WIDTHS = {"slip": 0.5, "stick": 2.5, "separation": 1.2}
 
 
 @case_figure()
@@ -152,25 +152,29 @@ def portrait(
 
 def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
     """Draw one variable over another, coloured by phase, open where this changes."""
-    for phase, look in LINES.items():
+    for phase, width in WIDTHS.items():
         part = samples.where(samples["phase"] == phase)
         if part[x].notnull().any():
-            ax.plot(part[x], part[y], color=OF_PHASE[phase], label=phase, rasterized=True, **look)
+            ax.plot(
+                part[x],
+                part[y],
+                color=OF_PHASE[phase],
+                linewidth=width,
+                label=phase,
+                rasterized=True,
+            )
     ax.set(xlabel=label(samples[x]), ylabel=label(samples[y]))
 
 
 # ---- Poincaré sections
 
-POINTS: dict[str, Look] = {
-    "before the first separation": {"marker": "x", "color": SKY, "ms": 2.5, "mew": 0.4},
-    "not yet settled": {"marker": "o", "color": "#b0b0b0", "mfc": "none", "ms": 2.5, "mew": 0.4},
-    "in contact": {"marker": "o", "color": BLACK, "ms": 1.8, "mew": 0},
-    "separated": {"marker": "^", "color": RED, "ms": 2.8, "mew": 0},
+POINTS = {
+    "before the first separation": ("x", SKY),
+    "not yet settled": (".", "#b0b0b0"),
+    "separated": ("^", RED),
+    "in contact": (".", BLACK),
 }
-"""Marks of the stages of a run; transient points are light."""
-SECTIONS = ("psi", "w_point")
-MANY = 2000
-"""Points from which marks are drawn as pixels."""
+"""Marks of the stages of a run, and their colours; transient points are light."""
 
 
 @case_figure({"poincare": None})
@@ -180,14 +184,16 @@ def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
     below : further cases, each in a row of its own on the same axes
     """
     cases = [case, *dict(below).values()]
-    rows = [[f"{name}{i}" for name in SECTIONS] for i in range(len(cases))]
-    figure, axes = panels(rows, PAGE, 2.4)
-    for (slider, disc), each, heading in zip(rows, cases, differences(cases), strict=True):
-        draw_sections([axes[slider], axes[disc]], each)
-        axes[slider].set_title(", ".join(filter(None, dict.fromkeys([heading, *fate_of(each)]))))
-        axes[disc].set_title(f"disc of thickness {value_text(each['h'])}")
-    for column in zip(*rows, strict=True):
-        compare([axes[name] for name in column])
+    layout = np.arange(2 * len(cases)).reshape(-1, 2)
+    figure, axes = panels(layout.tolist(), PAGE, 2.4)
+    rows: Any = np.reshape([*axes.values()], layout.shape)
+    for row, each in zip(rows, cases, strict=True):
+        draw_sections(row, each)
+        values = [value_text(each[name]) for name in ("N", "Omega")]
+        row[0].set_title(", ".join([*values, *fate_of(each)]))
+        row[1].set_title(f"disc of thickness {value_text(each['h'])}")
+    for column in rows.T:
+        compare(column)
     return figure
 
 
@@ -196,46 +202,47 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, name: str = "poincare
 
     Light: before the first separation, and until the motion has settled, if that is known.
     """
-    samples = window_of(case, name, at_least=1)
-    time = samples["time"]
-    early = time < number_of(case, "first_separation")
-    on_the_way = ~early & (time < number_of(case, "settled_since"))
-    late = ~early & ~on_the_way
-    apart = samples["phase"] == "separation"
-    stages = (early, on_the_way, late & ~apart, late & apart)
-    for ax, variable in zip(axes, SECTIONS, strict=True):
-        x, y = samples[variable], samples[f"{variable}_velocity"]
-        for (stage, look), inside in zip(POINTS.items(), stages, strict=True):
-            if inside.any():
-                pixels = bool(inside.sum() > MANY)
-                ax.plot(x[inside], y[inside], ls="", rasterized=pixels, label=stage, **look)
+    samples = window_of(case, name)
+    conditions = [
+        samples["time"] < number_of(case, "first_separation"),
+        samples["time"] < number_of(case, "settled_since"),
+        samples["phase"] == "separation",
+    ]
+    *stages, usual = POINTS
+    stage = np.select(conditions, stages, usual)
+    for ax, variable in zip(axes, ("psi", "w_point"), strict=True):
+        x = samples[variable]
+        y = samples[f"{variable}_velocity"]
+        for text, (marker, colour) in POINTS.items():
+            mark_points(
+                ax,
+                x,
+                y.where(stage == text),
+                text,
+                marker=marker,
+                color=colour,
+                mfc=colour,
+                ms=2.5,
+                mew=0.4,
+                rasterized=True,
+            )
         ax.set(xlabel=label(x), ylabel=label(y))
 
 
 def fate_of(case: xr.DataTree) -> list[str]:
     """What a run comes to, in words: its first separation, and when it has settled."""
-    first, since = (number_of(case, name) for name in ("first_separation", "settled_since"))
-    fate = f"first separation at {first:.2f}{NO_BREAK}s"
+    first = number_of(case, "first_separation")
+    since = number_of(case, "settled_since")
+    fate = f"first separation at {first:.2f}\u00a0s"
     if np.isnan(first):
-        ignored = str(case["contact"].item()) == "bilateral"
-        fate = "separation ignored" if ignored else "no separation"
+        ignored = {"bilateral": "separation ignored"}
+        fate = ignored.get(case["contact"].item(), "no separation")
     if np.isnan(since):
         return [fate, "not shown to settle"]
-    return [fate, f"settled since {since:.0f}{NO_BREAK}s"]
-
-
-def differences(cases: Sequence[xr.DataTree]) -> list[str]:
-    """What tells each of several cases from the others: the values that they do not share."""
-    roots = [case.dataset for case in cases]
-    names = [name for name in Parameters.model_fields if name in roots[0]]
-    varied = [name for name in names if len({key_of(root[name].item()) for root in roots}) > 1]
-    return [", ".join(value_text(root[name]) for name in varied) for root in roots]
+    return [fate, f"settled since {since:.0f}\u00a0s"]
 
 
 # ---- Spectra
-
-NAMED = 5
-"""Strongest lines of a spectrum, which have their frequency beside them."""
 
 
 @case_figure()
@@ -256,36 +263,29 @@ def draw_spectrum(
 ) -> None:
     """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
     strongest; raises `Missing` if there are none."""
-    time, x = samples["time"].values, samples[variable]
-    found = lines(time, x.values, below=highest or np.inf, floor=0.01)
+    x = samples[variable].copy()
+    signal = samples["time"].values, x.values
+    found = lines(*signal, below=highest or np.inf, floor=0.01)
     if not found:
         raise Missing("did not vibrate, or too briefly to tell")
     end = highest or 1.15 * found[-1].frequency
-    apart = lines(time, x.values, below=end, apart=end / 12)
-    strongest = sorted(apart, key=lambda line: -line.amplitude)[:NAMED]
-    for line in strongest:
-        ax.text(*line, f"{line.frequency:.1f}", ha="center", va="bottom", fontsize=6)
-    frequency, amplitude = amplitude_spectrum(time, x.values)
-    ax.semilogy(frequency, amplitude, color=BLACK, lw=0.7)
-    greatest = strongest[0].amplitude
-    ax.set(xlim=(0, end), ylim=(1e-5 * greatest, 4 * greatest))
-    named = x.assign_attrs(long_name=f"{x.attrs['long_name']}, amplitude")
-    ax.set(xlabel="Frequency (Hz)", ylabel=label(named))
-
-
-@case_figure()
-def spectrogram(
-    case: xr.DataTree, window: InTime, variable: Sampled = "w_point", highest: Hertz = 1000.0
-) -> Figure:
-    """Power of a variable over time and frequency, in dB below its strongest line, by Hann windows
-    of 1 s."""
-    figure, axes = panels([["a"]], COLUMN, 2.5)
-    samples = window_of(case, window)
-    [level] = levels_of([samples], variable)
-    bar_of(figure, axes["a"], draw_spectrogram(axes["a"], level, highest), level)
-    axes["a"].set_title(samples[variable].attrs["long_name"])
-    mark_first_separation(axes.values(), case)
-    return figure
+    apart = lines(*signal, below=end, apart=end / 12)
+    for line in sorted(apart, key=itemgetter(1))[-5:]:
+        ax.text(
+            *line,
+            f"{line.frequency:.1f}",
+            horizontalalignment="center",
+            verticalalignment="bottom",
+            fontsize=6,
+        )
+    ax.semilogy(*amplitude_spectrum(*signal), color=BLACK, lw=0.7)
+    x.attrs["long_name"] += ", amplitude"
+    ax.set(
+        xlim=(0, end),
+        ylim=(1e-5 * line.amplitude, 4 * line.amplitude),
+        xlabel="Frequency (Hz)",
+        ylabel=label(x),
+    )
 
 
 def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray]:
@@ -296,52 +296,57 @@ def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray
     except ValueError as error:
         raise Missing(f"recorded too little: {error}") from None
     strongest = max(float(each.power.max()) for each in found) or 1.0
-    levels = []
-    for each in found:
-        level = xr.DataArray(
-            10 * np.log10(np.maximum(each.power / strongest, 1e-30)),
-            {"frequency": each.frequency, "time": each.time},
+    return [
+        xr.DataArray(
+            10 * np.log10(each.power / strongest + 1e-30),
+            {
+                "frequency": (
+                    "frequency",
+                    each.frequency,
+                    {"long_name": "Frequency", "units": "Hz"},
+                ),
+                "time": ("time", each.time, {"long_name": "Time", "units": "s"}),
+            },
             attrs={"long_name": "Power", "units": "dB re strongest line"},
         )
-        level["frequency"].attrs = {"long_name": "Frequency", "units": "Hz"}
-        level["time"].attrs = {"long_name": "Time", "units": "s"}
-        levels.append(level)
-    return levels
+        for each in found
+    ]
 
 
 def draw_spectrogram(ax: Axes, level: xr.DataArray, highest: float) -> Any:
     """Draw levels of power up to a frequency, Hz; returns the mesh, for a bar."""
-    colours = {"cmap": cm.lipari, "norm": Normalize(-100, 0)}
-    return number_map(ax, level.sel(frequency=slice(0, highest)), **colours)
+    part = level.sel(frequency=slice(0, highest))
+    return number_map(ax, part, cmap=cm.lipari, norm=Normalize(-100, 0))
 
 
 # ---- The whole disc
 
-LEVELS = np.array([-0.75, -0.5, -0.25, -0.1, 0.0, 0.1, 0.25, 0.5, 0.75])
-"""Of lines of equal deflection, over the end of the scale."""
 
-
-def draw_disc(ax: Any, w: xr.DataArray, norm: Normalize) -> Any:
+def draw_disc(ax: Any, w: xr.DataArray, norm: Any) -> Any:
     """Draw the disc from above on polar axes: blue below its plane at rest, where lines of equal
     deflection are dashed, and red above it. Returns the mesh, for a bar.
 
     w : deflection over r (m) and theta (rad), in the unit of `norm`
     """
-    r, theta = w["r"].values, w["theta"].values
-    shade: Look = {"cmap": cm.vik, "norm": norm, "shading": "gouraud"}
-    mesh = ax.pcolormesh(theta, r, w, rasterized=True, **shade)
-    ax.contour(theta, r, w, (norm.vmax or 0.0) * LEVELS, colors=BLACK, linewidths=0.5)
-    ax.set_xticks([0, np.pi / 2], ["θ = 0", "π/2"])
-    ax.tick_params(pad=0)
-    ax.set(ylim=(0, r[-1]), yticks=[])
-    ax.grid(visible=False)
+    grid = w["theta"], w["r"]
+    mesh = ax.pcolormesh(*grid, w, cmap=cm.vik, norm=norm, shading="gouraud", rasterized=True)
+    levels = np.linspace(norm.vmin, norm.vmax, 13)
+    ax.contour(*grid, w, levels, colors=BLACK, linewidths=0.5)
+    ax.set(ylim=(0, w["r"].max()), yticks=[], xticks=[0], xticklabels=["θ = 0"])
     return mesh
 
 
 def mark_slider(ax: Axes, x: float, y: float, phase: str) -> None:
     """Mark the slider in the colour of its phase."""
-    look: Look = {"ms": 5, "mfc": OF_PHASE[phase], "mec": BLACK, "mew": 0.6}
-    ax.plot([x], [y], "s", label=f"slider, {phase}", **look)
+    ax.plot(
+        x,
+        y,
+        "s",
+        markersize=5,
+        markerfacecolor=OF_PHASE[phase],
+        markeredgecolor=BLACK,
+        label=f"slider, {phase}",
+    )
 
 
 def animate(case: Parameters, states: Sequence[Any], samples: xr.Dataset) -> FuncAnimation:
@@ -350,21 +355,23 @@ def animate(case: Parameters, states: Sequence[Any], samples: xr.Dataset) -> Fun
     states : of the pictures, in time
     samples : shown window that covers them
     """
-    r, theta = np.linspace(*radial_range(case), 25), np.linspace(0, 2 * np.pi, 181)
-    w = 1e3 * deflection(case, states, r, theta)
+    r = np.linspace(*radial_range(case), 25)
+    w = 1e3 * deflection(case, states, r, np.linspace(0, 2 * np.pi, 181))
     end = float(abs(w).max()) or 1.0
-    layout: Look = {"per_subplot_kw": {"disc": {"projection": "polar"}}}
-    figure, axes = panels([["disc", "force"]], PAGE, 2.6, **layout)
+    figure, axes = panels(
+        [["disc", "force"]], PAGE, 2.6, per_subplot_kw={"disc": {"projection": "polar"}}
+    )
+    disc, force = axes.values()
 
     def draw(i: int) -> list[Axes]:
-        for ax in axes.values():
-            ax.cla()
-        draw_disc(axes["disc"], w[i], Normalize(-end, end))
-        draw_history([axes["force"]], samples, ["P"])
         state = states[i]
-        mark_slider(axes["disc"], state.material_angle(case), case.r_0, state.phase)
-        axes["force"].axvline(state.time, color=RED)
-        axes["force"].set_title(f"{state.time:.4f} s, {state.phase}")
-        return [*axes.values()]
+        disc.cla()
+        draw_disc(disc, w[i], Normalize(-end, end))
+        mark_slider(disc, state.material_angle(case), case.r_0, state.phase)
+        force.cla()
+        draw_history([force], samples, ["P"])
+        force.axvline(state.time, color=RED)
+        force.set_title(f"{state.time:.4f} s, {state.phase}")
+        return []
 
     return FuncAnimation(figure, draw, frames=len(states))

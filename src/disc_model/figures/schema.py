@@ -42,26 +42,24 @@ class Shows(NamedTuple):
     quantities : of the study; none for any
     needs : dimensions of the study, beside those that its keys name
     takes : whether it takes dimensions beyond these, too
-    inner : dimensions of the quantity itself that keys may name, too
     windows : of each case, by name, with the rules that they must keep
     """
 
     quantities: tuple[str, ...] = ()
     needs: tuple[str, ...] = ()
     takes: bool = False
-    inner: tuple[str, ...] = ()
     windows: Mapping[str, Any] = {}
 
 
 def grid_figure(
-    *quantities: str, needs: Sequence[str] = (), takes: bool = False, inner: Sequence[str] = ()
+    *quantities: str, needs: Sequence[str] = (), takes: bool = False
 ) -> Callable[[Function], Function]:
     """Mark a function that draws a study, its first argument.
 
     Parameters with the type ``Annotated[xr.Dataset | None, Role(...)]`` take further studies; `x`, `y`,
     `by` and `starts` name dimensions.
     """
-    return _marked(Shows(quantities, tuple(needs), takes, tuple(inner)))
+    return _marked(Shows(quantities, tuple(needs), takes))
 
 
 def case_figure(windows: Mapping[str, Any] | None = None) -> Callable[[Function], Function]:
@@ -189,8 +187,7 @@ class Plot(Kind):
     def axes(self) -> dict[str, str]:
         """Dimensions of the grid by the keys that name them."""
         chosen = {key: getattr(self, key, None) for key in ("x", "y", "by", "starts")}
-        inner = self.shows.inner
-        return {key: name for key, name in chosen.items() if name and name not in inner}
+        return {key: name for key, name in chosen.items() if name}
 
     def faults(
         self, dims: Values, variables: Mapping[str, Values], classes: Sequence[str] = ()

@@ -106,7 +106,7 @@ def thicken(ax: Axes, x: Any, y: Any, between: Any, why: str, **look: Any) -> No
     if np.any(between):
         cut = np.flatnonzero(~between) + 1
         points = [np.insert(np.asarray(each, dtype=float), cut, np.nan) for each in (x, y)]
-        ax.plot(*points, lw=THICK, solid_capstyle="butt", label=once(ax, why), **look)
+        ax.plot(*points, lw=THICK, solid_capstyle="round", label=once(ax, why), **look)
 
 
 def draw_multipliers(ax: Axes, cycle: Any, **look: Any) -> None:

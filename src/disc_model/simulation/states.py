@@ -28,6 +28,7 @@ from disc_model.disc.plate import (
     radial_range,
     tangential_amplitudes,
 )
+from disc_model.disc.stretched import stretched
 from disc_model.engine import state as motion
 from disc_model.engine.model import Contact, DiscModes, Model, build_model, build_state, flags_of
 from disc_model.engine.series import Series, build_series
@@ -459,6 +460,7 @@ def engine_case(p: Parameters) -> EngineCase:
             psi_at_point=modes_at_point(p).psi,
             damping=modal_damping(p),
             tangential=tangential,
+            **stretched(p)._asdict(),
         ),
         {name: getattr(p, name) for name in Model._fields if name in Parameters.model_fields},
         Contact(

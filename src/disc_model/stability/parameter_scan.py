@@ -14,7 +14,7 @@ from disc_model.display import Bar
 from disc_model.parameters import Parameters
 from disc_model.stability.continuation import spectrum
 from disc_model.stability.cycle import FloquetResult, find_cycle
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, growth_rates, steady_sliding
+from disc_model.stability.sliding import SteadySliding, growth_rates, steady_sliding
 
 SLIDING = "sliding"
 # times that places of suspected instability are predicted anew, from the cycles beside them
@@ -106,7 +106,7 @@ class SlidingScan(Scan):
         return steady_sliding(case)
 
     def settles(self, motion: SteadySliding) -> bool:
-        return motion.status is SlidingStatus.OK and not motion.growing.size
+        return motion.status.exists and not motion.growing.size
 
     def refine(self, narrowest: float, bar: Bar) -> None:
         """Compute the greatest growth rates among stable neighbours, and the least ones among

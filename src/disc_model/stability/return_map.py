@@ -133,8 +133,11 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
         return columns.input_column(model, {name: 1.0})
     if name == "k":
         return columns.input_column(model, {"k": 1.0, "load": -model.u_0})
-    if name == "N":  # u_0 is proportional to N
-        return columns.input_column(model, {"load": 1.0 - model.k * model.u_0 / model.N})
+    sunk = model.u_0  # u_0 if it followed N at its present rate to 0: without stretching it does
+    if model.has_stretching:
+        sunk = -model.N * model.membrane.softness
+    if name == "N":
+        return columns.input_column(model, {"load": 1.0 - model.k * sunk / model.N})
     if name == "D_star":
         by_D_star = model.stiffness / p.D, model.stiffness0 / p.D
         return columns.input_column(model, {}, damping=by_D_star)
@@ -144,12 +147,12 @@ def parameter_change(p: Parameters, model: Model, name: str) -> Array:
     damping: tuple[Any, Any] = 0.0, 0.0
     if p.damping_ratio is not None:
         damping = model.damping / (2 * p.E), model.damping0 / (2 * p.E)
-    # u_0 and the residual flexibility are proportional to 1 / E
+    # u_0 depends on N / E alone, and the residual flexibility is proportional to 1 / E
     if p.contact_compliance == RESIDUAL:
-        scalars = {"load": model.k * model.u_0 / p.E, "compliance": -1.0 / p.E}
+        scalars = {"load": model.k * sunk / p.E, "compliance": -1.0 / p.E}
     else:
         softness = model.N * model.compliance
-        scalars = {"load": model.k * (model.u_0 + softness) / p.E, "compliance": 0.0}
+        scalars = {"load": model.k * (sunk + softness) / p.E, "compliance": 0.0}
     return columns.input_column(model, scalars, stiffness, damping)
 
 

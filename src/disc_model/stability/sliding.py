@@ -24,11 +24,13 @@ from disc_model.arrays import Array, ComplexArray, EqualByValue
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
+from disc_model.disc.stretched import membrane_forces
 from disc_model.display import Summarised, drawings, number_text
 from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import engine_case
 from disc_model.stability.python_laws import LAWS
+from disc_model.stability.stretched_sliding import stretched_equilibrium
 
 _MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
 _SETTLED = 1e-14  # relative change at which it ends
@@ -38,6 +40,10 @@ class SlidingStatus(StatusBase):
     """Whether steady sliding exists; `advice` says what that means."""
 
     OK = "ok", "Steady sliding exists; its growth rate says whether it is stable."
+    FURTHER = (
+        "further",
+        "Steady sliding exists; the plate stretches, and a further equilibrium cannot be excluded.",
+    )
     NO_CONTACT = (
         "no_contact",
         "The equilibrium would need a contact force that is not positive: lower Omega or k.",
@@ -52,6 +58,11 @@ class SlidingStatus(StatusBase):
         "paradox",
         "Painleve's paradox: rigid friction on this slope has no solution; lower mu_k or N.",
     )
+
+    @property
+    def exists(self) -> bool:
+        """Whether there is an equilibrium, and its numbers are known."""
+        return self in (SlidingStatus.OK, SlidingStatus.FURTHER)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -198,6 +209,7 @@ class Linearised(NamedTuple):
     alpha: Array
     beta: Array
     jacobian: Array
+    alone: bool  # whether a further equilibrium is excluded
 
 
 def linearised(case: Parameters) -> Linearised | SlidingStatus:
@@ -208,7 +220,11 @@ def linearised(case: Parameters) -> Linearised | SlidingStatus:
     modes = mode_arrays(case)
     model = engine_case(case).model
     compliance = contact_compliance(case)
-    a, b, vertical, rate = _equilibrium(case, modes, compliance)
+    alone = True
+    if model.has_stretching:
+        a, b, vertical, rate, alone = stretched_equilibrium(case)
+    else:
+        a, b, vertical, rate = _equilibrium(case, modes, compliance)
     if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
         return SlidingStatus.NO_CONTACT if case.N > 0 else SlidingStatus.NO_LOAD
     alpha = -modes.diameters * rate * b
@@ -237,7 +253,7 @@ def linearised(case: Parameters) -> Linearised | SlidingStatus:
         return SlidingStatus.NO_SPRING
     _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
     jacobian = rates.imag / LAWS.TINY
-    return Linearised(force, psi, a, b, alpha, beta, jacobian)
+    return Linearised(force, psi, a, b, alpha, beta, jacobian, alone)
 
 
 def described(case: Parameters, found: Linearised, values: np.ndarray) -> SteadySliding:
@@ -247,13 +263,15 @@ def described(case: Parameters, found: Linearised, values: np.ndarray) -> Steady
     symbol = "R" if case.contact_force == "normal" else "P"
     force = f"{symbol} = {found.contact_force:.6g} N"
     growth_rate = float(growth_rates(eigenvalues)[0])
+    numbers = found._asdict()
+    alone = numbers.pop("alone")
     return SteadySliding(
-        status=SlidingStatus.OK,
+        status=SlidingStatus.OK if alone else SlidingStatus.FURTHER,
         message=f"steady sliding with {force}, {_verdict(growth_rate)}",
         eigenvalues=eigenvalues,
         growth_rate=growth_rate,
         parameters=case,
-        **found._asdict(),
+        **numbers,
     )
 
 
@@ -351,6 +369,10 @@ def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
     rate_b = beta - l * g * a
     free_along = l * g * beta - d * alpha - w2 * a
     free_across = -l * g * alpha - d * beta - w2 * b
+    if model.has_stretching:
+        along, across = membrane_forces(p, a, b)
+        free_along = free_along - along
+        free_across = free_across - across
     w = np.sum(weight * a, axis=0)
     velocity = np.sum(weight * rate_a, axis=0)
     u = w

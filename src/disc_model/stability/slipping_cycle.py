@@ -12,7 +12,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import SLIPPING, FloquetResult, cycle_of, no_cycle
 from disc_model.stability.return_map import Orbit, newton
-from disc_model.stability.sliding import SlidingStatus, SteadySliding, steady_sliding
+from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.stability.slipping_map import SlippingMap
 
 SMALLEST = 1e-3  # distance from steady sliding at which the search begins, over the deflection
@@ -27,7 +27,7 @@ def find_slipping_cycle(p: Parameters, tol: float, guess: State | None) -> Floqu
     """The cycle that slips all the time which Newton's method finds near a state in slip, or the
     smallest one round steady sliding."""
     sliding = steady_sliding(p)
-    missing = sliding.status is not SlidingStatus.OK
+    missing = not sliding.status.exists
     if missing or min(p.N, p.k_p) <= 0:
         reason = "there is no steady sliding on a spring"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, reason, SLIPPING)

@@ -573,7 +573,7 @@ class GridStudy:
         if quantities and self.quantity not in quantities:
             return [Fault.of(("kind",), plot.kind, f"needs the quantity {quantities[0]}")]
         columns = {**self.options.COLUMNS, **self.options.SUMMARY_COLUMNS}
-        classes = [name for name, column in columns.items() if column.has_classes]
+        classes = [name for name, column in columns.items() if column.flags]
         return plot.faults(values, self._variables(values), classes)
 
     def _values_of_figures(self) -> dict[Any, list[Any]]:

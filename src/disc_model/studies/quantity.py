@@ -280,7 +280,7 @@ class Quantity(Ruled):
         0  # number of values of each axis for which a motion is stored, fewer if it is expensive
     )
     motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
-    # more exact descriptions, by the outcome or kind of a point, or by "stable" and "unstable" of its cycle
+    # more exact descriptions, by the outcome, the kind or the status of a point
     motion_by: ClassVar[Mapping[str, str]] = MappingProxyType({})
     tiled: ClassVar[bool] = (
         False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from disc_model.analysis.classify import share
-from disc_model.data.variables import LONG_TERM_OUTCOMES, UNKNOWN_OUTCOMES
+from disc_model.data.variables import UNKNOWN_OUTCOMES, WORDS
 from disc_model.display import counted
 from disc_model.studies.quantity import OutcomeResult, with_ends
 
-CLASSES = (*LONG_TERM_OUTCOMES[1:], LONG_TERM_OUTCOMES[0])  # outcomes of a start
+CLASSES = (*WORDS["long_term"][1:], WORDS["long_term"][0])  # outcomes of a start
 SHOWN = (
     "range",
     "separation_rate",

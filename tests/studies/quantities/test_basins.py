@@ -6,7 +6,7 @@ from typing import Any, ClassVar
 import numpy as np
 import pytest
 
-from disc_model.data.variables import POINT_STATUSES, Outcome
+from disc_model.data.variables import WORDS, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
@@ -253,7 +253,7 @@ def test_a_point_fails_if_all_its_starts_do(
     monkeypatch.setattr(Made, "classes", results)
     table = found(energies=[0.01], n_starts=3)
     [code] = table.arrays["status"]
-    assert POINT_STATUSES[code] == status
+    assert WORDS["point_statuses"][code] == status
     assert table.messages == [f"{failed} of 3 starts failed, such as lost"]
     share = table.arrays["basin_fraction"][0, basins.CLASSES.index("failed")]
     assert share == pytest.approx(failed / 3)

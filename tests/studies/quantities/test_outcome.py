@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pytest
 
-from disc_model.data.variables import POINT_STATUSES, Outcome, flag_names
+from disc_model.data.variables import WORDS, Outcome, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies.quantities.outcome import HorizonOutcome
@@ -26,7 +26,7 @@ def test_steps_that_run_out_are_a_status(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr(sys.modules["disc_model.simulation.run"], "MOST_STEPS", 100)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=20)
     assert words == ["failed"]
-    assert POINT_STATUSES[arrays["status"][0]] == "step_limit"
+    assert WORDS["point_statuses"][arrays["status"][0]] == "step_limit"
 
 
 def test_outcomes_of_a_damped_and_of_a_separating_motion() -> None:

@@ -42,6 +42,7 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
     largest = np.max
     total = np.sum
     item = operator.getitem
+    whole = operator.getitem
     put = operator.setitem
 
     def load(array, i):
@@ -61,6 +62,12 @@ if getattr(numba.config, "DISABLE_JIT"):  # noqa: B009 - the attribute is made a
 
     def swap_halves(v):
         return np.roll(v, WIDTH // 2)
+
+    def swap_pairs(v):
+        return v.reshape(-1, 2, 2)[:, ::-1].ravel()
+
+    def swap_singles(v):
+        return v.reshape(-1, 2)[:, ::-1].ravel()
 
     def low_halves(a, b):
         return np.concatenate((a[:4], b[:4]))
@@ -193,6 +200,11 @@ else:
         counts down."""
         return builder.load(builder.gep(array, [i]))
 
+    @_instruction(types.intp, None, types.intp)
+    def whole(builder, array, i):
+        """array[i] of whole numbers, i >= 0: no check of the sign."""
+        return builder.load(builder.gep(array, [i]))
+
     @_instruction(types.void, None, types.intp, types.float64)
     def put(builder, array, i, x):
         """array[i] = x, i >= 0: no check of the sign."""
@@ -226,6 +238,12 @@ else:
 
     swap_halves = _instruction(LANES, LANES)(
         lambda builder, v: _shuffle(builder, v, [4, 5, 6, 7, 0, 1, 2, 3])
+    )
+    swap_pairs = _instruction(LANES, LANES)(
+        lambda builder, v: _shuffle(builder, v, [2, 3, 0, 1, 6, 7, 4, 5])
+    )
+    swap_singles = _instruction(LANES, LANES)(
+        lambda builder, v: _shuffle(builder, v, [1, 0, 3, 2, 5, 4, 7, 6])
     )
     absolute = _instruction(LANES, LANES)(lambda builder, v: _call(builder, "fabs", v))
     total = _instruction(types.float64, LANES)(

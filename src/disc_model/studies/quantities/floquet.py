@@ -4,7 +4,7 @@ simulation."""
 import math
 from typing import Any, ClassVar
 
-from disc_model.data.variables import CYCLE_STATUSES, OF_QUANTITIES, CycleStatus, message_of
+from disc_model.data.variables import OF_QUANTITIES, WORDS, CycleStatus, message_of
 from disc_model.studies.quantity import Point, Quantity, State
 from disc_model.units import CycleTolerance
 
@@ -25,10 +25,9 @@ class Floquet(Quantity):
     motions: ClassVar = 7
     motion: ClassVar = "The stick-slip cycle itself, stable or not."
     motion_by: ClassVar = {
-        **dict.fromkeys(CYCLE_STATUSES, FROM_START),
+        **dict.fromkeys(WORDS["cycle_statuses"], FROM_START),
         **SLIDING_BY,
-        "stable": "The stick-slip cycle itself, which is stable.",
-        "unstable": "The stick-slip cycle itself, which is unstable: the motion leaves it.",
+        "ok": motion,
     }
     COLUMNS: ClassVar = OF_QUANTITIES["floquet"]["columns"]
 

@@ -7,7 +7,7 @@ from typing import Annotated, Any, ClassVar
 import numpy as np
 from pydantic import PrivateAttr
 
-from disc_model.data.variables import OF_QUANTITIES, POINT_STATUSES, value_with_unit
+from disc_model.data.variables import OF_QUANTITIES, WORDS, value_with_unit
 from disc_model.studies.quantity import DIRECTION, Coordinate, Point, Quantity, Range
 from disc_model.units import Seconds, Tolerance, Unit
 
@@ -75,7 +75,7 @@ class Hysteresis(Quantity):
             if late is None:
                 status = result.status.value
                 message = f"{value_with_unit(self._parameter, speeds[index[1]])}: {result.message}"
-            values["sweep_status"][index] = POINT_STATUSES.index(status)
+            values["sweep_status"][index] = WORDS["point_statuses"].index(status)
             values["sweep_settled"][index] = answers.index(reached.settling.answer)
             values["stay"][index] = reached.stay
             stretch = {**asdict(late), "range": late.range} if late else {}
@@ -89,7 +89,7 @@ class Hysteresis(Quantity):
         down, as far as they are known: each lies beside a speed at which contact is kept."""
         speeds = self.scan.values
         edges = {}
-        done = values["sweep_status"] == POINT_STATUSES.index("ok")
+        done = values["sweep_status"] == WORDS["point_statuses"].index("ok")
         rising, falling = values["separation_rate"] > 0
         if rising.any() and not rising[0]:
             edges["onset_speed"] = speeds[rising.argmax()]

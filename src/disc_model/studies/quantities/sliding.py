@@ -37,7 +37,6 @@ class Sliding(Quantity):
         return p.replace(**{self.parameter: value})
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.sliding import SlidingStatus
         from disc_model.stability.sliding_modes import follow_modes
 
         p = point.parameters
@@ -71,7 +70,7 @@ class Sliding(Quantity):
             }
             of_value["largest_growth_rate"] = sliding.growth_rate
             rows.append(of_value)
-            if sliding.status is not SlidingStatus.OK:
+            if not sliding.status.exists:
                 message = (
                     message or f"{value_with_unit(self.parameter, values[i])}: {sliding.message}"
                 )

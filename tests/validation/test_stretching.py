@@ -1,0 +1,255 @@
+"""Plates that stretch: the engine against two given scenes, an own integrator in long double, and
+the linear engine."""
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from disc_model import (
+    Execution,
+    Parameters,
+    Ramp,
+    floquet,
+    initial_state,
+    plate_modes,
+    simulate,
+    steady_sliding,
+)
+from disc_model.stability.return_map import ReturnMap
+from tests.contact_laws import ALL_LAWS, COMPILES, course_of
+from tests.engine.test_saltation import differences
+from tests.references import taylor
+from tests.stability.test_return_map import central_differences, check_derivatives
+
+KINDS = ("stick_to_slip", "slip_to_stick", "separation", "reattachment")
+GIVEN = (Path(__file__).parent / "stretching.txt").read_text()
+SCENES = {
+    "orthonormal": {"N": 200, "Omega": 50, "kick": -0.00225, "span": 0.15},
+    "as_published": {"N": 385, "Omega": 15.1, "kick": 0.0, "span": 0.3},
+}
+
+
+def start_of(p, kick):
+    """The static start with the axisymmetric mode displaced so that the slider moves by kick, m."""
+    state = initial_state(p)
+    psi = plate_modes(p)["psi"].to_numpy()
+    a = state.a.copy()
+    a[0] += kick / psi[0]
+    u = psi @ a
+    if p.contact_compliance:
+        u = state.u + kick
+    return state.replace(a=a, u=float(u))
+
+
+def reference_of(p, state, ramps=()):
+    """The own integrator at a state of stick."""
+    q = taylor.problem_of(p)
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    modal = [(sign * getattr(state, name)).tolist() for name in ("a", "b", "alpha", "beta")]
+    own = taylor.State(0.0, "stick", 0, 0.0, 0.0, state.u, 0.0, *modal)
+    return taylor.Reference(q, own, course=course_of(p, ramps) if ramps else ())
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("norm", SCENES)
+def test_given_scenes(norm):
+    """Every event of two other programs, which agree to 1e-11 s, and the static start."""
+    scene = SCENES[norm]
+    p = Parameters(N=scene["N"], Omega=scene["Omega"], normalization=norm, stretching="clamped")
+    [text] = [part for part in GIVEN.split("##") if part.startswith(f" {norm}")]
+    u_0 = float(re.search(r"u_0 = (\S+) m", text)[1])
+    a = [float(x) for x in re.search(r"a_l = (.+)", text)[1].split(", ")]
+    rest = initial_state(p)
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    assert rest.u == pytest.approx(u_0, abs=1e-15)
+    np.testing.assert_allclose(sign * rest.a, a, rtol=1e-12)
+
+    run = simulate(p, scene["span"], tol=1e-13, initial_state=start_of(p, scene["kick"]))
+    mine = list(zip(run.events["kind"].values, run.events["time"].values, strict=True))
+    wanted = re.findall(r"(?:^|; )(\d) (\d\.\d+)", text, re.M)
+    if norm == "orthonormal":
+        assert len(mine) == len(wanted)
+    for kind, time in wanted:
+        assert any(KINDS[int(kind)] == name and abs(t - float(time)) < 1e-10 for name, t in mine), (
+            time
+        )
+
+
+OWN = {
+    "free edge, orthonormal": {
+        "N": 400,
+        "Omega": 30,
+        "normalization": "orthonormal",
+        "kick": -0.003,
+    },
+    "six diameters": {"N": 300, "Omega": 40, "n_diameters": 6, "c": 0.3, "kick": 0.001},
+    "damped, bilateral": {
+        "N": 150,
+        "Omega": 10,
+        "c_p": 0.3,
+        "contact": "bilateral",
+        "kick": -0.004,
+    },
+}
+
+
+def compare(p, kick, span, tol=1e-14, ramps=()):
+    """Every event and the final state of the own integrator, and the energy."""
+    start = start_of(p, kick)
+    other = reference_of(p, start, ramps).run(span)
+    execution = Execution(audit_every_step=True)
+    run = simulate(p, span, tol=tol, initial_state=start, ramps=ramps, execution=execution)
+    names = [event["kind"] for event in other.events]
+    assert list(run.events["kind"].values) == names
+    assert len(names) >= 3
+    wanted = [float(event["time"]) for event in other.events]
+    # coefficients of the membrane agree to 1e-10
+    np.testing.assert_allclose(run.events["time"], wanted, rtol=0, atol=1e-9)
+    assert run.statistics["energy_residual"] < 1e-12
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    largest = float(abs(other.a).max())
+    np.testing.assert_allclose(
+        sign * run.final_state.a, other.a.astype(float), rtol=0, atol=1e-6 * largest
+    )
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("name", OWN)
+def test_own_scenes(name):
+    case = dict(OWN[name])
+    kick = case.pop("kick")
+    edge = "free" if name.startswith("free") else "clamped"
+    compare(Parameters(stretching=edge, **case), kick, 0.05)
+
+
+LAWS = {name: ALL_LAWS[name] for name in ("compliant", "normal", "vertical_coupled")}
+LAWS["compliant_normal_exponential"] = ALL_LAWS["compliant_normal_exponential"]
+LAWS["vertical_coupled_falling"] = ALL_LAWS["vertical_coupled_falling"]
+LAWS["pad"] = ALL_LAWS["normal_coupled"] | {"contact_arc": 0.3}
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("law", [pytest.param(name, marks=COMPILES) for name in LAWS])
+def test_each_law(law):
+    p = Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped", **LAWS[law])
+    compare(p, -0.004, 0.025)
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize("law", [pytest.param(x, marks=COMPILES) for x in ("vertical",)])
+def test_ramps(law):
+    p = Parameters(N=385, Omega=15.1, c=0.3, stretching="clamped")
+    ramps = (
+        Ramp(parameter="N", to=300, start=0.004, end=0.02),
+        Ramp(parameter="Omega", to=20, start=0.0, end=0.01),
+    )
+    compare(p, -0.003, 0.03, ramps=ramps)
+
+
+GROWTH = [
+    ("as_published", 300, 20, -0.0635),
+    ("as_published", 200, 20, -0.0054),
+    ("as_published", 200, 50, 0.0267),
+    ("orthonormal", 200, 50, 0.0533),
+    ("orthonormal", 600, 30, 0.1299),
+    ("orthonormal", 600, 100, 0.4366),
+]
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("norm", "N", "Omega", "rate"), GROWTH)
+def test_growth_rates(norm, N, Omega, rate):
+    p = Parameters(N=N, Omega=Omega, normalization=norm, stretching="clamped")
+    assert floquet(p).growth_rate == pytest.approx(rate, abs=1e-4)
+
+
+@pytest.mark.compiled
+def test_small_amplitudes_are_those_of_the_linear_engine():
+    """At a load of 1/1000 N the membrane's force is below 1e-10 of the plate's."""
+    linear = Parameters(N=1e-3, Omega=15.1, k_p=0.05, normalization="orthonormal", m=0.1)
+    stretching = linear.replace(stretching="clamped")
+    runs = [simulate(p, 0.05, tol=1e-13) for p in (linear, stretching)]
+    times = [run.events["time"].values for run in runs]
+    assert len(times[0]) >= 1
+    np.testing.assert_allclose(times[0], times[1], rtol=0, atol=1e-9)
+    np.testing.assert_allclose(
+        runs[0].final_state.a,
+        runs[1].final_state.a,
+        rtol=0,
+        atol=1e-9 * abs(runs[0].final_state.a).max(),
+    )
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+def test_energy_over_a_long_time():
+    p = Parameters(N=200, Omega=50, normalization="orthonormal", stretching="clamped")
+    run = simulate(p, 100, tol=1e-14, initial_state=start_of(p, -0.00225), events=False)
+    assert run.statistics["energy_residual"] < 1e-12
+
+
+@pytest.mark.parametrize(
+    ("case", "status"),
+    [
+        ({"N": 200, "Omega": 50, "normalization": "orthonormal"}, "ok"),
+        ({"N": 385, "Omega": 15.1}, "further"),
+        ({"N": 385, "Omega": 15.1, "friction_offset": "surface", "friction_decay": 2.0}, "further"),
+        ({"N": 300, "Omega": 40, "contact_compliance": 2e-7, "contact_force": "normal"}, "further"),
+    ],
+)
+def test_steady_sliding(case, status):
+    """The own integrator's state does not change there, but for the membrane's coefficients."""
+    p = Parameters(stretching="clamped", **case)
+    sliding = steady_sliding(p)
+    assert sliding.status == status
+    u = plate_modes(p)["psi"].to_numpy() @ sliding.a
+    q = taylor.problem_of(p)
+    if p.contact_compliance:
+        load = q.N - q.k * q.u_0
+        u = (u - q.C * load) / (1 + q.k * q.C)
+    sign = np.sign(plate_modes(p)["psi"].to_numpy())
+    modal = [(sign * getattr(sliding, name)).tolist() for name in ("a", "b", "alpha", "beta")]
+    state = taylor.State(0.0, "slip", 1, sliding.psi, p.Omega, u, 0.0, *modal)
+    step = taylor.Step(q, "slip", 1, taylor.Reference(q, state).state(), order=2)
+    assert float(step.R[0]) == pytest.approx(sliding.contact_force, rel=1e-8)
+    assert float(abs(step.f[1])) < 1e-6 * p.Omega
+    assert float(abs(step.a[1]).max()) < 1e-10
+    for rates in (step.alpha[1], step.beta[1]):
+        assert float(abs(rates).max()) < 1e-7 * float((q.w2 * abs(step.a[0])).max())
+
+
+def test_the_jacobian_agrees_with_differences_along_a_direction():
+    """Quick enough without compilation."""
+    map_ = ReturnMap(Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped"))
+    x = map_.static
+    along = np.linalg.norm(x) * np.cos(np.arange(map_.size))
+
+    def end(share):
+        return map_.evaluate(x + share * along, tangent=False).end
+
+    expected = differences(end, 1e-4)
+    found = map_.evaluate(x).jacobian @ along
+    assert np.linalg.norm(found - expected) < 1e-7 * np.linalg.norm(expected)
+
+
+@pytest.mark.compiled
+def test_derivatives_by_parameters():
+    map_ = ReturnMap(Parameters(N=385, Omega=15.1, c=0.3, c_p=0.2, stretching="clamped"))
+    check_derivatives(map_, map_.static, lambda name: 1e-2 if name in ("c", "c_p") else 1e-4)
+
+
+@pytest.mark.compiled
+def test_multipliers_are_those_of_simulated_motion():
+    """With separations and impacts on the way."""
+    p = Parameters(N=200, Omega=50, normalization="orthonormal", stretching="clamped")
+    late = simulate(p, 0.05, initial_state=start_of(p, -0.00225)).final_state
+    map_ = ReturnMap(p, patient=True)
+    x = map_.next_release(late).x
+    how = {"may_separate": True}
+    orbit = map_.evaluate(x, **how)
+    expected = central_differences(map_, x, 1e-5 * np.linalg.norm(x), **how)
+    wanted = np.sort_complex(np.linalg.eigvals(expected))
+    found = np.sort_complex(np.linalg.eigvals(orbit.jacobian))
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=1e-6 * abs(wanted).max())
