@@ -382,6 +382,14 @@ def test_a_branch_is_thick_where_it_is_stable_up_to_its_fold() -> None:
     assert {"thick: stable", "fold"} <= {*entries(ax)}
 
 
+def test_a_special_point_is_marked_in_the_units_of_both_axes() -> None:
+    [fold] = [point for point in branch().special if point.kind == "fold"]
+    ax = branch().plot("period", units={"Omega": "rpm"})
+    [mark] = [drawn for drawn in ax.lines if drawn.get_label() == "fold"]
+    assert mark.get_xdata() == pytest.approx([fold.values[0] * 30 / np.pi], rel=1e-12)
+    assert mark.get_ydata() == pytest.approx([1e3 * fold.period], rel=1e-12)
+
+
 def test_a_critical_value_bounds_the_shaded_part() -> None:
     [band] = critical().plot().patches
     assert band.get_x() == 0.3
