@@ -16,7 +16,7 @@ import xarray as xr
 import yaml
 
 from disc_model.data.columns import series_dataset
-from disc_model.data.variables import EVENT_KINDS, PHASES
+from disc_model.data.variables import EVENT_KINDS, PHASES, attributes
 from disc_model.parameters import Parameters
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.study import load_study
@@ -172,6 +172,8 @@ def grid(
     """
     text = json.dumps(stated or {})
     found = xr.Dataset(coords=axes, attrs={"base": text, "options": text})
+    for name in found.coords.keys() & Parameters.model_fields.keys():
+        found[name].attrs = attributes(name)
     for name, given in variables.items():
         values = np.asarray(given)
         attrs = {}

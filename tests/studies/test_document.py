@@ -79,7 +79,10 @@ def test_what_is_unknown_or_of_another_kind_does_not_fit() -> None:
     known |= {
         "figures.f.overlays.growth unknown",
         "figures.f.at.k required by",
+        "figures.f.at.k required",
+        "figures.f.at.c required by: c",
         "figures.f.at.Omega is required",
+        "figures.f.at.normalization required as_published",
     }  # of that kind, and variable
     assert {words for raw, words in wrong if CHECK.is_valid(raw)} == known
 
