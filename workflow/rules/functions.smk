@@ -77,7 +77,11 @@ def stated_of(grid):
     units = {}
     for plot in reversed(grid.plots.values()):
         units.update(plot.units)
-    maps = [[plot.x, plot.y] for plot in grid.plots.values() if {"x", "y"} <= plot.axes.keys()]
+    maps = [
+        [plot.x, plot.y]
+        for plot in grid.plots.values()
+        if {"x", "y"} <= plot.axes.keys()
+    ]
     return {
         "units": units,
         "axes": next(iter(maps), []),
