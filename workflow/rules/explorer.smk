@@ -22,9 +22,7 @@ EXPLORER = json.dumps(
 
 def page_file(wildcards):
     """The page, if there is what writes it."""
-    missing = [
-        module for module in ("altair", "vl_convert") if find_spec(module) is None
-    ]
+    missing = [name for name in ("altair", "vl_convert") if find_spec(name) is None]
     if missing and not CONDA:
         raise WorkflowError(
             f"There is no module {missing[0]}: `pip install 'disc_model[explorer]'` brings what the page needs."
