@@ -20,16 +20,6 @@ EXPLORER = json.dumps(
 )
 
 
-def page_file(wildcards):
-    """The page, if there is what writes it."""
-    missing = [name for name in ("altair", "vl_convert") if find_spec(name) is None]
-    if missing and not CONDA:
-        raise WorkflowError(
-            f"There is no module {missing[0]}: `pip install 'disc_model[explorer]'` brings what the page needs."
-        )
-    return need([f"{RESULTS}/explorer.html"])
-
-
 rule explorer:
     input:
         page_file,

@@ -97,3 +97,13 @@ def all_products():
             f"{STUDY.name}: claims are judged by the Snakefile of a clone of the repository, not by `disc-model study`"
         )
     return PRODUCTS
+
+
+def page_file(wildcards):
+    """The page, if there is what writes it."""
+    missing = [name for name in ("altair", "vl_convert") if find_spec(name) is None]
+    if missing and not CONDA:
+        raise WorkflowError(
+            f"There is no module {missing[0]}: `pip install 'disc_model[explorer]'` brings what the page needs."
+        )
+    return need([f"{RESULTS}/explorer.html"])
