@@ -1,41 +1,59 @@
-"""What all quantities of grid studies have in common, and ranges and rules as parts of files.
+"""What a study can compute: public functions of one case, and what studies know of them.
 
-A quantity imports the engine only where it computes: reading a study file does not wait for it.
+A quantity imports the engine only where it computes, so that reading a study file does not wait for it.
 """
 
-import ast
+from __future__ import annotations
+
+import inspect
 import math
 import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from functools import cache
-from types import CodeType, MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, NamedTuple, Self
+from dataclasses import dataclass
+from functools import wraps
+from importlib import import_module
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Self, get_type_hints
 
 import numpy as np
-from pydantic import AfterValidator, ConfigDict, Field, PrivateAttr, model_validator
+import xarray as xr
+from pydantic import AfterValidator, BeforeValidator, Field, create_model, model_validator
 
-from disc_model.data.variables import Variable
-from disc_model.errors import DiscModelError, Fault
-from disc_model.parameters import DEFAULTS, RATIOS, Parameters, with_ratios
+from disc_model.data.coded import words
+from disc_model.data.described import described
+from disc_model.data.variables import OF_QUANTITIES, Variable
+from disc_model.errors import DiscModelError, Fault, ParameterError, raise_faults, suggestion
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.case import Start
-from disc_model.units import Count, Finite, Positive, Strict, must, number
+from disc_model.units import Count, Finite, Positive, Strict, must
 
 if TYPE_CHECKING:
-    from xarray import Dataset
-
-    from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
-    from disc_model.stability.attractors import Arrival
-    from disc_model.stability.cycle import FloquetResult
-    from disc_model.stability.outcome import Attractor, OutcomeResult
-    from disc_model.stability.segments import Segment
-else:  # names for annotations
-    Arrival = Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any
 
-Value = float | int | str
-Blocks = tuple[tuple[Value, ...], ...]
-MOST = 100_000  # greatest number of values along one axis; a slip of the pen can ask for more than fit into memory
-Rules = tuple[tuple[Callable[[Any], bool], str], ...]
+P = ParamSpec("P")
+Function = Callable[..., xr.Dataset]
+Row = Mapping[str, Any]
+Rules = tuple[tuple[Callable[[Any], Any], str], ...]
+NUMERICAL = (DiscModelError, ArithmeticError, np.linalg.LinAlgError)
+"""Errors that make a point fail."""
+MOST = 100_000
+"""Most values along one axis; a slip of the pen can ask for more than fit into memory."""
+FREE_NUMBERS = re.compile(
+    "|".join(
+        [
+            *(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")),
+            r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+",
+        ]
+    )
+)
+Free = Annotated[
+    str,
+    AfterValidator(must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")),
+]
+"""A number along which a function goes: a parameter, or one of a disc's modes."""
+
+
+# ---- Options and their rules
 
 
 class Ruled(Strict):
@@ -52,8 +70,7 @@ class Ruled(Strict):
 
 
 class Range(Ruled):
-    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each
-    `step`."""
+    """Evenly spaced values from `start` to `stop`, both included: `count` of them, or one each `step`."""
 
     start: Finite
     stop: Finite
@@ -69,262 +86,264 @@ class Range(Ruled):
             lambda r: r.scale == "linear" or (r.count and r.start > 0),
             "a logarithmic range needs count and start > 0",
         ),
-        # by steps there may be a little less than a whole number of them
-        (lambda r: r._steps < MOST - 0.5, f"must be at most {MOST} values"),
+        (lambda r: r.steps < MOST - 0.5, f"must be at most {MOST} values"),
         (
-            lambda r: math.isclose(r._steps, r.intervals),
+            lambda r: math.isclose(r.steps, round(r.steps)),
             "stop - start must be a multiple of step={0.step:g}",
         ),
     )
 
     @property
-    def _steps(self) -> float:
+    def steps(self) -> float:
+        """The number of intervals, which rounding may have changed."""
         if self.step:
             return (self.stop - self.start) / self.step
         return (self.count or 2) - 1
 
     @property
-    def intervals(self) -> int:
-        return round(self._steps)
-
-    @property
     def values(self) -> list[float]:
         """All values, those inside rounded to 12 digits, so that ranges and lists agree on 0.3."""
-        return [self.value_at(place) for place in range(self.intervals + 1)]
+        intervals = round(self.steps)
+        inside = [self._value_at(place / intervals) for place in range(1, intervals)]
+        return [self.start, *inside, self.stop]
 
-    def value_at(self, place: int) -> float:
-        """The value at a place, 0 for the first one."""
-        if place == 0:
-            return self.start
-        if place == self.intervals:
-            return self.stop
-        share = place / self.intervals
+    def _value_at(self, share: float) -> float:
+        """The value at a share of the way."""
         if self.scale == "log":
-            value = self.start * (self.stop / self.start) ** share
-        else:
-            value = self.start + share * (self.stop - self.start)
-        return float(f"{value:.12g}")
+            return float(f"{self.start * (self.stop / self.start) ** share:.12g}")
+        return float(f"{self.start + share * (self.stop - self.start):.12g}")
 
 
-# ---- Rules between the values of a point, such as ``mu_k <= mu_s``, that exclude points of a grid
-_MADE_OF = (
-    *(ast.Name, ast.Load, ast.Constant, ast.BinOp, ast.UnaryOp, ast.Compare, ast.BoolOp),
-    *(ast.Add, ast.Sub, ast.Mult, ast.Div, ast.USub, ast.And, ast.Or),
-    *(ast.Lt, ast.LtE, ast.Gt, ast.GtE, ast.Eq, ast.NotEq),
+def values_between(bounds: tuple[float, float], step: float) -> list[float]:
+    """Evenly spaced values from the first to the last of two bounds."""
+    return Range(start=bounds[0], stop=bounds[1], step=step).values
+
+
+def _listed(given: Any) -> Any:
+    """A list of values, in which ranges are replaced by theirs."""
+    parts = [given] if isinstance(given, Mapping) else given
+    if not isinstance(parts, list | tuple | np.ndarray):
+        return given
+    values: list[Any] = []
+    for part in parts:
+        values += Range.model_validate(part).values if isinstance(part, Mapping) else [part]
+    return values
+
+
+Values = Annotated[tuple[Finite, ...], BeforeValidator(_listed), Field(min_length=1)]
+"""Numbers: a list of them and of ranges {start, stop, count or step, scale}, or one range."""
+
+
+def _started(given: Any) -> Any:
+    """A start of a motion: perturbations by name, and what `Start` has."""
+    if not isinstance(given, Mapping):
+        return given
+    kicks = {name: value for name, value in given.items() if name in ("u", "u_velocity", "f")}
+    others = {name: value for name, value in given.items() if name not in kicks}
+    return {**others, "perturbation": kicks} if kicks else others
+
+
+Starting = Annotated[Start, BeforeValidator(_started)]
+"""A start: perturbations {u, u_velocity, f} of the static start, or {prerun: {parameters, time}}."""
+COME_TO = (
+    "What the motion has come to: a while after the first separation, on the cycle it settled to, "
+    "or at the horizon."
 )
+_ON_CYCLE = "The motion on the cycle that it has settled to."
+_AT_HORIZON = "The motion at the horizon."
+COME_TO_BY: Mapping[str, str] = MappingProxyType(
+    {
+        "separation": "The motion a while after the first separation.",
+        "stick_slip": _ON_CYCLE,
+        "other_cycle": _ON_CYCLE,
+        "separating": _ON_CYCLE,
+        "steady_sliding": "The steady sliding that the motion has settled to.",
+        "at_rest": "The rest to which the motion has come.",
+        "undecided": _AT_HORIZON,
+        "growing": _AT_HORIZON,
+    }
+)
+"""What a motion has come to, by its outcome."""
 
 
-@cache
-def compiled_rule(rule: str) -> CodeType:
-    """A rule such as ``0.5 < a/b < 0.8``, with floats only: a whole number could repeat a word
-    without end."""
-    try:
-        tree = ast.parse(rule.strip(), mode="eval")
-        nodes = list(ast.walk(tree.body))
-        if not isinstance(tree.body, ast.Compare | ast.BoolOp) or not all(
-            isinstance(node, _MADE_OF) for node in nodes
-        ):
-            raise ValueError
-        for node in nodes:
-            if isinstance(node, ast.Constant) and not isinstance(node.value, str):
-                node.value = number(node.value)
-        return compile(tree, "where", "eval")
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise ValueError("must compare values in SI, without units, such as mu_k <= mu_s") from None
+class Motion(NamedTuple):
+    """Motions that the explorer stores: of so many values of each axis, what they are, by the class of
+    their point, and the state at which they begin, of a case and options."""
+
+    count: int
+    text: str
+    by: Mapping[str, str]
+    state: Callable[..., State]
 
 
-def holds(rules: Sequence[str], values: Mapping[str, Any]) -> bool:
-    """Whether all rules hold at a point; a rule that cannot be evaluated, such as a division by
-    zero, does not."""
-    floats = {}
-    for name, value in {**DEFAULTS, **with_ratios(values)}.items():
-        floats[name] = float(value) if isinstance(value, int) else value
-    try:
-        return all(eval(compiled_rule(rule), {"__builtins__": {}}, floats) for rule in rules)
-    except (ArithmeticError, TypeError):
-        return False
+@dataclass(frozen=True)
+class Quantity:
+    """A quantity of studies.
+
+    Attributes
+    ----------
+    name, function : of a case, with `options` as keywords; it returns codes for words, as files have them
+    points_per_job : most points of a job, some 20 s of work with nine modes
+    own : numbers of the case that it varies by itself, or the options that name them
+    plane : whether it takes all values along two numeric axes at once, as `axes`
+    motion : what the explorer stores
+    """
+
+    name: str
+    function: Function
+    options: type[Ruled]
+    points_per_job: int
+    own: tuple[str, ...]
+    plane: bool
+    motion: Motion | None
+
+    @property
+    def columns(self) -> Mapping[str, Variable]:
+        return OF_QUANTITIES[self.name]["columns"]
+
+    def varied(self, options: Any) -> tuple[str, ...]:
+        """Numbers of the case that it varies by itself, for given options."""
+        return tuple(str(getattr(options, name, name)) for name in self.own)
 
 
-# ---- Quantities
-Row = Mapping[str, Any]
-Made = Parameters | DiscModelError  # parameters, or the error in their place
-NUMERICAL = (
-    DiscModelError,
-    ArithmeticError,
-    np.linalg.LinAlgError,
-)  # errors that make a point fail
+QUANTITIES: dict[str, Quantity] = {}
+"""All quantities by name; `quantity_of` fills it."""
+HOMES = {
+    "basins": "basins",
+    "bifurcation": "bifurcation",
+    "branches": "branches",
+    "campbell": "campbell",
+    "critical_speed": "critical_speed",
+    "floquet": "cycles",
+    "hysteresis": "hysteresis",
+    "locking": "locking",
+    "lyapunov_exponents": "cycles",
+    "neutral_curves": "cycles",
+    "outcome": "outcome",
+    "ramps": "ramps",
+    "range_law": "range_law",
+    "regions": "regions",
+    "sensitivity": "sensitivity",
+    "sliding_modes": "sliding",
+}
+"""Modules of `disc_model.studies.quantities`; a new quantity is added here."""
 
 
-class Point(NamedTuple):
-    """A point of a grid: its parameters, the start of its motion, and its sample number, if it is a
-    sample."""
-
-    parameters: Parameters
-    start: Start = Start()
-    sample: int = 0
-
-    @classmethod
-    def perturbed(cls, case: Parameters, perturbation: Mapping[str, float] | None) -> Self:
-        """The point of a case whose static start is perturbed, by name."""
-        given = {} if perturbation is None else {"perturbation": perturbation}
-        return cls(case, Start.model_validate(given))
+def quantity_of(name: str) -> Quantity:
+    """The quantity of a name; raises `ParameterError`."""
+    if name not in HOMES:
+        rule = f"unknown quantity{suggestion(name, [*HOMES])}"
+        raise ParameterError(Fault.of(("quantity",), name, rule))
+    import_module(f"disc_model.studies.quantities.{HOMES[name]}")
+    return QUANTITIES[name]
 
 
-class Coordinate(NamedTuple):
-    """A dimension of a quantity's own: values for given options, and the option by which it has room
-    for more."""
+def quantity(
+    *,
+    points_per_job: int = 1,
+    own: Sequence[str] = (),
+    rules: Rules = (),
+    plane: bool = False,
+    motion: Motion | None = None,
+) -> Callable[[Callable[Concatenate[Parameters, P], xr.Dataset]], Callable[Concatenate[Parameters, P], xr.Dataset]]:
+    """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
+    check them, by their types and by the rules between them.
 
-    values: Callable[[Any], Sequence[Any]]
-    room: str = ""
+    A call returns words; studies call the function itself, for codes.
+    """
+
+    def mark(
+        function: Callable[Concatenate[Parameters, P], xr.Dataset],
+    ) -> Callable[Concatenate[Parameters, P], xr.Dataset]:
+        name = function.__name__
+        options = options_of(function, rules)
+        QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), plane, motion)
+
+        @wraps(function)
+        def checked(case: Parameters, *args: P.args, **given: P.kwargs) -> xr.Dataset:
+            raise_faults(foreign_case(case))
+            by_place = zip(options.model_fields, args, strict=False)
+            values = dict(options.model_validate({**dict(by_place), **given}))
+            found = function(case, **values)  # type: ignore[call-arg]
+            message = str(found["message"].values) if found["message"].ndim == 0 else ""
+            found = found.drop_vars("message").assign_attrs(parameters=case.canonical_json, message=message)
+            return words(described(found, name, values))
+
+        return checked
+
+    return mark
 
 
-DIRECTION = Coordinate(lambda options: ("up", "down"))
+def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:
+    """The options of a function: its keywords after the case, with their types and defaults."""
+    hints = get_type_hints(function, include_extras=True)
+    _, *parameters = inspect.signature(function).parameters.values()
+    fields: dict[str, Any] = {}
+    for parameter in parameters:
+        if parameter.name != "axes":  # which a plane is given by the study
+            default = ... if parameter.default is parameter.empty else parameter.default
+            fields[parameter.name] = (hints[parameter.name], default)
+    model = create_model(function.__name__, __base__=Ruled, **fields)
+    model._rules = rules
+    return model
 
 
-def failed(error: Exception, flag: str = "status") -> tuple[Row, str]:
-    """Values and message of what an error has ended."""
-    return {flag: "failed"}, f"{type(error).__name__}: {error}"
+# ---- What a function has found, as a dataset
 
 
-def tried(
-    flag: str, compute: Callable[..., tuple[Row, str]], subject: Any, *options: Any
-) -> tuple[Row, str]:
-    """Values and message that a function returns, or those of an error, which the subject may be
-    already."""
-    if isinstance(subject, Exception):
-        return failed(subject, flag)
-    try:
-        return compute(subject, *options)
-    except NUMERICAL as error:
-        return failed(error, flag)
+def failed(name: str, error: Exception) -> xr.Dataset:
+    """The dataset of a point of a quantity that an error has ended."""
+    return found(name, {"status": "failed"}, f"{type(error).__name__}: {error}")
+
+
+def found(name: str, values: Row, message: str = "", **own: Iterable[Any]) -> xr.Dataset:
+    """A dataset of what a quantity has found at a point.
+
+    Parameters
+    ----------
+    name : of the quantity, whose variables the table has
+    values : numbers, words, arrays, or lists of these along the first own dimension, by variable; those that
+        are not given, and the ends of too short lists, are missing
+    message : what there is to say; that something was cut is added
+    own : values along the dimensions of its own; without them, only variables without dimensions are returned
+    """
+    coords = {dim: xr.Variable(dim, np.array([*along])) for dim, along in own.items()}
+    variables: dict[str, Any] = {}
+    cuts: dict[str, str] = {}
+    for key, column in OF_QUANTITIES[name]["columns"].items():
+        if not coords.keys() >= {*column.dims}:
+            continue
+        array = column.empty(tuple(coords[dim].size for dim in column.dims))
+        value = values.get(key)
+        _store(value, array[...], column)
+        variables[key] = xr.Variable(column.dims, array, column.codes)
+        if isinstance(value, list) and len(value) > len(array):
+            room = f"which has room for {len(array)}"
+            cuts[column.dims[0]] = f"{len(value)} were found along {column.dims[0]}, {room}"
+    text = "; ".join(filter(None, [message.removesuffix(".") if cuts else message, *cuts.values()]))
+    return xr.Dataset({**variables, "message": ((), text)}, coords)
+
+
+def _store(value: Any, cell: np.ndarray, column: Variable) -> None:
+    """Store a value in a view of an array: flags as numbers; lists and arrays are cut to fit."""
+    if isinstance(value, list):
+        for i, item in enumerate(value[: len(cell)]):
+            _store(item, cell[i, ...], column)
+    elif isinstance(value, np.ndarray) and value.ndim:
+        part = value[tuple(map(slice, cell.shape))]
+        cell[tuple(map(slice, part.shape))] = part
+    elif isinstance(value, str):
+        cell[...] = column.flags.index(value)
+    elif value is not None:
+        cell[...] = value
+
+
+def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
+    """Columns of the rows along a dimension; None, which is missing, where rows lack a value."""
+    names = dict.fromkeys(name for row in rows for name in row)
+    return {name: [row.get(name) for row in rows] for name in names}
 
 
 def with_ends(name: str, values: Iterable[Any]) -> dict[str, Any]:
     """Three columns by name: a share, and the ends of its confidence interval."""
     return dict(zip((name, f"{name}_low", f"{name}_high"), values, strict=True))
-
-
-def listed(rows: Sequence[Row]) -> dict[str, list[Any]]:
-    """Columns of the rows along a quantity's own dimension; None, which is missing, where rows lack
-    a value."""
-    names = dict.fromkeys(name for row in rows for name in row)
-    columns = {}
-    for name in names:
-        columns[name] = [row.get(name) for row in rows]
-    return columns
-
-
-COME_TO = (
-    "What the motion has come to: a while after the first separation, on the cycle it settled to, "
-    "or at the horizon."
-)
-ON_CYCLE = "The motion on the cycle that it has settled to."
-AT_HORIZON = "The motion at the horizon."
-COME_TO_BY: Mapping[str, str] = MappingProxyType(
-    {
-        "separation": "The motion a while after the first separation.",
-        "stick_slip": ON_CYCLE,
-        "other_cycle": ON_CYCLE,
-        "separating": ON_CYCLE,
-        "steady_sliding": "The steady sliding that the motion has settled to.",
-        "at_rest": "The rest to which the motion has come.",
-        "undecided": AT_HORIZON,
-        "growing": AT_HORIZON,
-    }
-)
-"""What a motion has come to, by its outcome."""
-SETTLED_TO_BY: Mapping[str, str] = MappingProxyType(
-    {
-        "stick_slip": "After the transient, of a motion that comes to the cycle of the static start.",
-        "other_cycle": "After the transient, of a motion that comes to another cycle in contact.",
-        "separating": "After the transient, of a motion that comes to a cycle with separations.",
-        "quasi_periodic": "After the transient, of a motion that is quasi-periodic.",
-        "irregular": "After the transient, of a motion that is irregular.",
-        "steady_sliding": "After the transient, of a motion that comes to steady sliding.",
-        "at_rest": "After the transient, of a motion that comes to permanent stick.",
-        "undecided": "After the transient, of a motion that has not shown what it comes to.",
-    }
-)
-"""What a stored motion is, by the kind that the samples of its point have."""
-NUMBERS = tuple(
-    name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")
-)
-_FREE = re.compile(
-    "|".join([*NUMBERS, *RATIOS, r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+"])
-)
-Free = Annotated[
-    str,
-    AfterValidator(must(lambda name: bool(_FREE.fullmatch(name)), "must be a number of the case")),
-]
-"""A number along which cycles are continued: a parameter, a ratio, or one of a disc's modes."""
-
-
-class Quantity(Ruled):
-    """A quantity of grid studies: its fields are its options, each with its description below."""
-
-    model_config = ConfigDict(use_attribute_docstrings=True)
-
-    points_per_job: ClassVar[int] = 1
-    """Most points of a batch, of some 20 s of work with nine modes, where the file does not say it."""
-    COLUMNS: ClassVar[Mapping[str, Variable]] = {}
-    COORDINATES: ClassVar[
-        Mapping[str, Coordinate]
-    ] = {}  # its own dimensions, beyond those of the grid
-    SUMMARY_COLUMNS: ClassVar[Mapping[str, Variable]] = {}
-    # they number what is found, and grow with that
-    SUMMARY_COORDINATES: ClassVar[Mapping[str, Coordinate]] = {}
-    scans: ClassVar[
-        tuple[str, ...]
-    ] = ()  # parameters that it varies by itself, or the options that name them
-    motions: ClassVar[int] = (
-        0  # number of values of each axis for which a motion is stored, fewer if it is expensive
-    )
-    motion: ClassVar[str] = ""  # description of these motions, which begin at `state_at`
-    # more exact descriptions, by the outcome, the kind or the status of a point
-    motion_by: ClassVar[Mapping[str, str]] = MappingProxyType({})
-    tiled: ClassVar[bool] = (
-        False  # whether `compute_tile`, as of `Regions`, computes a whole tile of a plane at once
-    )
-    # the required dimension over which `summarise`, as of `Campbell`, makes a row of a merged
-    # study; a rule of the file may have left out some points, or all
-    over: ClassVar[str] = ""
-
-    _advance: Callable[[], object] | None = PrivateAttr(default=None)
-    """Is called after each of the starts of a point, if it is given."""
-
-    @property
-    def starts(self) -> int:
-        """Number of motions of a point whose progress is told."""
-        return 1
-
-    def report_to(self, advance: Callable[[], object]) -> None:
-        """Have a function called after each of the starts of a point."""
-        self._advance = advance
-
-    def start_is_done(self) -> None:
-        """Tell that one of the starts of a point is done."""
-        if self._advance is not None:
-            self._advance()
-
-    @property
-    def scanned(self) -> tuple[str, ...]:
-        return tuple(getattr(self, name, name) for name in self.scans)
-
-    @property
-    def dimensions(self) -> Mapping[str, Blocks]:
-        """Dimensions that the options add to the grid, with their blocks of values."""
-        return {}
-
-    def faults(self, grid: Any) -> Iterable[Fault]:
-        """Faults of the options in a grid, a `disc_model.studies.grid.GridStudy`."""
-        return ()
-
-    def compute_point(self, point: Point) -> tuple[Row, str]:
-        """Values at one point by column, flags as words, and a message. Too short lists are padded,
-        long ones cut, which the message then says."""
-        raise NotImplementedError
-
-    def state_at(self, point: Point) -> State:
-        """The state in which the motions of a point begin; raises `DiscModelError` if there is
-        none."""
-        raise NotImplementedError

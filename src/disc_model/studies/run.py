@@ -1,213 +1,256 @@
-"""Computation of one batch of a grid study: a quantity at each point, as variables with units."""
+"""Jobs of studies and their merging, and whole studies without files."""
 
-from collections import defaultdict
+from __future__ import annotations
+
+import json
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
-from disc_model.data.dataset import CONVENTIONS
-from disc_model.data.variables import CHOICES, PERTURBATIONS, SAMPLE, Variable, attributes
-from disc_model.errors import DiscModelError
-from disc_model.parameters import Parameters, case_of
-from disc_model.simulation.case import Start
-from disc_model.sources import BATCHES, git_commit, quantity_file, source_hash, versions_text
-from disc_model.studies.batch import Batch, TileSides
-from disc_model.studies.quantity import Coordinate, Made, Point, Quantity, Row, tried
-from disc_model.studies.registry import quantity_of
+from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
+from disc_model.data.described import described
+from disc_model.data.variables import CHOICES, EXCLUDED, attributes, unit_of_parameter
+from disc_model.errors import require
+from disc_model.hashing import canonical_json
+from disc_model.parameters import Disc, Parameters
+from disc_model.provenance import git_commit, physics_hash, versions_text
+from disc_model.simulation.named_case import run_case
+from disc_model.studies.compute import Call, compute, stack
+from disc_model.studies.grid import REQUIRED, VARIED, WORDS, Grid
+from disc_model.studies.quantity import quantity_of
 
 POINT = "point"
-Computed = tuple[Row, str]  # values of a point by column, and a message
+Layout = Mapping[str, Any]
 
 
-def run_batch(text: str, of: Callable[[Quantity], Any] | None = None) -> xr.Dataset:
-    """Compute a batch.
+# ---- Jobs
+
+
+def call_of(layout: Layout) -> Call:
+    """The call of a quantity, from what all points of a grid have in common."""
+    quantity = quantity_of(layout["quantity"])
+    options = dict(quantity.options.model_validate(layout["options"]))
+    if layout.get("axes"):
+        options["axes"] = {name: [*map(_number, x)] for name, x in layout["axes"].items()}
+    discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
+    base = {name: x for name, x in layout["base"].items() if x is not None}
+    return Call(quantity.function, partial(_case, base), options, discs)
+
+
+def _case(base: Mapping[str, Any], **changes: Any) -> Parameters:
+    """A case from the values that do not vary, and from those that do; what the quantity varies by
+    itself is 0."""
+    return Parameters(**{**dict.fromkeys(REQUIRED, 0.0), **base, **changes})
+
+
+def _number(value: Any) -> Any:
+    """A number of a JSON text, which has a word for an infinite one."""
+    return math.inf if value == "inf" else value
+
+
+def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
+    """The results of a job along `point`.
 
     Parameters
     ----------
-    text : of the batch, as `disc_model.studies.grid.GridStudy.batches` has it
-    of : makes what is computed from the study's quantity; by default the quantity itself is
+    job : a text of `Grid.jobs`
+    known : results of other jobs on the same quantity, options and base, from which points are taken
+    """
+    layout = json.loads(job)
+    points = []
+    for point in layout["points"]:
+        points.append({name: x if name in WORDS else _number(x) for name, x in point.items()})
+    there = {canonical_json(point): row for part in known for point, row in _points_of(part)}
+    missing = [point for point in points if canonical_json(point) not in there]
+    for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
+        there[canonical_json(point)] = row
+    rows = [there[canonical_json(point)] for point in points]
+    return _along_points(layout, points, rows)
+
+
+def _along_points(layout: Layout, points: Sequence[Mapping[str, Any]], rows: Sequence[xr.Dataset]) -> xr.Dataset:
+    """Results in one dataset, with what varies as coordinates along `point`."""
+    places = np.arange(len(rows))[:, np.newaxis]
+    results = stack(rows, places, {POINT: len(rows)}, quantity_of(layout["quantity"]).columns)
+    varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
+    said = {
+        "source_hash": physics_hash(),
+        "versions": versions_text(),
+        "names": json_attribute([*points[0]]),
+    }
+    return results.assign_coords(varied).assign_attrs(said)
+
+
+def _points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
+    """The points of a job's results, and the result at each."""
+    names = json.loads(part.attrs["names"])
+    columns = [part[name].values.tolist() for name in names]
+    results = part.drop_vars(names)
+    for i in range(part.sizes[POINT]):
+        point = {name: column[i] for name, column in zip(names, columns, strict=True)}
+        yield point, results.isel({POINT: i})
+
+
+def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
+    """The results of all jobs of a grid over its dimensions, which a variable has in the order of the
+    parameters, before its own.
+
+    Parameters
+    ----------
+    layout : of `Grid.layout`
+    parts : of `run_job`
+    attrs : of the study
+    """
+    quantity = quantity_of(layout["quantity"])
+    pairs = [pair for part in parts for pair in _points_of(part)]
+    given = pairs[0][0].keys()
+    dims = {}
+    for dim, columns in layout["dims"].items():
+        values = [[x if name in WORDS else _number(x) for x in column] for name, column in columns.items()]
+        dims[dim] = [*zip(*values, strict=True)]
+    numbered = {dim: [*layout["dims"][dim]] for dim in dims if {*layout["dims"][dim]} <= given}
+    places = []
+    for point, _ in pairs:
+        places.append([dims[dim].index(tuple(point[x] for x in names)) for dim, names in numbered.items()])
+    sizes = {dim: len(dims[dim]) for dim in numbered}
+    found = stack([row for _, row in pairs], np.array(places).reshape(len(pairs), -1), sizes, quantity.columns)
+
+    coords = {}
+    for dim, columns in layout["dims"].items():
+        for i, name in enumerate(columns):
+            coords[name] = (dim, np.array([value[i] for value in dims[dim]]), coordinate_attributes(name))
+    study = found.assign_coords(coords)
+    first = {dim: [*columns][0] for dim, columns in layout["dims"].items()}
+    ranked = sorted(study.dims, key=lambda dim: _rank(first.get(str(dim), str(dim))))
+    options = layout["options"]
+    every = {
+        "Conventions": CONVENTIONS,
+        **attrs,
+        "quantity": quantity.name,
+        "options": json_attribute(options),
+        "base": json_attribute(layout["base"]),
+        **({"discs": json_attribute(layout["discs"])} if layout["discs"] else {}),
+        "git_commit": git_commit(),
+        **common_provenance(parts),
+    }
+    return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
+
+
+def _rank(name: str) -> int:
+    """The place of a parameter among those that vary; the last one for anything else."""
+    return VARIED.index(name) if name in VARIED else len(VARIED)
+
+
+def coordinate_attributes(name: str) -> dict[str, Any]:
+    """Attributes of a varying parameter as a coordinate; words have no unit."""
+    stated = attributes(name)
+    if name in (*CHOICES, "disc"):
+        return {"long_name": stated["long_name"]}
+    return stated
+
+
+# ---- Points of which there is something to say
+
+
+def point_lines(study: xr.Dataset) -> tuple[list[str], list[str]]:
+    """Lines of the points without a result, and of those with a result and a message: parameters,
+    status and message."""
+    status = study["status"]
+    flags = status.attrs["flag_meanings"].split()
+    varied = [str(name) for name in study.coords if {*study[name].dims} <= {*status.dims}]
+    failures, remarks = [], []
+    for index in np.ndindex(*status.shape):
+        point = study[["status", "message"]].isel(dict(zip(status.dims, index, strict=True)))
+        word = flags[int(point["status"])]
+        message = str(point["message"].values)
+        values = ", ".join(_value_text(name, point[name].item()) for name in varied)
+        if word not in ("ok", EXCLUDED):
+            failures.append(f"{values}: {word}: {message}")
+        elif message:
+            remarks.append(f"{values}: {message}")
+    return failures, remarks
+
+
+def _value_text(name: str, value: Any) -> str:
+    """A value of a point with its name and unit."""
+    if isinstance(value, str):
+        return f"{name} = {value}"
+    unit = unit_of_parameter(name) if name in Parameters.model_fields else ""
+    return f"{name} = {value:.9g} {unit}".strip()
+
+
+# ---- Whole studies
+
+
+def run_study(
+    source: str | Path | Mapping[str, Any],
+    *,
+    map: Callable[..., Iterable[Any]] = map,
+    progress: bool = False,
+) -> xr.Dataset | xr.DataTree:
+    """Compute a study in this process, without files.
+
+    Parameters
+    ----------
+    source : path of a study file, or the mapping that such a file holds
+    map : as in `sweep`
+    progress : whether a bar on standard error shows how many points are done
 
     Returns
     -------
     xarray.Dataset
-        Variables along `point`
+        The quantity over the grid, with the `status` and `message` of each point. A study of named cases gives a
+        DataTree of them, one of several grids a DataTree of their datasets.
+
+    Raises
+    ------
+    disc_model.studies.study.StudyError
+        If the study has faults; it lists all of them.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> axes = {"mu_s": [0.35, 0.4], "mu_k": [0.2]}
+    >>> study = {"study": "growth", "quantity": "floquet", "base": {"N": 385, "Omega": 12}, "axes": axes}
+    >>> dm.run_study(study)["growth_rate"].sizes
+    Frozen({'mu_s': 2, 'mu_k': 1})
+
+    A bifurcation diagram:
+
+    >>> turns = {"study": "turns", "quantity": "bifurcation", "options": {"transient": 20}}
+    >>> turns |= {"base": {"N": 385}, "axes": {"Omega": [14, 15]}}
+    >>> dm.plot_sweep(dm.run_study(turns)).get_xlabel()
+    'Speed Ω (rad/s)'
     """
-    batch = Batch.model_validate_json(text)
-    quantity = quantity_of(batch.quantity).model_validate(batch.options)
-    computed = quantity if of is None else of(quantity)
-    if batch.tile is not None and of is None:
-        results = _results_over_tiles(quantity, batch, batch.tile)
-    else:
-        results = _results_at_points(computed, batch)
-    rows = [row for row, _ in results]
-    own_coords = coordinates_of(computed.COORDINATES, quantity)
-    messages = [with_cuts(message, row, computed, own_coords) for row, message in results]
+    # needs yaml, of the extra `workflow`
+    from disc_model.studies.study import load_study, parse_study
 
-    variables = variables_of(computed.COLUMNS, own_coords, rows, {POINT: len(rows)})
-    variables["message"] = xr.Variable(POINT, np.array(messages, dtype=str))
-    coords = {}
-    for name in batch.names:
-        coords[name] = xr.Variable(POINT, [varied[name] for varied in batch.varied])
-    coords.update(own_coords)
-    attrs = {
-        "Conventions": CONVENTIONS,
-        "specification": text,
-        "source_hash": source_hash(*BATCHES, quantity_file(batch.quantity)),
-        "git_commit": git_commit(),
-        "versions": versions_text(),
-    }
-    return xr.Dataset(variables, coords, attrs)
+    named = isinstance(source, str | Path | Mapping)
+    require((named, "source", source, "must be the path of a study file, or a mapping"))
+    folder = Path() if isinstance(source, Mapping) else Path(source).parent
+    study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
+    grids, names = study.all_grids([folder])
+    datasets: dict[str, Any] = {}
+    for name in names:
+        datasets[name] = _run_grid(grids[name].grid, grids[name].attrs, map, progress)
+    if study.specs:
+        trees = dict(zip(study.specs, map(run_case, study.specs.values()), strict=True))
+        datasets["cases"] = xr.DataTree(children=trees)
+    if len(datasets) == 1:
+        return next(iter(datasets.values()))
+    return xr.DataTree.from_dict(datasets)
 
 
-def _results_at_points(computed: Any, batch: Batch) -> list[Computed]:
-    """Return the results at the points of a batch, each computed by itself."""
-    own = {name: value for name, value in batch.options.items() if name in Start.model_fields}
-    start = Start(**own)
-    results = []
-    for varied in batch.varied:
-        point = _point(_parameters_or_error(batch, varied), varied, start)
-        results.append(tried("status", computed.compute_point, point))
-    return results
-
-
-def _results_over_tiles(quantity: Any, batch: Batch, sides: TileSides) -> list[Computed]:
-    """Return the results at the points of a batch, without the tile's margin.
-
-    There is one tile for each combination of the other parameters.
-    """
-    first, second = sides.names
-    rows, columns = sides.along
-    tiles: dict[tuple[Any, ...], Sequence[Sequence[Computed]]] = {}
-    results = []
-    for varied in batch.varied:
-        others = dict(varied)
-        i = rows.index(others.pop(first))
-        j = columns.index(others.pop(second))
-        key = tuple(others.values())
-        if key not in tiles:
-            plane = [_row_of_tile(batch, sides, {**others, first: y}) for y in rows]
-            tiles[key] = quantity.compute_tile(plane, sides.sampled)
-        results.append(tiles[key][i][j])
-    return results
-
-
-def _row_of_tile(batch: Batch, sides: TileSides, values: Mapping[str, Any]) -> list[Made]:
-    """Return the parameters along the second side of a tile, other values given."""
-    second = sides.names[1]
-    return [_parameters_or_error(batch, {**values, second: x}) for x in sides.along[1]]
-
-
-def _point(p: Made, varied: Mapping[str, Any], start: Start) -> Point | DiscModelError:
-    """Return a point with its parameters and everything else that varies; an error in place of the
-    parameters stays one."""
-    if isinstance(p, DiscModelError):
-        return p
-    perturbation = defaultdict[Any, float](float, start.perturbation)
-    for name in varied.keys() & PERTURBATIONS.keys():
-        perturbation[name.removeprefix("perturbation_")] += varied[name]
-    perturbed = start.model_copy(update={"perturbation": dict(perturbation)})
-    return Point(p, perturbed, varied.get(SAMPLE, 0))
-
-
-def _parameters_or_error(batch: Batch, varied: Mapping[str, Any]) -> Made:
-    """Return the parameters of a point, or the error if they break a rule."""
-    try:
-        return Parameters(**case_of({**batch.base, **varied}, batch.discs))
-    except DiscModelError as error:
-        return error
-
-
-def describe(name: str) -> dict[str, Any]:
-    """Return attributes of a varying parameter as a coordinate; choices, which are words, have no
-    unit."""
-    described = attributes(name)
-    if name in (*CHOICES, "disc"):
-        return {"long_name": described["long_name"]}
-    return described
-
-
-# ---- Quantities: rows of results, one for each point, as arrays
-
-
-def coordinates_of(
-    coordinates: Mapping[str, Coordinate], quantity: Quantity
-) -> dict[str, xr.Variable]:
-    """Return the dimensions of a quantity's own, with values for its options."""
-    return {
-        name: xr.Variable(name, np.array(coordinate.values(quantity)))
-        for name, coordinate in coordinates.items()
-    }
-
-
-def with_cuts(message: str, row: Row, computed: Any, coords: Mapping[str, xr.Variable]) -> str:
-    """A message that also says of which values a row has more than its dimensions have room for."""
-    cuts = []
-    for dim, coordinate in computed.COORDINATES.items():
-        room = coords[dim].size
-        found = _number_found(row, computed.COLUMNS, dim)
-        if found <= room:
-            continue
-        advice = f": raise {coordinate.room}" if coordinate.room else ""
-        cuts.append(f"{found} were found along {dim}, which has room for {room}{advice}")
-    if not cuts:
-        return message
-    return "; ".join(filter(None, [message.removesuffix("."), *cuts]))
-
-
-def _number_found(row: Row, columns: Mapping[str, Variable], dim: str) -> int:
-    """The largest number of values that a row has along a dimension, in lists and arrays."""
-    found = 0
-    for name, column in columns.items():
-        value = row.get(name)
-        if dim not in column.dims:
-            continue
-        before = column.dims.index(dim)
-        if isinstance(value, np.ndarray) and value.ndim > before:
-            found = max(found, value.shape[before])
-        elif isinstance(value, list):
-            found = max(found, _longest(value, before))
-    return found
-
-
-def _longest(value: list[Any], depth: int) -> int:
-    """The length of the longest list at a depth of lists within lists, 0 without one."""
-    lists = [value]
-    for _ in range(depth):
-        lists = [inner for outer in lists for inner in outer if isinstance(inner, list)]
-    return max(map(len, lists), default=0)
-
-
-def variables_of(
-    columns: Mapping[str, Variable],
-    coords: Mapping[str, xr.Variable],
-    rows: Iterable[Row],
-    sizes: Mapping[str, int],
-) -> dict[str, xr.Variable]:
-    """Return rows as variables along dimensions of these sizes, the last one fastest, and along
-    the quantity's own; what they are is said where they are merged."""
-    rows = list(rows)
-    variables = {}
-    for name, column in columns.items():
-        array = column.empty((len(rows), *(coords[dim].size for dim in column.dims)))
-        for i, row in enumerate(rows):
-            _store(row.get(name), array[i, ...], column)
-        array = array.reshape((*sizes.values(), *array.shape[1:]))
-        variables[name] = xr.Variable((*sizes, *column.dims), array, column.codes)
-    return variables
-
-
-def _store(value: Any, cell: NDArray[Any], column: Variable) -> None:
-    """Store a value in a view of an array: flags as numbers; lists and arrays are cut to fit."""
-    if isinstance(value, list):
-        for i, item in enumerate(value[: len(cell)]):
-            _store(item, cell[i, ...], column)
-    elif isinstance(value, np.ndarray) and value.ndim:
-        part = value[tuple(map(slice, cell.shape))]
-        cell[tuple(map(slice, part.shape))] = part
-    elif isinstance(value, str):
-        cell[...] = column.flags.index(value)
-    elif value is not None:
-        cell[...] = value
+def _run_grid(
+    grid: Grid, attrs: Mapping[str, str], map: Callable[..., Iterable[Any]], progress: bool
+) -> xr.Dataset:
+    """A grid whose points are computed here."""
+    layout = grid.layout
+    call = call_of({**layout, "axes": {dim: grid.dims[dim][dim].tolist() for dim in grid.plane}})
+    rows = compute(call, grid.rows, map=map, title=grid.quantity.name, progress=progress)
+    return merge(layout, [_along_points(layout, grid.rows, rows)], attrs)
