@@ -39,9 +39,8 @@ _NAMES = {
     "simulation.result": "Result",
     "simulation.starts": "initial_state",
     "simulation.states": "State deflection",
-    "studies.functions": "outcome critical_speed basins hysteresis",
-    "studies.whole_study": "run_study",
-    "studies.sweeps": "sweep",
+    "studies.run": "run_study",
+    "studies.sweep": "sweep",
     "stability.continuation": "Branch StepControl continue_cycle",
     "stability.critical": "critical",
     "stability.curves": "neutral_curves",
@@ -100,9 +99,8 @@ if TYPE_CHECKING:
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.studies.functions import basins, critical_speed, hysteresis, outcome
-    from disc_model.studies.sweeps import sweep
-    from disc_model.studies.whole_study import run_study
+    from disc_model.studies.run import run_study
+    from disc_model.studies.sweep import sweep
 
 
 def __getattr__(name: str) -> Any:

@@ -48,11 +48,11 @@ class Call:
         """What the function returns at a point; status and message alone where it fails."""
         try:
             case = self.case_at(point)
-            return self.function(case, **self._options_at(point))
+            return self.function(case, **self.options_at(point))
         except NUMERICAL as error:
             return failure(error)
 
-    def _options_at(self, point: Point) -> dict[str, Any]:
+    def options_at(self, point: Point) -> dict[str, Any]:
         """The keywords of the function at a point, at which the start and arguments may vary."""
         options = dict(self.options)
         for name, value in point.items():
