@@ -13,7 +13,18 @@ from dataclasses import dataclass
 from functools import wraps
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Self, get_type_hints
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    Concatenate,
+    Literal,
+    NamedTuple,
+    ParamSpec,
+    Self,
+    get_type_hints,
+)
 
 import numpy as np
 import xarray as xr
@@ -41,14 +52,20 @@ MOST = 100_000
 FREE_NUMBERS = re.compile(
     "|".join(
         [
-            *(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")),
+            *(
+                name
+                for name in Parameters.model_fields
+                if Parameters.unit(name) and not name.startswith("n_")
+            ),
             r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+",
         ]
     )
 )
 Free = Annotated[
     str,
-    AfterValidator(must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")),
+    AfterValidator(
+        must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")
+    ),
 ]
 """A number along which a function goes: a parameter, or one of a disc's modes."""
 
@@ -170,7 +187,7 @@ class Motion(NamedTuple):
     """Motions that the explorer stores: of so many values of each axis, what they are, by the class of
     their point, and the state at which they begin, of a case and options."""
 
-    count: int
+    number: int
     text: str
     by: Mapping[str, str]
     state: Callable[..., State]
@@ -245,7 +262,10 @@ def quantity(
     rules: Rules = (),
     plane: bool = False,
     motion: Motion | None = None,
-) -> Callable[[Callable[Concatenate[Parameters, P], xr.Dataset]], Callable[Concatenate[Parameters, P], xr.Dataset]]:
+) -> Callable[
+    [Callable[Concatenate[Parameters, P], xr.Dataset]],
+    Callable[Concatenate[Parameters, P], xr.Dataset],
+]:
     """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
     check them, by their types and by the rules between them.
 
@@ -257,7 +277,9 @@ def quantity(
     ) -> Callable[Concatenate[Parameters, P], xr.Dataset]:
         name = function.__name__
         options = options_of(function, rules)
-        QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), plane, motion)
+        QUANTITIES[name] = Quantity(
+            name, function, options, points_per_job, tuple(own), plane, motion
+        )
 
         @wraps(function)
         def checked(case: Parameters, *args: P.args, **given: P.kwargs) -> xr.Dataset:
@@ -266,7 +288,9 @@ def quantity(
             values = dict(options.model_validate({**dict(by_place), **given}))
             found = function(case, **values)  # type: ignore[call-arg]
             message = str(found["message"].values) if found["message"].ndim == 0 else ""
-            found = found.drop_vars("message").assign_attrs(parameters=case.canonical_json, message=message)
+            found = found.drop_vars("message").assign_attrs(
+                parameters=case.canonical_json, message=message
+            )
             return words(described(found, name, values))
 
         return checked
