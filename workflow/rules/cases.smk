@@ -12,11 +12,10 @@ rule simulate_case:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         case=lambda w: STUDY.specs[w.case].canonical,
         code=physics_hash(),
     shell:
-        "{params.job} case {output} <<< {params.case:q} > {log} 2>&1"
+        "job jobs case {output} <<< {params.case:q} > {log} 2>&1"
 
 
 rule list_cases:
@@ -34,13 +33,12 @@ rule list_cases:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         # a function, so that braces in a title are no wildcards
         plan=lambda w: json.dumps(
             {"title": STUDY.title or STUDY.study, "labels": STUDY.labels}
         ),
     shell:
-        "{params.job} provenance {output} {input} <<< {params.plan:q} > {log} 2>&1"
+        "job jobs provenance {output} {input} <<< {params.plan:q} > {log} 2>&1"
 
 
 if STUDY.specs:

@@ -21,10 +21,9 @@ rule compute_motions:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         points=lambda w: MOTIONS[w.study][w.part],
     shell:
-        "{params.job} motions {output} <<< {params.points:q} > {log} 2>&1"
+        "job jobs motions {output} <<< {params.points:q} > {log} 2>&1"
 
 
 rule build_explorer:
@@ -38,7 +37,6 @@ rule build_explorer:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         # a function: braces in a title are no wildcards
         plan=lambda w: json.dumps(
             {
@@ -56,4 +54,4 @@ rule build_explorer:
             }
         ),
     shell:
-        "{params.job} explorer {output} <<< {params.plan:q} > {log} 2>&1"
+        "job jobs explorer {output} <<< {params.plan:q} > {log} 2>&1"

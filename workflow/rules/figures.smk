@@ -50,11 +50,10 @@ rule draw_figure:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         plan=plan_of,
         caption=lambda w: figure_of(w).caption,  # for the report
     shell:
-        "{params.job} figure {output} <<< {params.plan:q} > {log} 2>&1"
+        "job jobs figure {output} <<< {params.plan:q} > {log} 2>&1"
 
 
 for study, figure in FIGURES:

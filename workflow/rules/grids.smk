@@ -16,10 +16,9 @@ rule compute_part:
     resources:
         runtime=30,
     params:
-        job=JOB,
         points=lambda w: JOBS[w.study][w.part],
     shell:
-        "{params.job} part {output} <<< {params.points:q} > {log} 2>&1"
+        "job jobs part {output} <<< {params.points:q} > {log} 2>&1"
 
 
 rule merge_grid:
@@ -38,7 +37,6 @@ rule merge_grid:
     conda:
         "../envs/disc_model.yaml"
     params:
-        job=JOB,
         folder=lambda w: f"results/{w.study}/batches",
         plan=lambda w: json.dumps(
             {
@@ -48,7 +46,7 @@ rule merge_grid:
             }
         ),
     shell:
-        "{params.job} grid {output} {params.folder} <<< {params.plan:q} > {log} 2>&1"
+        "job jobs grid {output} {params.folder} <<< {params.plan:q} > {log} 2>&1"
 
 
 PRODUCTS += collect(rules.merge_grid.output, study=ASKED)
