@@ -1,10 +1,13 @@
 # A page that shows every point of grid studies, and motions: `snakemake explorer`, not part of `all`.
 
 # Studies of a whole plane come first.
-EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions"))
+EXPLORED = sorted(
+    GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions")
+)
 MOTIONS = {name: GRIDS[name].grid.motions for name in GRIDS}
 motion_files = {
-    name: [f"results/{name}/motions/{key}.nc" for key in jobs] for name, jobs in MOTIONS.items()
+    name: [f"results/{name}/motions/{key}.nc" for key in jobs]
+    for name, jobs in MOTIONS.items()
 }
 
 
