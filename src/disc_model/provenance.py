@@ -12,7 +12,14 @@ __all__ = ["figures_hash", "git_commit", "physics_hash", "versions_text"]
 PACKAGE = Path(__file__).resolve().parent
 PHYSICS = (
     *("analysis", "disc", "engine", "simulation", "stability", "studies/quantities"),
-    *("modal_disc.py", "mode_units.py", "parameters.py", "units.py", "studies/compute.py", "studies/quantity.py"),
+    *(
+        "modal_disc.py",
+        "mode_units.py",
+        "parameters.py",
+        "units.py",
+        "studies/compute.py",
+        "studies/quantity.py",
+    ),
 )
 """Parts of the package that decide the numbers of results."""
 DRAWING = ("data", "explorer", "figures")

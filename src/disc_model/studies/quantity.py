@@ -13,7 +13,18 @@ from dataclasses import dataclass
 from functools import wraps
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Self, get_type_hints
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    Concatenate,
+    Literal,
+    NamedTuple,
+    ParamSpec,
+    Self,
+    get_type_hints,
+)
 
 import numpy as np
 import xarray as xr
@@ -41,14 +52,20 @@ MOST = 100_000
 FREE_NUMBERS = re.compile(
     "|".join(
         [
-            *(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")),
+            *(
+                name
+                for name in Parameters.model_fields
+                if Parameters.unit(name) and not name.startswith("n_")
+            ),
             r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+",
         ]
     )
 )
 Free = Annotated[
     str,
-    AfterValidator(must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")),
+    AfterValidator(
+        must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")
+    ),
 ]
 """A number along which a function goes: a parameter, or one of a disc's modes."""
 
@@ -181,7 +198,7 @@ class Motion(NamedTuple):
     """Motions that the explorer stores: of so many values of each axis, what they are, by the class of
     their point, and the state at which they begin, of a case and options."""
 
-    count: int
+    number: int
     text: str
     by: Mapping[str, str]
     state: Callable[..., State]
@@ -256,7 +273,10 @@ def quantity(
     rules: Rules = (),
     plane: bool = False,
     motion: Motion | None = None,
-) -> Callable[[Callable[Concatenate[Parameters, P], xr.Dataset]], Callable[Concatenate[Parameters, P], xr.Dataset]]:
+) -> Callable[
+    [Callable[Concatenate[Parameters, P], xr.Dataset]],
+    Callable[Concatenate[Parameters, P], xr.Dataset],
+]:
     """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
     check them, by their types and by the rules between them.
 
@@ -271,7 +291,9 @@ def quantity(
         _, *parameters = inspect.signature(function).parameters.values()
         named = [x.name for x in parameters]
         defaults = {x.name: x.default for x in parameters if x.default is not x.empty}
-        QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), plane, motion)
+        QUANTITIES[name] = Quantity(
+            name, function, options, points_per_job, tuple(own), plane, motion
+        )
 
         @wraps(function)
         def checked(case: Parameters, *args: P.args, **given: P.kwargs) -> xr.Dataset:
@@ -281,10 +303,14 @@ def quantity(
             chosen = options.model_validate(asked)
             found = function(case, **beside, **dict(chosen))  # type: ignore[call-arg]
             if found["message"].ndim == 0:
-                found = found.assign_attrs(message=str(found["message"].values)).drop_vars("message")
+                found = found.assign_attrs(message=str(found["message"].values)).drop_vars(
+                    "message"
+                )
             single = [dim for dim in found.dims if dim in asked and np.ndim(asked[str(dim)]) == 0]
             found = found.squeeze(single, drop=True)
-            found = found.assign_attrs(parameters=case.canonical_json, options=chosen.model_dump_json())
+            found = found.assign_attrs(
+                parameters=case.canonical_json, options=chosen.model_dump_json()
+            )
             return words(described(found, name, dict(chosen)))
 
         return checked
@@ -314,7 +340,9 @@ def failed(name: str, error: Exception) -> xr.Dataset:
     return found(name, {"status": "failed"}, f"{type(error).__name__}: {error}")
 
 
-def found(name: str, values: Row, message: str | Sequence[str] = "", **own: Iterable[Any]) -> xr.Dataset:
+def found(
+    name: str, values: Row, message: str | Sequence[str] = "", **own: Iterable[Any]
+) -> xr.Dataset:
     """A dataset of what a quantity has found at a point.
 
     Parameters

@@ -40,7 +40,14 @@ Answer = tuple[dict[str, Any], str]
 
 
 def _settled(
-    case: Parameters, *, section: str, start: Start, transient: float, max_transient: float, tol: float, **_: Any
+    case: Parameters,
+    *,
+    section: str,
+    start: Start,
+    transient: float,
+    max_transient: float,
+    tol: float,
+    **_: Any,
 ) -> State:
     """The state in which samples begin."""
     from disc_model.simulation.starts import state_after

@@ -23,14 +23,7 @@ from disc_model.arrays import Array, Mask
 from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.data.variables import OF_QUANTITIES, message_of
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import (
-    BETWEEN,
-    NUMERICAL,
-    found,
-    listed,
-    quantity,
-    values_between,
-)
+from disc_model.studies.quantity import BETWEEN, NUMERICAL, found, listed, quantity, values_between
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Speed, Unit
 
 LEAST_SPEEDS = 3

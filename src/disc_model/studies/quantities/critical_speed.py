@@ -26,7 +26,9 @@ PRECISION = 0.1
 """Width to which crossings are bisected unless another is asked for, rad/s."""
 Horizons = Annotated[
     tuple[Seconds, ...],
-    BeforeValidator(lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist()),
+    BeforeValidator(
+        lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist()
+    ),
     AfterValidator(lambda horizons: tuple(sorted(set(horizons)))),
     Field(min_length=1, validate_default=True),
 ]
@@ -46,7 +48,9 @@ def _ratio(step: float, precision: float | None) -> float:
     rules=(
         *BETWEEN,
         (
-            lambda o: 0.5 < (r := _ratio(o.step, o.precision)) < math.inf and abs(r - round(r)) <= 1e-6,
+            lambda o: (
+                0.5 < (r := _ratio(o.step, o.precision)) < math.inf and abs(r - round(r)) <= 1e-6
+            ),
             "step={0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s",
         ),
     ),
@@ -146,7 +150,9 @@ def critical_speed(  # noqa: PLR0913
     return answer.assign(at_lower_bound=("horizon", at_bound))
 
 
-def _reasons(speeds: Sequence[float], horizons: Sequence[float], lowest: Sequence[float]) -> Iterable[str]:
+def _reasons(
+    speeds: Sequence[float], horizons: Sequence[float], lowest: Sequence[float]
+) -> Iterable[str]:
     """Which horizons have no critical speed, or one at the lower bound."""
     known = [*zip(horizons, lowest, strict=True)]
     without = ", ".join(f"{horizon:g}" for horizon, speed in known if math.isnan(speed))

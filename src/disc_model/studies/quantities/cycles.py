@@ -16,16 +16,7 @@ from disc_model.errors import SimulationError
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
 from disc_model.studies.quantity import Free, Motion, Starting, Values, found, listed, quantity
-from disc_model.units import (
-    Count,
-    CycleTolerance,
-    Finite,
-    Positive,
-    Real,
-    Seconds,
-    Tolerance,
-    Unit,
-)
+from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State

@@ -229,7 +229,9 @@ def _others(
     return {place: max(0, len(cycles) - 1) for place, cycles in known.items()}
 
 
-def _carry(carried: Sequence[Array], last: NearCycle, cycles: list[Array], start: NearCycle) -> None:
+def _carry(
+    carried: Sequence[Array], last: NearCycle, cycles: list[Array], start: NearCycle
+) -> None:
     """Add, to the known cycles of a point, those of the point before that continue to it and
     are others."""
     from disc_model.stability.return_map import newton

@@ -20,7 +20,16 @@ from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import NUMERICAL, Ruled, found, listed, quantity, with_ends
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Tolerance, Unit, is_number
+from disc_model.units import (
+    Count,
+    CycleTolerance,
+    Finite,
+    Positive,
+    Seconds,
+    Tolerance,
+    Unit,
+    is_number,
+)
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
@@ -30,7 +39,9 @@ class Uniform(Ruled):
     """A uniform distribution: all values from `low` to `high` are equally likely."""
 
     distribution: Literal["uniform"]
-    relative: bool = False  # whether numbers are multiples of the parameter's own value at the point
+    relative: bool = (
+        False  # whether numbers are multiples of the parameter's own value at the point
+    )
     low: Finite
     high: Finite
 
@@ -131,9 +142,7 @@ def sensitivity(
     return found("sensitivity", {**columns, **summary}, messages, **own)
 
 
-def _draws(
-    case: Parameters, distributions: Mapping[str, Any], samples: int, seed: int
-) -> Array:
+def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, seed: int) -> Array:
     """Values of the distributed parameters, shape (samples, parameters)."""
     from scipy.stats import qmc
 
