@@ -367,10 +367,11 @@ def found(
             if length > coords[dim].size:
                 room = f"which has room for {coords[dim].size}"
                 cuts[dim] = f"{length} were found along {dim}, {room}"
-    if not isinstance(message, str):
-        return xr.Dataset({**variables, "message": ([*coords][0], [*message])}, coords)
-    text = "; ".join(filter(None, [message.removesuffix(".") if cuts else message, *cuts.values()]))
-    return xr.Dataset({**variables, "message": ((), text)}, coords)
+    texts = []
+    for text in [message] if isinstance(message, str) else message:
+        texts.append("; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()])))
+    said = ((), texts[0]) if isinstance(message, str) else ([*coords][0], texts)
+    return xr.Dataset({**variables, "message": said}, coords)
 
 
 def _shape(value: Any) -> tuple[int, ...]:

@@ -20,7 +20,7 @@ from disc_model.data.variables import OF_QUANTITIES, STABLE_CYCLES, Outcome
 from disc_model.parameters import Parameters
 from disc_model.studies.compute import failure, stack
 from disc_model.studies.quantity import COME_TO, COME_TO_BY, NUMERICAL, Motion, found, quantity
-from disc_model.units import Seconds, Tolerance
+from disc_model.units import Finite, Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
@@ -56,6 +56,7 @@ def regions(
     axes: Mapping[str, Sequence[float]],
     horizon: Seconds,
     extrapolate: bool = True,
+    timed: tuple[dict[str, Finite], ...] = (),
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Outcomes of the static start over a plane of two parameters, and its cycles.
@@ -66,18 +67,20 @@ def regions(
     horizon : longest simulated time
     extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
         are not timed
+    timed : places, such as {N: 200, Omega: 20}, at which nothing is extrapolated
     tol : tolerance of simulations: error of event times after a second of motion
     """
     first, second = axes
     shape = (len(axes[first]), len(axes[second]))
-    times = (horizon,) if extrapolate else ()
     places = [*np.ndindex(*shape)]
     points: dict[tuple[int, ...], _Point] = {}
     results: dict[tuple[int, ...], xr.Dataset] = {}
     for i, j in places:
         try:
-            at = case.replace(**{first: axes[first][i], second: axes[second][j]})
-            points[i, j] = _point(at, horizon, times, tol)
+            at = {first: axes[first][i], second: axes[second][j]}
+            is_timed = any(place.items() <= at.items() for place in timed)
+            compared_with = (horizon,) if extrapolate and not is_timed else ()
+            points[i, j] = _point(case.replace(**at), horizon, compared_with, tol)
         except NUMERICAL as error:
             results[i, j] = failure(error)
     others = _others(points, shape)
@@ -128,7 +131,7 @@ class _Point:
         return self.result.near
 
 
-def _point(case: Parameters, horizon: float, times: tuple[float, ...], tol: float) -> _Point:
+def _point(case: Parameters, horizon: float, compared_with: tuple[float, ...], tol: float) -> _Point:
     """The cycle at a point, and the outcome."""
     from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
     from disc_model.stability.outcome import find_outcome
@@ -139,7 +142,7 @@ def _point(case: Parameters, horizon: float, times: tuple[float, ...], tol: floa
             return _Point(start, Outcome.STICK_SLIP, None)
         if start.stays_linear_until(horizon):
             return _Point(start, Outcome.GROWING, None)
-    return _Point(start, "", find_outcome(case, horizon, tol=tol, near=start, compared_with=times))
+    return _Point(start, "", find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with))
 
 
 def _outcome_columns(point: _Point) -> dict[str, Any]:
