@@ -550,7 +550,8 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
             ),
             f"must be computed for the same {NORM}": not _normalizations(study)
             <= _normalizations(other),
-            "must be computed in the plane of the figure": not plane <= {*plot.axes.values()},
+            "must be computed in the plane of the figure": {"x", "y"} <= plot.axes.keys()
+            and not plane <= {*plot.axes.values()},
         }
         for rule, broken in rules.items():
             if broken:
