@@ -62,7 +62,8 @@ def run(options: argparse.Namespace) -> bool:
         options.csv.mkdir(parents=True, exist_ok=True)
         result.to_csv(options.csv)
     if options.plot is not None:
-        result.plot()[0, 0].figure.savefig(options.plot, dpi=150)
+        result.plot()
+        brought("matplotlib.pyplot", "plot").savefig(options.plot, dpi=150)
     return result.status.complete
 
 
@@ -109,6 +110,9 @@ def study(options: argparse.Namespace) -> bool:
     """Compute a study and draw its figures by Snakemake: only what is missing or out of date.
     Further options are those of Snakemake."""
     snakemake = brought("snakemake.cli", "workflow")
+    from disc_model.studies.study import load_study
+
+    load_study(*options.files)  # says what is wrong in fewer words than Snakemake
     snakefile = (PACKAGE / "workflow" / "Snakefile").resolve()
     cores = options.cores or brought("snakemake.utils", "workflow").available_cpu_count()
     files = [str(file.resolve()) for file in options.files]

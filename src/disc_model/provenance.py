@@ -55,8 +55,8 @@ def physics_hash() -> str:
 
 @functools.cache
 def figures_hash() -> str:
-    """Hash of all sources that decide what figures show of data: 16 hexadecimal digits."""
-    return hash_of(["data", "figures"])
+    """Hash of all sources that decide what figures and pages show of data: 16 hexadecimal digits."""
+    return hash_of(["data", "explorer", "figures"])
 
 
 def hash_of(parts: Iterable[str | Path]) -> str:

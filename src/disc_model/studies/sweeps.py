@@ -102,9 +102,9 @@ def sweep(  # noqa: PLR0913
     --------
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=15)
-    >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k_over_mu_s=[0.5, 0.6], workers=2)
+    >>> growth = dm.sweep(dm.floquet, case, Omega=[10, 12, 14], mu_k=[0.2, 0.24], workers=2)
     >>> growth["growth_rate"].dims, growth["growth_rate"].attrs["units"]
-    (('Omega', 'mu_k_over_mu_s'), 's-1')
+    (('Omega', 'mu_k'), 's-1')
     >>> growth["status"].sel(Omega=10).values.tolist()
     ['ok', 'ok']
     >>> pairs = dm.sweep(dm.floquet, case, zip={"N": [385, 300], "Omega": [10, 12]})
