@@ -24,9 +24,8 @@ from pydantic import (
 
 from disc_model.data.variables import CHOICES, PERTURBATIONS, attributes
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import NUMBER_OR_WORD, PLATE, Disc, Parameters
-from disc_model.provenance import physics_hash
+from disc_model.provenance import canonical_json, content_key, physics_hash
 from disc_model.studies.quantity import Quantity, Range
 from disc_model.units import UNITS, Finite, Strict, in_si
 
@@ -192,7 +191,8 @@ class Grid:
     def jobs(self) -> dict[str, str]:
         """What each job computes, as JSON, by the name of its file: a hash of what all have in common,
         and one of their own points."""
-        common = {"code": physics_hash(), **self.layout, "axes": {}}
+        codes = {name: column.flags for name, column in self.quantity.columns.items()}
+        common = {"code": physics_hash(), "codes": codes, **self.layout, "axes": {}}
         for dim in self.plane:
             common["axes"][dim] = self.dims[dim][dim].tolist()
         common.pop("dims")

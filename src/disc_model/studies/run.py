@@ -17,9 +17,8 @@ from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribu
 from disc_model.data.described import described
 from disc_model.data.variables import CHOICES, EXCLUDED, attributes, unit_of_parameter
 from disc_model.errors import require
-from disc_model.hashing import canonical_json
 from disc_model.parameters import Disc, Parameters
-from disc_model.provenance import git_commit, physics_hash, versions_text
+from disc_model.provenance import canonical_json, git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
 from disc_model.studies.grid import REQUIRED, VARIED, WORDS

@@ -28,7 +28,7 @@ _TIMES = (
 FEWEST = 4  # least number of checks of a motion that give a rate
 
 
-def _late(  # noqa: PLR0913
+def _late(
     case: Parameters,
     horizon: float,
     start: Start,
