@@ -46,7 +46,7 @@ def _parts(given: Any) -> Any:
         raise ValueError(
             "must be a list of values and ranges, or a range {start, stop, count or step}"
         )
-    return parts
+    return [Range.model_validate(part) if isinstance(part, Mapping) else part for part in parts]
 
 
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
