@@ -276,13 +276,13 @@ def test_a_grid_is_written_as_a_table_with_units_and_words(tmp_path: Path) -> No
 
 
 def test_a_sweep_is_a_table_with_a_row_for_each_further_place(tmp_path: Path) -> None:
-    swept = dm.sweep(dm.floquet, P, N=[150, 200], mu_k_over_mu_s=[0.5, 0.6])
+    swept = dm.sweep(dm.floquet, P, N=[150, 200], mu_k=[0.2, 0.24])
     path = tmp_path / "sweep.csv"
     dm.save(swept[["growth_rate", "exponents"]], path)
     table = pd.read_csv(path)
     second = table[table["exponents_index"] == 1]
     assert second["N (N)"].tolist() == [150, 150, 200, 200]
-    assert second["mu_k_over_mu_s"].tolist() == [0.5, 0.6, 0.5, 0.6]
+    assert second["mu_k"].tolist() == [0.2, 0.24, 0.2, 0.24]
     np.testing.assert_array_equal(second["growth_rate (s-1)"], swept["growth_rate"].values.ravel())
     found = swept["exponents"].isel(exponents_index=1).values
     np.testing.assert_array_equal(second["exponents_imag (s-1)"], found.imag.ravel())

@@ -47,7 +47,6 @@ def test_points_that_are_missing_have_a_value_that_says_so() -> None:
         ("u_velocity_max", "m s-1", "greatest vertical velocity of the slider", "within the bin"),
         ("rho", "kg m-3", "density of the disc", None),
         ("k", "N m-1", "normal spring of the slider", "spring of the slider, normal to the disc"),
-        ("mu_k_over_mu_s", "1", "mu_k relative to mu_s", None),
     ],
 )
 def test_attributes_of_derived_names(name: str, unit: str, text: str, comment: str | None) -> None:

@@ -4,11 +4,11 @@ schema`."""
 import json
 from typing import Any
 
-from disc_model.studies.quantity import HOMES, quantity_of
 from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.figures.kinds import KINDS
+from disc_model.studies.quantity import HOMES, quantity_of
 from disc_model.studies.study import Study
 
 

@@ -14,9 +14,8 @@ import xarray as xr
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, attributes_of_mode
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, Parameters, foreign_case
-from disc_model.provenance import versions_text
+from disc_model.provenance import canonical_json, versions_text
 from disc_model.studies.compute import Call, compute, failure, is_of_case, stack
 from disc_model.studies.grid import checked_value, expand, records
 from disc_model.studies.quantity import NUMERICAL, QUANTITIES
