@@ -247,7 +247,7 @@ def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
     figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
     with refused("window", name):
         runs.draw_sections(axes, case, name)
-    figure.suptitle(", ".join(runs.fate_of(case)))
+    figure.suptitle(", ".join(runs.fate_of(case, name)))
     explain(figure, axes, LETTERS)
     return axes
 
