@@ -14,7 +14,9 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.figures.draw import (
     PAGE,
+    UPPER,
     each_value,
+    edges,
     lines,
     mark_points,
     once,
@@ -110,8 +112,12 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     few = samples.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
-    ax.margins(y=0.1)  # room for the classes
-    strip(ax, study["kind"], 0.93)
+    ax.set_xlim(edges(study[x])[[0, -1]])
+    above = ax.inset_axes([0, 1.03, 1, 0.07], sharex=ax)
+    strip(above, study["kind"])
+    above.set(yticks=[], frame_on=True)
+    above.tick_params(bottom=False, labelbottom=False)
+    above.spines[["top", "right"]].set_visible(True)
     study["psi"].attrs["long_name"] += said
     ax.set_ylabel(label(study["psi"]))
 
@@ -122,7 +128,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
     numbers.attrs["names"] = {f"{i}": f"exponent {i + 1}" for i in range(numbers.size)}
     ax.set_prop_cycle(color=[BLACK, BLUE, ORANGE, GREY])
     moving = lyapunov["converged"] != "yes"
-    lines(ax, lyapunov["exponent"], x, doubtful=moving, doubt="not converged", ls="", ms=2.5)
+    lines(ax, lyapunov["exponent"], x, doubtful=moving, doubt="not converged", ls="")
     bars = f"± {ERRORS} standard errors"
     for _, one in each_value(lyapunov, "exponent_number"):
         errors = ERRORS * one["exponent_error"]
@@ -275,7 +281,8 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
         ax,
         study["critical_energy"],
         x,
-        missing="no start is known to separate",
+        missing="no start is known to separate: larger than any",
+        edge=UPPER,
         label="least energy, by bisection",
         color=RED,
         marker="v",
