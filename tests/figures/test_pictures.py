@@ -157,7 +157,7 @@ def test_a_mode_is_thick_where_it_grows() -> None:
     example = EXAMPLES["sliding_modes"]()
     rates = example.inputs["study"]["mode_growth_rate"].values
     lines = drawn("sliding_modes", example).axes[1].lines
-    thick = [line.get_ydata().ravel() for line in lines if line.get_label() == "growing mode"]
+    thick = [line.get_ydata().ravel() for line in lines if line.get_label() == "mode that grows"]
     found = np.concatenate(thick)
     np.testing.assert_allclose(np.sort(found[np.isfinite(found)]), np.sort(rates[rates > 1e-9]))
 
@@ -246,8 +246,9 @@ def test_cases_below_each_other_say_what_differs_and_what_they_come_to() -> None
     inputs = {"A": simulated(True), "B": simulated(False)}
     figure = drawn("poincare", Example({"case": "A", "below": ["B"]}, inputs))
     assert len(figure.axes) == 4
-    assert "N = 385 N, Ω = 15.1 rad/s, first separation at 54.42 s, not shown to settle" in said(
-        figure
+    assert (
+        "N = 385 N, Ω = 15.1 rad/s, first separation at 54.42 s, settling not shown here"
+        in said(figure)
     )
     assert "Ω = 15 rad/s, no separation" in said(figure)
 

@@ -103,7 +103,8 @@ def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH
     letters : of the legend in an inch
     """
     handles: dict[str, Any] = {}
-    for ax in [each for ax in axes for each in (ax, *ax.child_axes) if isinstance(each, Axes)]:
+    insets = [each for ax in axes for each in ax.child_axes if isinstance(each, Axes)]
+    for ax in (*axes, *insets):
         for handle, text in zip(*ax.get_legend_handles_labels(), strict=True):
             handles.setdefault(fill(text, 42), handle)
     if not handles:

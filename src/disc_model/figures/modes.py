@@ -55,11 +55,13 @@ def sliding_modes(study: xr.Dataset, highest: Frequency = None) -> Figure:
     below = axes["rate"]
     _modes(below, modes, "rate", "value")
     rate_axis(below, max(LINEAR_GROWTH, float(largest.max())))
-    end = 1.25 * float(largest.max())
-    below.set_ylim(max(-end, below.get_ylim()[0]), end)
-    faster = modes["value"][((modes["rate"] < -end).any("mode")).values]
-    mark_missing(below, faster[:: faster.size // 12 + 1], "modes that decay faster", GREY, "v")
-    _name_humps(below, modes.where(modes["rate"] > ROUNDING), "value")
+    growing = modes.where(modes["rate"] > ROUNDING)
+    if growing["rate"].notnull().any():
+        end = 1.25 * float(largest.max())
+        below.set_ylim(max(-end, below.get_ylim()[0]), end)
+        faster = modes["value"][(modes["rate"] < -end).any("mode").values]
+        mark_missing(below, faster[:: faster.size // 12 + 1], "modes that decay faster", GREY, "v")
+        _name_humps(below, growing, "value")
     _name_ends(below, modes.where(abs(modes["rate"]) > ROUNDING), "rate", "value")
     below.set_xlabel(label(study["value"]))
     return figure

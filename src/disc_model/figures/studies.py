@@ -26,7 +26,6 @@ from disc_model.figures.draw import (
     growth_colours,
     is_rate,
     lines,
-    lone_cells,
     mark_missing,
     mark_points,
     number_map,
@@ -414,7 +413,15 @@ def name_folds(ax: Axes, curves: xr.Dataset) -> None:
     ):
         if np.isfinite(place):
             box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-            ax.annotate(f"{harmonic:g} $f_s$", (place, top), (-2, -2), ha="right", va="top", bbox=box, **NOTE)
+            ax.annotate(
+                f"{harmonic:g} $f_s$",
+                (place, top),
+                (-2, -2),
+                ha="right",
+                va="top",
+                bbox=box,
+                **NOTE,
+            )
 
 
 def onsets(ax: Axes, study: xr.Dataset) -> None:
@@ -466,18 +473,17 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     the stable cycle ends, the limit of slow ramps."""
     figure, axes = panels([["a"]], COLUMN, 2.4)
     ax = axes["a"]
-    options, speed = stated_in(study, "options"), study["onset_speed"]
-    low, high = (f"{placed(speed, options[end]):g} {speed.units}" for end in ("low", "high"))
-    ends = {"begins": f"up to {high}", "ends": f"down to {low}"}
-    for name, way, end, marker, colour in (
-        ("onset_speed", "rising", "begins", "^", RED),
-        ("offset_speed", "falling", "ends", "v", BLUE),
+    options = stated_in(study, "options")
+    low, high = (placed(study["onset_speed"], options[end]) for end in ("low", "high"))
+    for name, way, end, edge, marker, colour in (
+        ("onset_speed", "rising", "begins", UPPER, "^", RED),
+        ("offset_speed", "falling", "ends", LOWER, "v", BLUE),
     ):
         speeds = study[name].assign_attrs(long_name="Speed Ω")
-        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4}
-        missing = f"{way}: none {ends[end]}"
-        edge = UPPER if end == "begins" else LOWER
-        lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, edge=edge, **look)
+        why = speeds.attrs.get("missing", "no value")
+        missing = f"{way}, {low:g} to {high:g} {speeds.units}: {why}"
+        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4, "edge": edge}
+        lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
     mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
     if curves is not None:
         ends = fold_speeds(curves, stated_in(study, "base")["N"])
