@@ -194,8 +194,8 @@ def draw_campbell(
     for multiple in multiples:
         above.plot(slips["Omega"], multiple * slips, "--", lw=0.8, label=f"{multiple:g} $f_s$")
     places = {}
-    meetings = {i: _crossing_at(data, i) for i in _peaks(rate.where(~far))}
-    meetings = {i: at for i, at in meetings.items() if at is not None}
+    near = {i: _crossing_at(data, i) for i in _peaks(rate.where(~far))}
+    meetings = {i: at for i, at in near.items() if at is not None}
     count = int((data["crossing_line"] == "stick_slip").sum())
     name = f"at a peak of growth: {len(meetings)} of {count} crossings"
     for i, at in meetings.items():

@@ -113,7 +113,7 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
     ax.set_xlim(edges(study[x])[[0, -1]])
-    above = ax.inset_axes([0, 1.03, 1, 0.07], sharex=ax)
+    above = ax.inset_axes((0, 1.03, 1, 0.07), sharex=ax)
     strip(above, study["kind"])
     above.set(yticks=[], frame_on=True)
     above.tick_params(bottom=False, labelbottom=False)
