@@ -283,7 +283,9 @@ def finite_of(x: xr.DataArray) -> NDArray[np.float64]:
 
 
 def colours_of(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
-    """Colours of any numbers."""
+    """Colours of any numbers; none of words."""
+    if is_words(x):
+        return {}
     return growth_colours(x) if is_rate(x) and not log else usual_colours(x, log=log)
 
 

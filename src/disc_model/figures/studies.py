@@ -25,6 +25,7 @@ from disc_model.figures.draw import (
     each_value,
     growth_colours,
     is_rate,
+    is_words,
     lines,
     mark_missing,
     mark_points,
@@ -34,6 +35,7 @@ from disc_model.figures.draw import (
     sign_changes,
     unresolved,
     wilson,
+    wished,
 )
 from disc_model.figures.looks import (
     AROUND_DOTS,
@@ -48,14 +50,15 @@ from disc_model.figures.looks import (
     STABLE,
     Look,
 )
-from disc_model.figures.schema import NORM, Role, grid_figure
-from disc_model.figures.shown import label, placed, value_text
+from disc_model.figures.schema import MOST_VALUES, NORM, Role, grid_figure
+from disc_model.figures.shown import label, parameter_of, placed, value_text
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Strict
 
 Curves = Annotated[xr.Dataset | None, Role("stability_curves")]
 BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
 """What curves are, and their lines."""
+OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
 SIGN = "growth rate changes its sign"
 MERGED = "growing, or another cycle"
 NOTHING: dict[str, Any] = {}
@@ -91,20 +94,28 @@ def heat_map(
     """Any variable in colour over two dimensions, with a panel for each value of a third."""
     parts = each_value(study, by)
     figure, axes = row(len(parts), 2.4)
-    shown = study[variable]
-    has_classes = shown.dtype == object
-    scale = {} if has_classes else colours_of(shown, log=log)
-    paint = rate_map if is_rate(shown) else number_map
+    scale = colours_of(study[variable], log=log)
     for ax, (title, part) in zip(axes, parts, strict=True):
-        plane = part.transpose(y, x, ...)
         ax.set_title(title)
-        if has_classes:
-            class_map(ax, plane[variable])
-        else:
-            mesh = paint(ax, plane[variable], why_missing(plane, variable), **scale)
-    if not has_classes:
-        bar_of(figure, axes, mesh, shown)
+        mesh = draw_map(ax, part.transpose(y, x, ...), variable, **scale)
+    if mesh is not None:
+        bar_of(figure, axes, mesh, study[variable])
     return figure
+
+
+def draw_map(ax: Axes, data: xr.Dataset, variable: str, **colours: Any) -> Any:
+    """Draw classes, or numbers in colours, over two dimensions (up, across), with circles where they
+    are in doubt; returns the mesh of numbers, for a bar."""
+    plane, doubt = data[variable], in_doubt(data, variable)
+    if is_words(plane):
+        class_map(ax, plane)
+        unresolved(ax, plane)
+        return None
+    paint = rate_map if is_rate(plane) else number_map
+    mesh = paint(ax, plane, why_missing(data, variable), **colours)
+    if doubt is not None:
+        cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
+    return mesh
 
 
 def rate_map(
@@ -143,18 +154,47 @@ def curve(
     highest : upper end of the axis of the variable, in the unit of the figure, such as for two figures side by side
     """
     figure, axes = panels([["a"]], COLUMN, 2.6)
-    y = study[variable]
-    of_cycle = variable == "growth_rate"  # which may be another one at the next value
-    jump = 1.0 if of_cycle else np.inf
-    lines(axes["a"], y, x, doubtful=in_doubt(study, variable), jump=jump)
-    if of_cycle:
-        rate_axis(axes["a"])
-    elif is_rate(y):
-        axes["a"].axhline(0, color=GREY, lw=0.5, zorder=0)
+    ax = axes["a"]
+    draw_lines(ax, study, variable, x)
     if log:
-        axes["a"].set_yscale("log")
-    axes["a"].set_ylim(top=highest)
+        ax.set_yscale("log")
+    ax.set_ylim(top=highest)
     return figure
+
+
+def draw_lines(
+    ax: Axes, data: xr.Dataset, variable: str, x: str, *, joined: bool = True, **look: Any
+) -> None:
+    """Draw a line for each value of a second dimension, or points where there are many of these.
+
+    joined : whether lines join the points, which are not paired values
+    """
+    array, doubt = data[variable], in_doubt(data, variable)
+    by = next((str(dim) for dim in array.dims if dim != x), "")
+    usual: dict[str, Any] = {} if joined else {"linestyle": ""}
+    if not by:
+        chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
+        usual["label"] = ", ".join(map(value_text, chosen))
+    elif by not in array.coords or array.sizes[by] > MOST_VALUES:
+        array, doubt = (each if each is None else flattened(each, x) for each in (array, doubt))
+        usual |= {"marker": ".", "linestyle": "", "missing": ""}
+    if doubt is not None:
+        usual["doubt"] = doubt.attrs["long_name"]
+    of_cycle = variable in OF_CYCLES and data.attrs.get("function") != "steady_sliding"
+    jump = 1.0 if of_cycle else np.inf
+    lines(ax, array, x, doubtful=doubt, jump=jump, **wished(look, **usual))
+    if of_cycle:
+        rate_axis(ax)
+    elif is_rate(array):
+        ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+
+
+def flattened(array: xr.DataArray, x: str) -> xr.DataArray:
+    """All values at each place along a dimension, in one line."""
+    points = array.stack(point=array.dims, create_index=False)
+    places = points[x].variable.values
+    along = xr.DataArray(places, dims=x, attrs=array[x].attrs)
+    return xr.DataArray(points.values, {x: along}, name=array.name, attrs=array.attrs)
 
 
 def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
