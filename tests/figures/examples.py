@@ -430,7 +430,7 @@ def late_range() -> Example:
             ),
             Shown(1, "y", "Relative speed of the disc's surface", speeds, "", "linear"),
         ),
-        ("N = 120 N", "dashed: separation ignored, 1.1 to 2 times the range"),
+        ("N = 120 N", "ringed: separating", "dashed: separation ignored, 1.1 to 2 times the range"),
     )
 
 

@@ -213,7 +213,8 @@ def strip(ax: Axes, flag: xr.DataArray) -> None:
     x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
     for word, look in looks_of(said[said != ""]).items():
         here = np.repeat(said == word, 2)
-        ax.fill_between(x, 0, 1, here, transform=place, zorder=0, **look.paint)
+        paint = look.paint if look.hatch else {**look.paint, "ec": GREY}  # white ones are seen
+        ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
 
 
 def number_map(
@@ -399,7 +400,8 @@ def lines(
     for i, ((name, part), marker) in enumerate(zip(parts, cycle("os^Dv<>ph"), strict=False)):
         points = places(ax.xaxis, part[x]), places(ax.yaxis, part["drawn"])
         later = len(parts) - 1 - i
-        usual = {"markevery": every, "linewidth": 1 + 0.2 * later, "markersize": 3 + 0.4 * later}
+        size = 3 + (0.4 if joined else 1.5) * later
+        usual = {"markevery": every, "linewidth": 1 + 0.2 * later, "markersize": size}
         own = wished(look, marker=marker, label=name, **usual)
         drawn.append((*ax.plot(*opened(*points, jump), **own), *points, part["unsure"].values))
     for line, across, up, hollow in drawn:  # after all lines in the legend

@@ -16,7 +16,6 @@ from disc_model.figures.draw import (
     PAGE,
     UPPER,
     each_value,
-    edges,
     lines,
     mark_points,
     once,
@@ -112,12 +111,9 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     few = samples.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
-    ax.set_xlim(edges(study[x])[[0, -1]])
     above = ax.inset_axes((0, 1.03, 1, 0.07), sharex=ax)
     strip(above, study["kind"])
-    above.set(yticks=[], frame_on=True)
-    above.tick_params(bottom=False, labelbottom=False)
-    above.spines[["top", "right"]].set_visible(True)
+    above.set_axis_off()
     study["psi"].attrs["long_name"] += said
     ax.set_ylabel(label(study["psi"]))
 
