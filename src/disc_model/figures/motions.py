@@ -26,14 +26,13 @@ from disc_model.figures.draw import (
     threshold,
 )
 from disc_model.figures.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED
-from disc_model.figures.schema import Role, grid_figure
+from disc_model.figures.schema import NOTHING, Role, grid_figure
 from disc_model.figures.shown import label, placed, value_text
 from disc_model.figures.stability import stable_between, thicken
 from disc_model.units import Finite, Unit
 
 Named = Annotated[dict[str, Finite], Unit(of="x")]
 """Values of x by names."""
-NOTHING: dict[str, float] = {}
 
 
 def _places(along: xr.DataArray, values: dict[str, float]) -> dict[str, float]:

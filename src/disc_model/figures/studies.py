@@ -50,7 +50,7 @@ from disc_model.figures.looks import (
     STABLE,
     Look,
 )
-from disc_model.figures.schema import MOST_VALUES, NORM, Role, grid_figure
+from disc_model.figures.schema import MOST_VALUES, NORM, NOTHING, Role, grid_figure
 from disc_model.figures.shown import label, parameter_of, placed, value_text
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Strict
@@ -61,7 +61,6 @@ BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle end
 OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
 SIGN = "growth rate changes its sign"
 MERGED = "growing, or another cycle"
-NOTHING: dict[str, Any] = {}
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
 MARKS: list[Any] = [
     {"marker": marker, "color": colour, "ls": ""}
@@ -73,6 +72,7 @@ HOLLOW = "hollow: no frequency carries 95 % of height and contact force"
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
 RING: dict[str, Any] = {"marker": "o", "ms": 7, "mew": 0.6, "mfc": "none", "color": BLACK}
+BOX: dict[str, Any] = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}  # behind names
 SHADE = "#e4e4e4"
 
 
@@ -153,8 +153,7 @@ def curve(
 
     highest : upper end of the axis of the variable, in the unit of the figure, such as for two figures side by side
     """
-    figure, axes = panels([["a"]], COLUMN, 2.6)
-    ax = axes["a"]
+    figure, [ax] = row(1, 2.6)
     draw_lines(ax, study, variable, x)
     if log:
         ax.set_yscale("log")
@@ -338,8 +337,7 @@ def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray)
     side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
     if at[1] < y.min() + 0.1 * np.ptp(y.values):
         up, end = 6, "bottom"
-    box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=box, zorder=20, **NOTE)
+    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=BOX, zorder=20, **NOTE)
 
 
 FATES = {
@@ -443,25 +441,13 @@ def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> No
 def name_folds(ax: Axes, curves: xr.Dataset) -> None:
     """The multiples of the stick-slip frequency of folds of a stable cycle that leave a panel through
     its upper edge."""
-    known = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
-    up = along(curves)["N"].where(known)
-    places, top = along(curves)["Omega"].where(up == up.max("curve_point")), ax.get_ylim()[1]
-    for place, harmonic in zip(
-        places.where(up > 0.98 * top).max("curve_point").values,
-        curves["resonance_harmonic"].values,
-        strict=True,
-    ):
-        if np.isfinite(place):
-            box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-            ax.annotate(
-                f"{harmonic:g} $f_s$",
-                (place, top),
-                (-2, -2),
-                ha="right",
-                va="top",
-                bbox=box,
-                **NOTE,
-            )
+    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
+    up, top = along(curves)["N"].where(beside), ax.get_ylim()[1]
+    for i in np.flatnonzero(up.max("curve_point") > 0.98 * top):
+        place = {"curve": i, "curve_point": int(np.nanargmax(up[i]))}
+        at = along(curves)["Omega"][place], top
+        name = f"{curves['resonance_harmonic'][i]:g} $f_s$"
+        ax.annotate(name, at, (-2, -2), ha="right", va="top", bbox=BOX, **NOTE)
 
 
 def onsets(ax: Axes, study: xr.Dataset) -> None:
@@ -511,8 +497,7 @@ def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
 def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     """Speeds at which separation begins and ends on ramps of the speed, against their rate; a line where
     the stable cycle ends, the limit of slow ramps."""
-    figure, axes = panels([["a"]], COLUMN, 2.4)
-    ax = axes["a"]
+    figure, [ax] = row(1, 2.4)
     options = stated_in(study, "options")
     low, high = (placed(study["onset_speed"], options[end]) for end in ("low", "high"))
     for name, way, end, edge, marker, colour in (
@@ -552,8 +537,7 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     """Share of starts that have separated, against time, with a line for each value of a parameter, and
     bars of 95 % confidence at its end."""
     horizon = stated_in(study, "options")["horizon"]
-    figure, axes = panels([["a"]], COLUMN, 2.6)
-    ax = axes["a"]
+    figure, [ax] = row(1, 2.6)
     for i, (title, part) in enumerate(each_value(study, by)):
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
