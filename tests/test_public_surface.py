@@ -58,7 +58,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.choose_modes,
         {"case": P, "quantity": "sliding_growth"},
-        {"case": "dict", "tolerance": "None", "highest_frequency": "None", "progress": "True"},
+        {"case": "dict", "tolerance": "None"},
     ),
     (
         dm.simulate,

@@ -41,7 +41,6 @@ PHYSICS = (
     "hashing.py",
     "modal_disc.py",
     "mode_choice.py",
-    "mode_measures.py",
     "mode_units.py",
     "parameters.py",
     "simulation",
