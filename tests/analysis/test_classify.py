@@ -168,7 +168,7 @@ def test_the_least_rate_is_the_error_of_the_slope() -> None:
 def test_a_motion_has_settled_since_the_part_of_the_record_that_shows_it(
     until: float, width: float
 ) -> None:
-    found = settling(TIME, np.where(TIME < until, width, 1.0) * BEAT)
+    found = settling(TIME, np.where(until > TIME, width, 1.0) * BEAT)
     assert found.answer is Settled.SETTLED
     # parts begin 7 % of the rest apart
     assert until <= found.since <= until + 0.08 * (1000 - until) * (until > 0)
