@@ -17,13 +17,12 @@ from disc_model.simulation.case import (
     Execution,
     Poincare,
     Ramp,
-    Request,
     Windows,
     ramp_faults,
     resolved_windows,
 )
 from disc_model.simulation.result import Result
-from disc_model.simulation.run import Run
+from disc_model.simulation.run import Request, Run
 from disc_model.simulation.states import State
 from disc_model.units import TOLERANCES, in_si, limits_faults, number
 

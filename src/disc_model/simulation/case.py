@@ -9,7 +9,7 @@ import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Self
+from typing import Annotated, Any, Literal, NamedTuple, Self
 
 from pydantic import (
     BeforeValidator,
@@ -25,9 +25,6 @@ from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_fau
 from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import FORMAT, Parameters
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
-
-if TYPE_CHECKING:
-    from disc_model.simulation.states import State
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
 Angle = Annotated[Real, Field(allow_inf_nan=False), Unit("rad")]
@@ -477,7 +474,7 @@ class CaseSpec(Strict):
         return content_key(self.canonical)
 
 
-# ---- How a run is carried out, and what it is to compute
+# ---- How a run is carried out
 
 
 class Execution(Strict):
@@ -502,31 +499,3 @@ class Execution(Strict):
     audit_every_step: bool = False
     progress: Callable[[float], object] | None = None
     max_steps: Annotated[Count, Field(ge=1)] | None = None
-
-
-class Request(NamedTuple):
-    """What a run is to compute. Every value obeys the rules of `disc_model.simulate`.
-
-    Attributes
-    ----------
-    parameters : the case
-    start, t_end : s, absolute times of the run's first and last instant
-    tol : expected error of event times after one second of motion, s, which the series can use
-    windows : samples to keep, by name, with absolute times
-    events : whether to keep the table of events
-    initial_state : state at ``start``; None is the static start
-    stop_at : None, or "first_separation"
-    ramps : slow changes of Omega or N
-    execution : how the run is carried out
-    """
-
-    parameters: Parameters
-    start: float
-    t_end: float
-    tol: float
-    windows: Windows
-    events: bool
-    initial_state: State | None
-    stop_at: str | None
-    ramps: tuple[Ramp, ...]
-    execution: Execution

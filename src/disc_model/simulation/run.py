@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time as clock
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -19,9 +19,11 @@ from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_sl
 from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import Fault, ParameterError, Status
 from disc_model.hashing import content_key
+from disc_model.parameters import Parameters
 from disc_model.simulation import states
-from disc_model.simulation.case import Request, SampleTimes, angle_of_drive, pieces
+from disc_model.simulation.case import Execution, Ramp, SampleTimes, Windows, angle_of_drive, pieces
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
+from disc_model.simulation.states import State
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
@@ -44,6 +46,34 @@ _STATUS = {
 }
 # compiled, by blocks of lanes, laws of contact and ramp
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
+
+
+class Request(NamedTuple):
+    """What a run is to compute. Every value obeys the rules of `disc_model.simulate`.
+
+    Attributes
+    ----------
+    parameters : the case
+    start, t_end : s, absolute times of the run's first and last instant
+    tol : expected error of event times after one second of motion, s, which the series can use
+    windows : samples to keep, by name, with absolute times
+    events : whether to keep the table of events
+    initial_state : state at ``start``; None is the static start
+    stop_at : None, or "first_separation"
+    ramps : slow changes of Omega or N
+    execution : how the run is carried out
+    """
+
+    parameters: Parameters
+    start: float
+    t_end: float
+    tol: float
+    windows: Windows
+    events: bool
+    initial_state: State | None
+    stop_at: str | None
+    ramps: tuple[Ramp, ...]
+    execution: Execution
 
 
 class Run:
