@@ -326,15 +326,13 @@ def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     # the fastest change, of those that are clear if there are any
     sizes = np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
-    fastest = int(np.argmax(np.where(clear, sizes, 0.0) if clear.any() else sizes))
+    fastest = int(np.lexsort((sizes, clear))[-1])
     if clear.any():
         return Settling(Settled.CHANGING, float(slopes[fastest]), float(errors[fastest]))
     least = float(errors.max())
-    since = math.nan
     if max(least, sizes.max()) <= slowest:
-        since = float(t[0])
-    answer = Settled.UNDECIDED if math.isnan(since) else Settled.SETTLED
-    return Settling(answer, float(slopes[fastest]), least, since)
+        return Settling(Settled.SETTLED, float(slopes[fastest]), least, float(t[0]))
+    return Settling(Settled.UNDECIDED, float(slopes[fastest]), least)
 
 
 SECTIONS = ("psi", "w_point")

@@ -131,7 +131,9 @@ def lines(
 
     frequency, amplitude = amplitude_spectrum(time, values)
     step = float(frequency[1])
-    distance = RESOLVED if apart is None else max(1, round(apart / step))
+    distance = RESOLVED
+    if apart is not None:
+        distance = max(1, round(apart / step))
     least = SIDE_LOBES * amplitude.max()
     peaks, _ = find_peaks(amplitude, height=least, distance=distance)
 
@@ -290,15 +292,14 @@ def nearest_resonance(
     turn = p.Omega / (2 * math.pi)
     angle = cmath.phase(multiplier) / (2 * math.pi)
     doubles = multiplier.imag == 0 and multiplier.real < 0
-    half = 0.5 if doubles else 0.0
+    half = 0.5 * doubles
 
     found: list[tuple[float, Resonance]] = []
     for mode in modes_at_rest(p):
         if mode.diameters != diameters:
             continue
-        standing = (0,) if mode.bound or not diameters else ()
-        travelling = (-1, 1) if diameters else ()
-        for sign in (*standing, *travelling):
+        stands = mode.bound or not diameters
+        for sign in [0] * stands + [-1, 1] * (diameters > 0):
             seen = (mode.frequency + sign * diameters * turn) / rate
             harmonic = round(seen - half) + half
             detuning = float((harmonic - seen) * rate)

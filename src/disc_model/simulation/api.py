@@ -83,24 +83,25 @@ def simulate(  # noqa: PLR0913
     >>> run["late"]["P"].sizes, run["late"]["P"].attrs["units"]
     (Frozen({'time': 2001}), 'N')
     """
-    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
-    started = initial_state is None or isinstance(initial_state, State)
-    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
+    if isinstance(ramps, Ramp):
+        ramps = (ramps,)
     start, end, faults = _span(t_end, duration, initial_state)
+    stops = stop_at is None or (isinstance(stop_at, str) and stop_at == "first_separation")
     wrong = violations(
         (isinstance(events, bool), "events", events, "must be True or False"),
-        (started, "initial_state", initial_state, "must be a State"),
+        (
+            isinstance(initial_state, State | None),
+            "initial_state",
+            initial_state,
+            "must be a State",
+        ),
         (stops, "stop_at", stop_at, "must be None or 'first_separation'"),
         (isinstance(execution, Execution), "execution", execution, "must be an Execution"),
     )
     raise_faults([*foreign_case(case), *limits_faults("tol", tol, TOLERANCES), *faults, *wrong])
 
     # windows and ramps have rules on the times of the run, which are valid from here on
-    sampled = {} if windows is None else resolved_windows(windows, start, end)
-    if stop_at is not None and windows is not None:
-        backward = [name for name, each in windows.items() if getattr(each, "last", None)]
-        rule = "must not be given with stop_at: where the run ends is not known before"
-        raise_faults([Fault(("windows", name, "last"), "", rule) for name in backward])
+    sampled = _sampled(windows, start, end, stop_at)
     sections = any(isinstance(window, Poincare) for window in sampled.values())
     raise_faults([*ramp_faults(case, ramps, poincare=sections)])
 
@@ -108,41 +109,58 @@ def simulate(  # noqa: PLR0913
     if tol > loosest:
         used = f"tol={tol:g}: the series need {loosest:g} at most, which is used"
         warnings.warn(used, stacklevel=3)
-    return Run(
-        Request(
-            parameters=case,
-            start=start,
-            t_end=end,
-            tol=min(float(tol), loosest),
-            windows=sampled,
-            events=events,
-            initial_state=initial_state,
-            stop_at=stop_at,
-            ramps=ramps,
-            execution=execution,
-        )
-    ).complete()
+    request = Request(
+        parameters=case,
+        start=start,
+        t_end=end,
+        tol=min(float(tol), loosest),
+        windows=sampled,
+        events=events,
+        initial_state=initial_state,
+        stop_at=stop_at,
+        ramps=ramps,
+        execution=execution,
+    )
+    return Run(request).complete()
+
+
+def _sampled(windows: Windows | None, start: float, end: float, stop_at: str | None) -> Windows:
+    """Return the windows of a run by name, with absolute times."""
+    if windows is None:
+        return {}
+    sampled = resolved_windows(windows, start, end)
+    if stop_at is not None:
+        backward = [name for name, each in windows.items() if getattr(each, "last", None)]
+        rule = "must not be given with stop_at: where the run ends is not known before"
+        raise_faults([Fault(("windows", name, "last"), "", rule) for name in backward])
+    return sampled
 
 
 def _span(t_end: Any, duration: Any, initial_state: Any) -> tuple[float, float, list[str]]:
     """Return the times of a run from an end or a duration, s, one of which must be given, and what is wrong with
     them. They are plain floats: others would make the engine compile again, and would round differently."""
-    given = {"t_end": t_end, "duration": duration}
-    [(name, value), *more] = [pair for pair in given.items() if pair[1] is not None] or [("", "")]
-    one = f"must be left out beside {duration=!s}" if more else "is required, or duration instead"
-    raise_faults([Fault(("t_end",), "", one)] if more or not name else [])
+    needed = t_end is not None or duration is not None
+    alone = t_end is None or duration is None
+    require((needed, "t_end", t_end, "is required, or duration instead"))
+    require((alone, "t_end", t_end, f"must be left out beside {duration=!s}"))
 
     # the start is 0 until its fault is reported
-    time: Any = initial_state.time if isinstance(initial_state, State) else 0.0
-    start = float(time) if states.is_finite(time) else 0.0
+    time: Any = getattr(initial_state, "time", 0.0)
+    is_time = states.is_finite(time)
+    start = 0.0
+    if is_time:
+        start = float(time)
+    name, value, begin = "t_end", t_end, 0.0
+    if t_end is None:
+        name, value, begin = "duration", duration, start
     end = math.nan
     with suppress(ValueError):  # of what is no number
-        end = number(in_si(value, "s", [], ())) + (start if name == "duration" else 0.0)
+        end = begin + number(in_si(value, "s", [], ()))
     rule = (
         f"must be finite, in s or as '2 min', and > {as_text(start)}, the time of the initial state"
     )
     faults = violations(
-        (states.is_finite(time), "initial_state.time", time, "must be finite"),
+        (is_time, "initial_state.time", time, "must be finite"),
         (start < end < math.inf, name, value, rule),
     )
     return start, end, faults
@@ -184,19 +202,25 @@ def snapshots(
     ['stick', 'slip']
     """
     raise_faults(foreign_case(case))
-    started = initial_state is None or isinstance(initial_state, State)
     numbers = states.finite_numbers(in_si(times, "s", [], ()))
     ascend = numbers is not None and not np.any(np.diff(numbers) < 0)
     require(
-        (started, "initial_state", initial_state, "must be a State"),
+        (
+            isinstance(initial_state, State | None),
+            "initial_state",
+            initial_state,
+            "must be a State",
+        ),
         (ascend, "times", times, "must be finite and ascend"),
     )
-    ramps = (ramps,) if isinstance(ramps, Ramp) else ramps
+    if isinstance(ramps, Ramp):
+        ramps = (ramps,)
     raise_faults(
         [*ramp_faults(case, ramps, poincare=False), *limits_faults("tol", tol, TOLERANCES)]
     )
-    wanted: list[float] = [] if numbers is None else numbers.tolist()
-    state = states.static_start(case) if initial_state is None else initial_state
+    assert numbers is not None
+    wanted = numbers.tolist()
+    state = initial_state or states.static_start(case)
     rule = f"must be >= {as_text(state.time)} (the time of the initial state)"
     require(*((time >= state.time, "times", time, rule) for time in wanted[:1]))
     reached: list[State] = []

@@ -86,8 +86,12 @@ class Span(Interval):
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start if self.last is None else max(t_end - self.last, start)
-        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
+        first = self.start
+        if self.last is not None:
+            first = max(t_end - self.last, start)
+        if self.stop < math.inf:
+            return first, self.stop
+        return first, self._end(first, t_end)
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
@@ -198,18 +202,14 @@ def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
     for name, window in dict(windows).items():  # type: ignore[call-overload]
         path = f"windows.{name}"
         named = isinstance(name, str) and NAME.fullmatch(name) is not None
-        taken = name in BESIDE_WINDOWS
         rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
         require(
             (named, "windows", name, rule),
-            (
-                not taken,
-                "windows",
-                name,
-                f"the name of a window {rule_of_taken(name)}" if taken else "",
-            ),
             (isinstance(window, Window | Poincare), path, window, "must be a Window, or Poincare"),
         )
+        if name in BESIDE_WINDOWS:
+            rule = f"the name of a window {rule_of_taken(name)}"
+            raise ParameterError(Fault.of(("windows",), name, rule))
         length = getattr(window, "last", None) or 0.0
         try:
             require(
@@ -217,7 +217,9 @@ def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
                 (t_end - length >= start - ROUNDING * t_end, "last", length,
                  f"must be <= {as_text(t_end - start)} s, the length of the run"),
             )  # fmt: skip
-            resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
+            resolved[name] = window
+            if isinstance(window, Window):
+                resolved[name] = window.resolved(start, t_end)
         except ParameterError as error:
             raise ParameterError(
                 *(fault.inside(("windows", name)) for fault in error.faults)

@@ -419,7 +419,9 @@ class Result(Summarised, EqualByValue):
             return pictures.history(self._again(*names), names, variables, units)
         # what is no text and cannot be iterated is refused by its name
         several = np.iterable(windows) and not isinstance(windows, str)
-        names = list(windows) if several else [windows]  # type: ignore[list-item]
+        names = [windows]  # type: ignore[list-item]
+        if several:
+            names = list(windows)
         return pictures.history(self.to_tree(), names, variables, units)
 
     def plot_phase_portrait(
@@ -576,8 +578,7 @@ class Result(Summarised, EqualByValue):
     @property
     def _span(self) -> float:
         """The duration of the run, s."""
-        start = 0.0 if self.initial_state is None else self.initial_state.time
-        return float(self.final_state.time - start)
+        return float(self.final_state.time - getattr(self.initial_state, "time", 0.0))
 
     @property
     def _last_cycles(self) -> float:
@@ -586,8 +587,12 @@ class Result(Summarised, EqualByValue):
         lengths = [self._span]
         for kind, number in (("stick_to_slip", CYCLES), ("separation", SEPARATIONS)):
             times = self.events["time"][self.events["kind"] == kind].to_numpy()
-            length = end - float(times[-1 - number]) if len(times) > number else math.inf
-            lengths.append(length if length < 1.0 else SHORTEST)
+            length = SHORTEST
+            if len(times) > number:
+                length = end - float(times[-1 - number])
+            if length >= 1.0:
+                length = SHORTEST
+            lengths.append(length)
         return min(lengths)
 
     def _again(self, *names: str) -> xr.DataTree:

@@ -44,6 +44,15 @@ _STATUS = {
     transitions.STALLED: Status.STALLED,
     transitions.NON_FINITE: Status.NON_FINITE,
 }
+STATISTICS = (
+    "steps", "n_events", "n_separations", "time_stick", "time_slip", "time_separation", "energy_residual",
+    "energy_residual_transverse", "energy_residual_inplane", "audited_steps", "surface_speed", "wall_time",
+)  # fmt: skip
+BALANCES = {
+    "transverse": (audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+    "inplane": (audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+}
+"""Places of the sum of residuals of a balance, the largest energy present, and all energy exchanged."""
 # compiled, by blocks of lanes, laws of contact and ramp
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
 
@@ -133,7 +142,9 @@ class Run:
                 self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
             except (MemoryError, ValueError) as error:
                 raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
-        capacity = BUFFER if grids else 0
+        capacity = 0
+        if grids:
+            capacity = BUFFER
         return record.RunBuffers(
             np.zeros(record.N_COUNTERS, np.int64),
             np.zeros(3),
@@ -156,7 +167,9 @@ class Run:
             most = 10_000 + 20 * (request.t_end - self.time) / model.unit
 
         stops = any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps)
-        stopping = STOPPING if stops else 1.0
+        tolerance = states.series_tolerance(request.tol, self.compliant)
+        if stops:
+            tolerance /= STOPPING
 
         # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
@@ -167,7 +180,7 @@ class Run:
             audit_interval = 1
         return loop.Limits(
             order=order,
-            tolerance=states.series_tolerance(request.tol, self.compliant) / stopping,
+            tolerance=tolerance,
             t_end=request.t_end,
             may_separate=request.stop_at is None,
             max_steps=int(min(most, MOST_STEPS)),
@@ -243,7 +256,9 @@ class Run:
         counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
         if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
             self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
-        self.events.append(events[: len(events) if self.request.events else 0].copy())
+        if not self.request.events:
+            events = events[:0]
+        self.events.append(events.copy())
         for i, samples in enumerate(self.samples.values()):
             new = rows[rows[:, 0] == i]
             if len(new):
@@ -297,30 +312,26 @@ class Run:
         count = self.buffers.counters.tolist()
         total = self.buffers.audit.tolist()
         durations = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
-        every_step = self.request.execution.audit_every_step
-        return {
+        statistics = dict.fromkeys(STATISTICS, math.nan)
+        statistics |= {f"time_{phase}": duration for phase, duration in durations}
+        statistics |= {
             "steps": count[record.STEPS],
             "n_events": count[record.EVENTS],
             "n_separations": count[record.SEPARATIONS],
-            **{f"time_{phase}": duration for phase, duration in durations},
-            "energy_residual": total[audit.WORST] if total[audit.STEPS] else math.nan,
-            # which need the sums over every step
-            "energy_residual_transverse": _relative(
-                total[audit.TRANSVERSE],
-                total[audit.TRANSVERSE_SCALE] + total[audit.TRANSVERSE_TURNOVER],
-            ) if every_step else math.nan,
-            "energy_residual_inplane": _relative(
-                total[audit.INPLANE], total[audit.INPLANE_SCALE] + total[audit.INPLANE_TURNOVER]
-            ) if every_step else math.nan,
             "audited_steps": int(total[audit.STEPS]),
-            "surface_speed": total[audit.SURFACE] if self.model.has_moving_surface else math.nan,
             "wall_time": self.wall_time,
-        }  # fmt: skip
+        }
 
-
-def _relative(residual: float, size: float) -> float:
-    """Return the sum of residuals over the largest energy present plus all energy exchanged."""
-    return abs(residual) / size if size else 0.0
+        # energies, which need the sums over every step, but for the worst of the audited ones
+        if total[audit.STEPS]:
+            statistics["energy_residual"] = total[audit.WORST]
+        if self.request.execution.audit_every_step:
+            for name, (residual, scale, turnover) in BALANCES.items():
+                size = total[scale] + total[turnover]
+                statistics[f"energy_residual_{name}"] = abs(total[residual]) / (size or 1.0)
+        if self.model.has_moving_surface:
+            statistics["surface_speed"] = total[audit.SURFACE]
+        return statistics
 
 
 class Samples:

@@ -179,8 +179,12 @@ def perturb(
         "f": state.f + f,
     }
     if f and state.phase != "separation":
-        rate = f + (slip_rate(p, state) if state.phase == "slip" else 0.0)
-        changes |= {"phase": "slip" if rate else "stick", "direction": int(np.sign(rate))}
+        rate = f
+        if state.phase == "slip":
+            rate += slip_rate(p, state)
+        changes |= {"phase": "slip", "direction": int(np.sign(rate))}
+        if rate == 0:
+            changes["phase"] = "stick"
     return state.replace(**changes)
 
 
@@ -427,7 +431,8 @@ def write_state(case: EngineCase, source: State, state: EngineState, key: str = 
     phase = PHASES.index(source.phase)
     if phase == SLIP and case.model.has_compliance and rate == gap == 0 and not any(source._roots):
         phase = STICK  # no force, and so no friction that slip could overcome
-    motion.put_phase(state, phase, source.direction if phase == SLIP else 0, source._roots)
+    direction = source.direction * (phase == SLIP)
+    motion.put_phase(state, phase, direction, source._roots)
     at_event = any(source._roots) and source.case_key != (key or case.key)
     return at_event and _forget_switch(case, state)
 
@@ -446,7 +451,9 @@ def _checked_gap(case: EngineCase, source: State, state: EngineState) -> float:
     rule = (
         f"must be {place} the disc under the slider, {w:.9g}, in {source.phase}: change a with it"
     )
-    room = (INSIDE if apart else SAME_HEIGHT) * size
+    room = SAME_HEIGHT * size
+    if apart:
+        room = INSIDE * size
     require((abs(gap) <= room, "initial_state.u", source.u, rule))
     return gap
 
@@ -460,7 +467,9 @@ def _rate_over_material(case: EngineCase, source: State) -> float:
     rounding = begins and abs(rate) <= SAME_SPEED * (case.model.Omega + abs(surface))
     if source.phase == "slip" and (rounding or rate * source.direction < 0):
         return 0.0
-    return 0.0 if source.phase == "stick" else rate
+    if source.phase == "stick":
+        return 0.0
+    return rate
 
 
 def _forget_switch(case: EngineCase, state: EngineState) -> bool:
