@@ -215,13 +215,10 @@ def test_a_table_given_for_a_dataset_is_told_what_to_do(tmp_path: Path) -> None:
         dm.load(table)
 
 
-def test_a_run_and_a_state_are_written_by_their_own_method(tmp_path: Path) -> None:
-    """They were refused, since they have a method save."""
+def test_a_run_is_written_by_its_own_method(tmp_path: Path) -> None:
+    """It was refused, since it has a method save."""
     dm.save(RUN, tmp_path / "run.nc")
     assert dm.Result.load(tmp_path / "run.nc") == RUN
-    state = RUN.final_state
-    dm.save(state, tmp_path / "state.nc")
-    assert dm.State.load(tmp_path / "state.nc") == state
     with refusal(r"must end in .nc"):
         dm.save(RUN, tmp_path / "run.csv")
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from disc_model import Parameters, Result, State, Window, simulate
+from disc_model import Parameters, Result, Window, simulate
 from disc_model.data import files
 from disc_model.data.dataset import UnreadableFile, WriteError, load, save
 from tests.refusals import refusal
@@ -41,15 +41,7 @@ def test_the_longest_names_are_written(name: str, tmp_path: Path) -> None:
     "name", ["x" * 253 + ".nc", "x" * 5000 + ".nc", "a\0b.nc", "ü" * 127 + ".nc"]
 )
 @pytest.mark.parametrize(
-    "use",
-    [
-        lambda path: RUN.save(path),
-        lambda path: RUN.final_state.save(path),
-        lambda path: save(RUN.to_tree(), path),
-        Result.load,
-        State.load,
-        load,
-    ],
+    "use", [lambda path: RUN.save(path), lambda path: save(RUN.to_tree(), path), Result.load, load]
 )
 def test_a_name_that_no_file_can_have_is_one_clear_error(
     use: Callable[[str], object], name: str, tmp_path: Path

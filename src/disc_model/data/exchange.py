@@ -46,7 +46,7 @@ def save(
     data : of numbers and words; discs along a dimension are written as text, in JSON, and None beside them, the
         plate, as "plate". A `Branch` and
         what `critical` returns are written as the dataset of their method `to_dataset`, and an xarray.DataArray that
-        has a name as a dataset of it alone. A `Result` or a `State` is written by its method `save`, to .nc,
+        has a name as a dataset of it alone. A `Result` is written by its method `save`, to .nc,
         and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4; of a complex variable `x` it has the real part `x_real` and the
         imaginary part `x_imag`. ".csv": a table of pandas with a row for each point, units in the heads, such as
