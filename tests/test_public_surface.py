@@ -13,7 +13,6 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.data import dataset
 from disc_model.studies.registry import quantity_names
 from tests.refusals import refusal
 
@@ -180,7 +179,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         (function, {}, {"path": "text"})
         for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)
     ),
-    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text", "compressed": "True"}),
 ]
 ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")

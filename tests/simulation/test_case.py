@@ -200,11 +200,8 @@ def test_a_window_counts_back_from_where_a_run_stops():
     [
         (1, "must be a text"),
         ("", "must not be empty"),
-        ("a", "must not be the name of a parameter (inner radius of the disc); window_a would do"),
-        (
-            "steps",
-            "must not be the name of a variable of results (number of steps); window_steps would do",
-        ),
+        ("a", "must not be the name of a parameter of results; window_a would do"),
+        ("steps", "must not be the name of a variable of results; window_steps would do"),
         ("events", "must not be the name of a group of results; window_events would do"),
         ("a/b", "must have no /"),
         (" late", "must begin with a letter, a digit or _"),
