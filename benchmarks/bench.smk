@@ -62,14 +62,14 @@ rule measure:
         "../workflow/envs/disc_model.yaml"
     threads: 1024
     params:
-        code=code_of("../../benchmarks/scripts/measure", *PHYSICS, BENCHMARKS),
+        code=physics_hash() + code_of("benchmarks"),
         study=lambda w: STUDIES[Path(w.part).parts[0]],
         of=lambda w: " ".join(Path(w.part).parts[1:]).replace("_", " ", 1),
         compiled=lambda w: (
             "NUMBA_CPU_NAME=x86-64-v3 NUMBA_CPU_FEATURES=" if w.target else ""
         ),
     shell:
-        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job ../../benchmarks/scripts/measure {params.study} {output} {params.of} > {log} 2>&1"
+        "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 {params.compiled} job ../benchmarks/scripts/measure {params.study} {output} {params.of} > {log} 2>&1"
 
 
 rule tabulate_work_precision:
@@ -82,9 +82,9 @@ rule tabulate_work_precision:
     conda:
         "../workflow/envs/disc_model.yaml"
     params:
-        code=code_of("../../benchmarks/scripts/tabulate_work_precision", BENCHMARKS),
+        code=physics_hash() + code_of("benchmarks"),
     shell:
-        "job ../../benchmarks/scripts/tabulate_work_precision {output} {input} > {log} 2>&1"
+        "job ../benchmarks/scripts/tabulate_work_precision {output} {input} > {log} 2>&1"
 
 
 rule merge_answers:
@@ -98,9 +98,9 @@ rule merge_answers:
     conda:
         "../workflow/envs/disc_model.yaml"
     params:
-        code=code_of("../../benchmarks/scripts/merge_answers", BENCHMARKS),
+        code=physics_hash() + code_of("benchmarks"),
     shell:
-        "job ../../benchmarks/scripts/merge_answers {output} {input} > {log} 2>&1"
+        "job ../benchmarks/scripts/merge_answers {output} {input} > {log} 2>&1"
 
 
 rule draw_benchmark:
@@ -116,6 +116,6 @@ rule draw_benchmark:
     conda:
         "../workflow/envs/disc_model.yaml"
     params:
-        code=code_of("../../benchmarks/scripts/draw_benchmark", BENCHMARKS, "figures"),
+        code=physics_hash() + code_of("benchmarks"),
     shell:
-        "job ../../benchmarks/scripts/draw_benchmark {wildcards.figure} {output} {input} > {log} 2>&1"
+        "job ../benchmarks/scripts/draw_benchmark {wildcards.figure} {output} {input} > {log} 2>&1"

@@ -16,7 +16,7 @@ import xarray as xr
 
 from disc_model.data.dataset import json_attribute
 from disc_model.data.variables import Variable
-from disc_model.sources import versions
+from disc_model.provenance import versions
 
 _FILE = Path(__file__).with_name("variables.toml")
 TABLES = tomllib.loads(_FILE.read_text(encoding="utf-8"))

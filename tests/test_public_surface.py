@@ -2,10 +2,8 @@
 
 import inspect
 import math
-import pydoc
 import re
 from collections.abc import Callable
-from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,7 +12,6 @@ import xarray as xr
 
 import disc_model as dm
 from disc_model.studies.registry import quantity_names
-from tests.refusals import refusal
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {
@@ -217,72 +214,6 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
     assert hash(first) == hash(compute(case))
     assert first != compute(case.replace(E=1.01 * case.E))
     assert first != 3
-
-
-CLASSES_OF_ARGUMENTS = (
-    dm.Parameters,
-    dm.Disc,
-    dm.Window,
-    dm.Poincare,
-    dm.Ramp,
-    dm.Execution,
-    dm.StepControl,
-)
-
-
-@pytest.mark.parametrize("model", CLASSES_OF_ARGUMENTS, ids=lambda model: model.__name__)
-def test_help_shows_what_a_reader_knows(model: type) -> None:
-    """It had 500 lines of pydantic, and a function's address in the type of a number."""
-    signature = str(inspect.signature(model))
-    for inside in ("Annotated", "Validator", "pydantic", "0x", "ForwardRef"):
-        assert inside not in signature
-    text = pydoc.render_doc(model, renderer=pydoc.plaintext)
-    assert text.count("pydantic") == 1, "in the order of classes"
-    assert "model_post_init" not in text
-    # newer versions of Python give each argument of a long signature a line
-    assert len(text.splitlines()) < 250
-    assert {"replace", "model_validate_json"} <= {*dir(model)}
-    assert not [name for name in dir(model) if name.startswith("_")]
-
-
-def test_signatures_have_plain_types_and_defaults() -> None:
-    assert str(inspect.signature(dm.Window)) == (
-        "(*, start: float = 0.0, stop: float = inf, last: float | None = None, rate: float,"
-        " theta: float = 1.0, envelope: int | None = None)"
-    )
-    assert str(inspect.signature(dm.Parameters)).startswith(
-        "(*, N: float, Omega: float, D_star: float = 1e-05, c: float = 0.0, "
-    )
-    arguments = inspect.signature(dm.Disc).parameters
-    assert arguments["shapes"].annotation == tuple[tuple[float, ...], ...]
-    assert arguments["static_compliance"].default is None
-
-
-@pytest.mark.parametrize(
-    ("name", "given", "meant"),
-    [
-        ("outcome", {"horizn": 3}, "horizon"),
-        ("basins", {"energy": 3}, "energies"),
-        ("critical_speed", {"bound": (3, 4)}, "bounds"),
-        ("hysteresis", {"dwel": 5}, "dwell"),
-        ("simulate", {"t_ende": 3}, "t_end"),
-        ("snapshots", {"time": 3}, "times"),
-        ("initial_state", {"preruns": {}}, "prerun"),
-        ("floquet", {"tool": 3}, "tol"),
-        ("critical", {"point": 3}, "points"),
-        ("continue_cycle", {"bound": (3, 4)}, "bounds"),
-        ("neutral_curves", {"line": [3]}, "lines"),
-        ("lyapunov_exponents", {"durations": 3}, "duration"),
-        ("choose_modes", {"tolerances": 3}, "tolerance"),
-    ],
-)
-def test_the_argument_that_is_meant_is_suggested(
-    name: str, given: dict[str, Any], meant: str
-) -> None:
-    """Study files did so; functions ended in a `TypeError` without it, and sweeps named none."""
-    for call in (partial(getattr(dm, name), P), partial(dm.sweep, getattr(dm, name), P, N=[200])):
-        with refusal(rf"is no .*, did you mean {meant}\?"):
-            call(**given)
 
 
 def test_quantities_that_are_no_functions_lead_to_studies() -> None:

@@ -7,7 +7,6 @@ from typing import Any
 import pytest
 
 import disc_model as dm
-from disc_model.stability.continuation.arguments import interval_in_si
 from tests.refusals import refusal
 
 MODES: dict[str, Any] = {"diameters": [0, 2], "omega": [5837.0, 7615.0], "amplitude": [0.43, 0.54]}
@@ -64,13 +63,6 @@ def test_texts_of_other_kinds_are_refused(changes: dict[str, str], message: str)
 def test_a_disc_names_the_row_of_another_kind() -> None:
     with refusal(re.escape("omega.1='5 kg': the unit of omega must be Hz")):
         dm.Disc(diameters=[0, 2], omega=[5837, "5 kg"], amplitude=[0.4, 0.5])
-
-
-def test_bounds_of_a_ratio_may_be_in_percent() -> None:
-    assert interval_in_si("mu_k_over_mu_s", ("50 %", "70 %")) == [0.5, 0.7]
-    faults: list[Any] = []
-    assert interval_in_si("mu_k_over_mu_s", ("50 mm", "70 mm"), faults) is None
-    assert len(faults) == 2
 
 
 @pytest.mark.compiled

@@ -5,9 +5,7 @@ reattachment.
     >>> result = disc_model.simulate(disc_model.Parameters(N=385, Omega=15.1), 60)
     >>> result.first_separation
 
-Functions take one case, and `sweep` calls them for many. `run_study` computes what needs many cases at
-once, such as a bifurcation diagram (quantity "bifurcation", which `plot_sweep` draws) or a Campbell
-diagram ("campbell", `plot_campbell`).
+Functions take one case, and `sweep` calls them for many; `run_study` computes what a study file says.
 
 Names are imported at their first use, so that `import disc_model` is fast and numba is loaded only
 for simulations.
@@ -39,6 +37,19 @@ _NAMES = {
     "simulation.result": "Result",
     "simulation.starts": "initial_state",
     "simulation.states": "State deflection",
+    "studies.quantities.basins": "basins",
+    "studies.quantities.bifurcation": "bifurcation",
+    "studies.quantities.branches": "branches",
+    "studies.quantities.campbell": "campbell",
+    "studies.quantities.critical_speed": "critical_speed",
+    "studies.quantities.hysteresis": "hysteresis",
+    "studies.quantities.locking": "locking",
+    "studies.quantities.outcome": "outcome",
+    "studies.quantities.ramps": "ramps",
+    "studies.quantities.range_law": "range_law",
+    "studies.quantities.regions": "regions",
+    "studies.quantities.sensitivity": "sensitivity",
+    "studies.quantities.sliding": "sliding_modes",
     "studies.run": "run_study",
     "studies.sweep": "sweep",
     "stability.continuation": "Branch StepControl continue_cycle",
@@ -48,20 +59,6 @@ _NAMES = {
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
 }
-_OF_STUDIES = (
-    "bifurcation",
-    "branches",
-    "campbell",
-    "locking",
-    "lyapunov",
-    "ramps",
-    "range_law",
-    "regions",
-    "sensitivity",
-    "sliding",
-    "stability_curves",
-)
-"""Quantities of studies that are no functions of this name."""
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
 __all__ = [*_HOMES, "__version__"]
@@ -99,16 +96,26 @@ if TYPE_CHECKING:
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.studies.quantities.basins import basins
+    from disc_model.studies.quantities.bifurcation import bifurcation
+    from disc_model.studies.quantities.branches import branches
+    from disc_model.studies.quantities.campbell import campbell
+    from disc_model.studies.quantities.critical_speed import critical_speed
+    from disc_model.studies.quantities.hysteresis import hysteresis
+    from disc_model.studies.quantities.locking import locking
+    from disc_model.studies.quantities.outcome import outcome
+    from disc_model.studies.quantities.ramps import ramps
+    from disc_model.studies.quantities.range_law import range_law
+    from disc_model.studies.quantities.regions import regions
+    from disc_model.studies.quantities.sensitivity import sensitivity
+    from disc_model.studies.quantities.sliding import sliding_modes
     from disc_model.studies.run import run_study
     from disc_model.studies.sweep import sweep
 
 
 def __getattr__(name: str) -> Any:
     if name not in _HOMES:
-        hint = ""
-        if name in _OF_STUDIES:
-            hint = f": it is a quantity of studies, as in run_study({{'quantity': {name!r}, ...}})"
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{hint}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     value = getattr(importlib.import_module(f"{__name__}.{_HOMES[name]}"), name)
     globals()[name] = value
     return value

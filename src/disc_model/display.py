@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib import import_module
-from importlib.util import find_spec
 from types import ModuleType
 from typing import Any
 
@@ -40,21 +39,15 @@ def rounded_text(value: float, digits: int) -> str:
     return text
 
 
-def aligned(rows: Sequence[Sequence[str]]) -> list[str]:
-    """Rows of texts as lines with columns, two blanks apart."""
-    widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
-    lines = []
-    for row in rows:
-        cells = [text.ljust(width) for text, width in zip(row, widths, strict=True)]
-        lines.append("  ".join(cells).rstrip())
-    return lines
+def frequencies_text(frequencies: Sequence[float]) -> str:
+    """The range of the frequencies of a disc, given in rad/s, in Hz."""
+    ends = {f"{omega / math.tau:.4g}": None for omega in (min(frequencies), max(frequencies))}
+    return f"{' to '.join(ends)} Hz"
 
 
 def counted(number: int, noun: str) -> str:
     """A number with its noun in the singular or the plural."""
-    if number == 1:
-        return f"{number} {noun}"
-    return f"{number} {noun}s"
+    return f"{number} {noun}{'s' * (number != 1)}"
 
 
 def brought(module: str, extra: str) -> Any:
@@ -62,9 +55,8 @@ def brought(module: str, extra: str) -> Any:
     try:
         return import_module(module)
     except ModuleNotFoundError:
-        raise ModuleNotFoundError(
-            f"there is no module {module}: pip install 'disc_model[{extra}]'"
-        ) from None
+        remedy = f"pip install 'disc_model[{extra}]'"
+        raise ModuleNotFoundError(f"there is no module {module}: {remedy}") from None
 
 
 def drawings() -> ModuleType:
@@ -78,74 +70,44 @@ def drawings() -> ModuleType:
 
 # ---- Progress
 
-NOTEBOOK = 90  # characters of a line in a notebook
-
 
 class Bar:
-    """A bar that counts what is done, of a `total` if that is known; without one of rich it is not
-    shown."""
+    """A bar that counts what is done, of a `total` if that is known; one of rich, if it is shown."""
 
-    def __init__(self, total: int | None, bar: Any = None, task: Any = None) -> None:
+    def __init__(self, total: int | None, shown: Any = None, title: str = "") -> None:
         self.total = total
-        self.bar = bar
-        self.task = task
+        self.shown = shown
+        if shown is not None:
+            shown.add_task(title, total=total)
 
     def advance(self) -> None:
         """Count one more that is done."""
-        if self.bar is not None:
-            self.bar.advance(self.task)
+        self._update(advance=1)
 
     def expect(self, more: int) -> None:
         """Count more that are to be done."""
         if self.total is not None:
             self.total += more
-        if self.bar is not None:
-            self.bar.update(self.task, total=self.total)
+            self._update(total=self.total)
 
     def describe(self, text: str) -> None:
         """Say beside the bar what is done now."""
-        if self.bar is not None:
-            self.bar.update(self.task, description=text)
+        self._update(description=text)
+
+    def _update(self, **changes: Any) -> None:
+        if self.shown is not None:
+            self.shown.update(0, **changes)
 
 
 @contextmanager
 def progress_bar(title: str, total: int | None, shown: bool) -> Iterator[Bar]:
-    """A bar on standard error, while it is needed; it only counts if the total is not known, and if it
-    is not shown."""
+    """A bar on standard error while it is needed; it only counts if it is not shown."""
     if not shown:
         yield Bar(total)
         return
-    from rich.progress import (
-        BarColumn,
-        MofNCompleteColumn,
-        Progress,
-        TextColumn,
-        TimeElapsedColumn,
-        TimeRemainingColumn,
-    )
-
-    if total is None:
-        counts = [TextColumn("{task.completed}"), TimeElapsedColumn()]
-    else:
-        left = [TextColumn("left"), TimeRemainingColumn()]
-        counts = [BarColumn(), MofNCompleteColumn(), TimeElapsedColumn(), *left]
-    with Progress(TextColumn("{task.description}"), *counts, console=_console()) as bar:
-        yield Bar(total, bar, bar.add_task(title, total=total))
-
-
-def _console() -> Any:
-    """Standard error for a bar: as text in a notebook without ipywidgets, where rich would draw
-    nothing."""
     from rich.console import Console
+    from rich.progress import MofNCompleteColumn, Progress, TimeElapsedColumn
 
-    console = Console(stderr=True)
-    if console.is_jupyter and find_spec("ipywidgets") is None:
-        return Console(stderr=True, force_jupyter=False, force_terminal=True, width=NOTEBOOK)
-    return console
-
-
-def frequencies_text(frequencies: Sequence[float]) -> str:
-    """The range of the frequencies of a disc, given in rad/s, in Hz."""
-    low, high = (f"{omega / math.tau:.4g}" for omega in (min(frequencies), max(frequencies)))
-    extent = low if low == high else f"{low} to {high}"
-    return f"{extent} Hz"
+    columns = [*Progress.get_default_columns(), MofNCompleteColumn(), TimeElapsedColumn()]
+    with Progress(*columns, console=Console(stderr=True)) as progress:
+        yield Bar(total, progress, title)

@@ -61,9 +61,9 @@ def test_attributes(name: str, unit: str, text: str, comment: str | None) -> Non
 
 def test_values_of_a_parameter_are_in_its_unit() -> None:
     """They were called "Omega in the sweep, SI units", without a unit."""
-    found = OF_QUANTITIES["branches"]["columns"]["value"].texts({"parameter": "k"})
+    found = OF_QUANTITIES["branches"]["columns"]["value"].texts({"name": "k"})
     assert (found["parameter"], found["units"]) == ("k", "N m-1")
-    crossing = OF_QUANTITIES["campbell"]["summary"]["crossing_Omega"].texts()
+    crossing = OF_QUANTITIES["campbell"]["columns"]["crossing_Omega"].texts()
     assert (crossing["parameter"], crossing["units"]) == ("Omega", "rad s-1")
 
 

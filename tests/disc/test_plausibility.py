@@ -29,7 +29,6 @@ def disc(damping_ratio: float) -> Disc:
     ("given", "name"),
     [
         ({"h": 0.0153}, "h is more than a fifth of b - a"),
-        ({"h_over_b": 0.2}, "h is more than a fifth of b - a"),
         ({"E": 150}, "E is below 1e+09 Pa"),
         ({"damping_ratio": 0.051}, "damping ratio above 0.05"),
         ({"disc": disc(0.3), "r_0": 0.1}, "damping ratio above 0.05"),

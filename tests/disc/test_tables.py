@@ -175,9 +175,9 @@ def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFix
     path = tmp_path / "disc.csv"
     command = Command(capsys)
     disc_of(P.replace(damping_ratio=0.00375)).to_csv(path)
-    shown = command.out("modes", "--disc", str(path))
-    assert "a disc of 5 modes" in shown
-    assert shown.count("0.00375") == 5
+    shown = command.out("modes", f"disc={path}")
+    for omega in dm.Disc.from_csv(path).omega:
+        assert f"{omega:.6g}" in shown
 
 
 @pytest.mark.parametrize(

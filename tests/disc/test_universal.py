@@ -140,10 +140,8 @@ def test_the_command_line_makes_a_table_of_a_file(
     table = tmp_path / "disc.csv"
     place = ("--axis", "0,0,1", "--centre", "0,0,0", "--units", "m,N")
     command = Command(capsys)
-    shown = command.out("modes", "--from", str(file), "--r-0", "0.1", *place, "--save", str(table))
-    assert "a disc of 4 modes" in shown
+    shown = command.out("modes", "r_0=0.1", "--from", str(file), *place, "--save", str(table))
+    assert "Disc alone" in shown
     assert_known(dm.Disc.from_csv(table))
-    said = command.error("modes", "--from", str(file), "--r-0", "0.1", *place[:-2])
+    said = command.error("modes", "r_0=0.1", "--from", str(file), *place[:-2])
     assert "units" in said
-    both = command.error("modes", "--from", str(file), "--disc", str(table), "--r-0", "0.1")
-    assert "disc: must be left out: --from gives the disc" in both

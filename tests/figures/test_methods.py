@@ -25,7 +25,7 @@ from tests.figures.measured import Shown, assert_shows, label_along, parts_of
 from tests.refusals import refusal
 
 CASE = dm.Parameters(N=385, Omega=15)
-WEAKER = CASE.replace(mu_k_over_mu_s=0.6, Omega=12)
+WEAKER = CASE.replace(Omega=12)
 ALONG = [10.0, 12.0, 14.0]  # rad/s
 LOADS = [300.0, 385.0]  # N
 FRICTION = "Static friction μ_s"

@@ -55,9 +55,9 @@ def code(*command):
     except SystemExit as ended:
         return ended.code
 
-assert code("run", "--N", "1", "--Omega", "1", "--t-end", "1", "--plot", "x.png") == 2
-assert not code("modes", "--normalization", "orthonormal")
-assert not code("run", "--N", "200", "--Omega", "20", "--t-end", "0.02")
+assert code("run", "N=1", "Omega=1", "--t-end", "1", "--plot", "x.png") == 2
+assert not code("modes", "normalization=orthonormal")
+assert not code("run", "N=200", "Omega=20", "--t-end", "0.02")
 main(["study", "my.yaml"])
 """
 

@@ -5,7 +5,6 @@ import copy
 import dataclasses
 import json
 import math
-import pickle
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -132,16 +131,6 @@ def test_a_height_that_contradicts_contact_is_refused() -> None:
     assert simulate(P, 0.04, initial_state=apart).status.complete
 
 
-def test_a_result_keeps_the_ratio_by_which_its_case_was_given(tmp_path: Path) -> None:
-    p = P.replace(mu_k_over_mu_s=0.6)
-    result = simulate(p, 0.02)
-    path = tmp_path / "r.nc"
-    result.save(path)
-    for again in (Result.load(path), pickle.loads(pickle.dumps(result)), copy.deepcopy(result)):
-        assert again.parameters == p
-        assert again.parameters.replace(mu_s=0.5).mu_k == 0.3
-
-
 def test_a_run_that_overflowed_is_saved_but_its_last_state_is_not(tmp_path: Path) -> None:
     start = simulate(P, 1e-6).final_state
     with np.errstate(all="ignore"):
@@ -196,7 +185,7 @@ def edited(value: Any, path: tuple[Any, ...], other: Any) -> Any:
 
 
 RECORDED = simulate(
-    P.replace(mu_k_over_mu_s=0.6),
+    P,
     0.02,
     {"late": Window(last=0.01, rate=1000), "turns": Poincare()},
     ramps=Ramp(parameter="N", to=190, start=0.01, end=0.02),

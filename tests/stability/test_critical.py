@@ -253,7 +253,7 @@ def test_scans_overlook_nothing_against_dense_ones(seed: int) -> None:
 
 @pytest.mark.compiled
 def test_bounds_may_have_units_and_those_of_another_kind_are_refused():
-    p = Parameters(N=385, Omega=14.95, mu_k_over_mu_s=0.6)
+    p = Parameters(N=385, Omega=14.95)
     found = critical.critical(p, "Omega", ("142.5 rpm", "15 rad/s"), points=3)
     first = 142.5 * math.tau / 60
     last = 15

@@ -9,7 +9,7 @@ import disc_model as dm
 from disc_model.data.variables import value_with_unit
 from disc_model.stability.critical_values import Critical
 
-CASE = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
+CASE = dm.Parameters(N=385, Omega=12)
 
 
 @pytest.fixture(scope="module")

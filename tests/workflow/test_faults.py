@@ -117,25 +117,3 @@ def test_every_fault_is_shown_and_nothing_runs(
     assert [fault for fault in faults if fault not in shown] == []
     assert "Traceback" not in shown
     assert "Job stats" not in shown
-
-
-def test_results_of_another_study_of_the_same_name_are_not_overwritten(tmp_path: Path) -> None:
-    """They were, without a word."""
-    path = tmp_path / "project"
-    project = copy_repository(path, {"first.yaml": STUDIES["config/small_growth.yaml"]})
-    project.complete("-j2")
-    (project.folder / "second.yaml").write_text(
-        (project.folder / "first.yaml").read_text().replace("25", "30")
-    )
-    second = replace(project, config="second.yaml")
-    shown = second.refused("-j1", "-n")
-    assert (
-        "study='small_growth': is also the name of the study in first.yaml, whose results are in"
-        in shown
-    )
-    assert "Job stats" not in shown
-    (project.folder / "detail.yaml").write_text("title: in other detail")
-    both = replace(project, config=None).complete("-n", "--configfile", "first.yaml", "detail.yaml")
-    assert "is also the name" not in both
-    (project.folder / "first.yaml").rename(project.folder / "third.yaml")
-    assert "Job stats" in second.complete("-n")

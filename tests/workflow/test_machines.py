@@ -59,16 +59,6 @@ def test_a_profile_that_looks_at_times_alone_leaves_nothing_out_of_date(folder: 
     assert other_picture != picture
 
 
-@pytest.mark.parametrize("target", ["all", "results/s/s.nc", "results/s/figures/growth.png"])
-def test_a_command_that_looks_at_times_alone_is_refused(folder: Path, target: str) -> None:
-    snakefile = ROOT / "workflow" / "Snakefile"
-    command = (sys.executable, "-m", "snakemake", "-s", snakefile, "--configfile", "s.yaml", "-n")
-    done = run(*command, target, "--rerun-triggers", "mtime", cwd=folder, fails=True, timeout=300)
-    told = done.stdout + done.stderr
-    assert "rerun-triggers=mtime: must include input, mtime and params" in told
-    assert "Traceback" not in told
-
-
 def test_an_interpreter_of_another_name_runs_the_jobs(folder: Path) -> None:
     """Jobs called `python`, which may be missing or another version."""
     programs = folder / "bin"

@@ -19,14 +19,14 @@ from tests.workflow.conftest import ROOT, Project
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 PROFILE = "workflow/profiles/slurm"
-BATCH = "compute_batch"
+BATCH = "compute_part"
 # Every Python of the project's copy starts with this: the first job that computes a batch hangs.
 HANG = """\
 import sys
 import time
 from pathlib import Path
 
-if any(word.endswith("workflow/scripts/compute_batch.py") for word in sys.orig_argv):
+if "part" in sys.orig_argv:
     try:
         Path(__file__).with_name("hanged").touch(exist_ok=False)
     except FileExistsError:

@@ -4,12 +4,14 @@
 from workflow.paper import JUDGING_TABLES, SCANS, SURVIVAL_GRIDS, TABLE_CASES
 
 SCANNED = {name: grid_file(name) for name in SCANS if name in GRIDS}
+# A change of the ledger judges again; what results are is seen by their files.
+PAPER_CODE = code_of("workflow/paper", "src/disc_model/data")
 MADE = [table for table, cases in TABLE_CASES.items() if STUDY.specs.keys() >= {*cases}]
 
 
 rule check_claims:
     input:
-        cases=lambda w: need(sorted(map(case_file, STUDY.specs))),
+        cases=lambda w: sorted(map(case_file, STUDY.specs)),
         scans=list(SCANNED.values()),
         tables=[
             f"{RESULTS}/tables/{table}.csv"
@@ -30,15 +32,15 @@ rule check_claims:
     conda:
         "../envs/disc_model.yaml"
     params:
-        code=code_of("../paper/scripts/check_claims", WORKFLOW / "paper", "data"),
+        code=PAPER_CODE,
     shell:
-        "job ../paper/scripts/check_claims {output} {input.cases} {input.scans} {input.tables} > {log} 2>&1"
+        "job paper/scripts/check_claims {output} {input.cases} {input.scans} {input.tables} > {log} 2>&1"
 
 
 rule make_table:
     # Tables 1 and 2 of the paper, and those on which results rest: each from its own cases, if the study has them.
     input:
-        lambda w: need([*map(case_file, TABLE_CASES[w.table])]),
+        lambda w: [*map(case_file, TABLE_CASES[w.table])],
     output:
         csv=f"{RESULTS}/tables/{{table}}.csv",
         md=f"{RESULTS}/tables/{{table}}.md",
@@ -55,11 +57,9 @@ rule make_table:
     conda:
         "../envs/disc_model.yaml"
     params:
-        code=code_of(
-            "../paper/scripts/make_table", WORKFLOW / "paper", "data", *PHYSICS
-        ),
+        code=PAPER_CODE,
     shell:
-        "job ../paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
+        "job paper/scripts/make_table {wildcards.table} {output} {input} > {log} 2>&1"
 
 
 rule show_model:
@@ -85,8 +85,8 @@ rule show_model:
 rule compare_normalisations:
     # Needs the paper's cases under both normalisations: `make orthonormal` computes the second set and runs this.
     input:
-        published="results/paper/cases.nc",
-        orthonormal="results/paper_orthonormal/cases.nc",
+        published=collect("results/paper/cases/{x}.nc", x=STUDY.specs),
+        orthonormal=collect("results/paper_orthonormal/cases/{x}.nc", x=STUDY.specs),
     output:
         csv="results/paper/normalisation.csv",
         md="results/paper/normalisation.md",
@@ -101,17 +101,15 @@ rule compare_normalisations:
     conda:
         "../envs/disc_model.yaml"
     params:
-        code=code_of(
-            "../paper/scripts/compare_normalisations", WORKFLOW / "paper", "data"
-        ),
+        code=PAPER_CODE,
     shell:
-        "job ../paper/scripts/compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
+        "job paper/scripts/compare_normalisations {output} {input.published} {input.orthonormal} > {log} 2>&1"
 
 
 rule judge_survival:
     # Needs the motions and grids of config/survival.yaml: `make survival` computes them and runs this.
     input:
-        cases="results/survival/cases.nc",
+        cases=collect("results/survival/cases/{x}.nc", x=STUDY.specs),
         grids=[f"results/{name}/{name}.nc" for name in SURVIVAL_GRIDS],
         png="results/survival_growth/figures/survival_growth.png",
     output:
@@ -134,9 +132,9 @@ rule judge_survival:
     conda:
         "../envs/disc_model.yaml"
     params:
-        code=code_of("../paper/scripts/judge_survival", WORKFLOW / "paper", "data"),
+        code=PAPER_CODE,
     shell:
-        "(job ../paper/scripts/judge_survival {output.csv} {output.md} {output.html} {input.cases} {input.grids}"
+        "(job paper/scripts/judge_survival {output.csv} {output.md} {output.html} {input.cases} {input.grids}"
         " && cp {input.png} {output.png}) > {log} 2>&1"
 
 

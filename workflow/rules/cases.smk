@@ -1,9 +1,9 @@
-# Named cases: one job for each, and all of them in one file and on one page.
+# Named cases: one job for each, and all of them on one page. The job receives everything in one text, which Snakemake
+# records: a case with equal content is not run again, however its file describes it.
+case_file = f"{RESULTS}/cases/{{}}.nc".format
 
 
 rule simulate_case:
-    # The job receives everything in one text, which Snakemake records: a case with equal content is not run again,
-    # wherever and however its file describes it.
     output:
         case_file("{case}"),
     log:
@@ -12,32 +12,34 @@ rule simulate_case:
     conda:
         "../envs/disc_model.yaml"
     params:
-        case=lambda wildcards: STUDY.specs[wildcards.case].canonical,
-        code=code_of("simulate_case", *PHYSICS),
+        case=lambda w: STUDY.specs[w.case].canonical,
+        code=physics_hash(),
     shell:
-        "job simulate_case {params.case:q} {output} > {log} 2>&1"
+        "job jobs case {output} <<< {params.case:q} > {log} 2>&1"
 
 
-rule merge_cases:
+rule list_cases:
     input:
-        lambda w: need(sorted(map(case_file, STUDY.specs))),
+        list(map(case_file, STUDY.specs)),
     output:
-        nc=f"{RESULTS}/cases.nc",
-        html=report(
+        report(
             f"{RESULTS}/provenance.html",
             caption="../report/provenance.rst",
             category="Provenance",
             labels={"page": "Cases, sources and versions"},
         ),
     log:
-        f"{RESULTS}/logs/merge_cases.log",
-    priority: 1  # the longest job after a changed case
+        f"{RESULTS}/logs/list_cases.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        # functions, so that braces in a title are no wildcards; JSON is ASCII
-        title=lambda wildcards: PAGE_TITLE,
-        labels=lambda wildcards: LABELS,
-        code=code_of("merge_cases", *MERGING),
+        # a function, so that braces in a title are no wildcards
+        plan=lambda w: json.dumps(
+            {"title": STUDY.title or STUDY.study, "labels": STUDY.labels}
+        ),
     shell:
-        "job merge_cases {params.title:q} {params.labels:q} {output} {input} > {log} 2>&1"
+        "job jobs provenance {output} {input} <<< {params.plan:q} > {log} 2>&1"
+
+
+if STUDY.specs:
+    PRODUCTS += [*rules.list_cases.output]

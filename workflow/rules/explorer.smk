@@ -1,55 +1,38 @@
 # A page that shows every point of grid studies, and motions: `snakemake explorer`, not part of `all`.
-from itertools import chain
 
 # Studies of a whole plane come first.
-PLANES = ("outcome", "regions")
-EXPLORED = sorted(GRIDS, key=lambda study: GRIDS[study].quantity not in PLANES)
-EXPLORER = json.dumps(
-    {
-        "title": STUDY.title or STUDY.name,
-        "studies": [
-            {
-                "name": study,
-                "data": grid_file(study),
-                "motions": next(iter(motions_of(study)), ""),
-                "stated": stated_of(GRIDS[study]),
-            }
-            for study in EXPLORED
-        ],
-    }
+EXPLORED = sorted(
+    GRIDS, key=lambda study: GRIDS[study].quantity not in ("outcome", "regions")
 )
+MOTIONS = {name: GRIDS[name].grid.motions for name in GRIDS}
+motion_files = {
+    name: [f"results/{name}/motions/{key}.nc" for key in jobs]
+    for name, jobs in MOTIONS.items()
+}
 
 
 rule explorer:
     input:
-        page_file,
+        f"{RESULTS}/explorer.html",
 
 
 rule compute_motions:
-    # Short histories at a few points of a study's grid. As with batches, the file's name is the hash of all that
-    # decides its content.
     output:
-        motion_file("{study}", "{key}"),
+        "results/{study}/motions/{part}.nc",
     log:
-        "results/{study}/logs/compute_motions/{key}.log",
+        "results/{study}/logs/compute_motions/{part}.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        batch=lambda wildcards: GRIDS[wildcards.study].motions[wildcards.key],
-        code=lambda wildcards: code_of(
-            "compute_motions",
-            *BATCHES,
-            "studies/motions.py",
-            own_file(wildcards.study),
-        ),
+        points=lambda w: MOTIONS[w.study][w.part],
     shell:
-        "job compute_motions {output} <<< {params.batch:q} > {log} 2>&1"
+        "job jobs motions {output} <<< {params.points:q} > {log} 2>&1"
 
 
 rule build_explorer:
     input:
         studies=[grid_file(study) for study in EXPLORED],
-        motions=chain.from_iterable(map(motions_of, EXPLORED)),
+        motions=sum([motion_files[study] for study in EXPLORED], []),
     output:
         f"{RESULTS}/explorer.html",
     log:
@@ -57,7 +40,21 @@ rule build_explorer:
     conda:
         "../envs/disc_model.yaml"
     params:
-        plan=lambda wildcards: EXPLORER,  # a function: braces in a title are no wildcards
-        code=code_of("build_explorer", "explorer", "figures", "data"),
+        # a function: braces in a title are no wildcards
+        plan=lambda w: json.dumps(
+            {
+                "title": STUDY.title or STUDY.study,
+                "code": figures_hash(),
+                "studies": [
+                    {
+                        "name": study,
+                        "data": grid_file(study),
+                        "motions": "".join(motion_files[study]),
+                        "stated": GRIDS[study].page,
+                    }
+                    for study in EXPLORED
+                ],
+            }
+        ),
     shell:
-        "job build_explorer {output} <<< {params.plan:q} > {log} 2>&1"
+        "job jobs explorer {output} <<< {params.plan:q} > {log} 2>&1"

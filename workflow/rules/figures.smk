@@ -1,9 +1,35 @@
 # One job per figure, from the files of its cases or grids: a change of another case does not draw it again.
 
 
+def figure_of(wildcards):
+    return FIGURES[wildcards.study, wildcards.figure]
+
+
+def files_of(wildcards):
+    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
+    figure = figure_of(wildcards)
+    file = grid_file if isinstance(figure.plot, Plot) else case_file
+    return {role: file(name) for role, name in figure.inputs.items()}
+
+
+def plan_of(wildcards):
+    """What a job needs to draw a figure, in JSON, which is ASCII: commands can hold it in any locale."""
+    figure = figure_of(wildcards)
+    part = figure.plot.kind.rpartition(".")[0]
+    own = sorted((WORKFLOW / part).glob("figures*.py")) if part else []
+    plan = {
+        "plot": figure.plot.model_dump(mode="json"),
+        "files": files_of(wildcards),
+        "titles": dict(figure.titles),
+        "caption": figure.caption,
+        "code": figures_hash() + "".join(content_key(file.read_text()) for file in own),
+    }
+    return json.dumps(plan)
+
+
 rule draw_figure:
     input:
-        lambda w: need([*files_of(w).values()]),
+        lambda w: [*files_of(w).values()],
     output:
         pdf="results/{study}/figures/{figure}.pdf",
         png=report(
@@ -18,18 +44,18 @@ rule draw_figure:
     log:
         "results/{study}/logs/draw_figure/{figure}.log",
     wildcard_constraints:
-        study="|".join(sorted({*GRIDS, STUDY.name})),
+        study="|".join(sorted({*GRIDS, STUDY.study})),
         figure="|".join(sorted({name for _, name in FIGURES})) or "none",
     priority: 2  # shown as soon as their data are there
     conda:
         "../envs/disc_model.yaml"
     params:
-        # JSON is ASCII: commands can hold it in any locale. The caption itself is for the report.
-        plot=lambda w: json.dumps(figure_of(w).plot.model_dump(mode="json")),
-        titles=lambda w: json.dumps(dict(figure_of(w).titles)),
-        title=lambda w: json.dumps(figure_of(w).caption),
-        caption=lambda w: figure_of(w).caption,
-        code=lambda w: code_of("draw_figure", *drawing_of(w)),
-        files=lambda w: [f"{name}={file}" for name, file in files_of(w).items()],
+        plan=plan_of,
+        caption=lambda w: figure_of(w).caption,  # for the report
     shell:
-        "job draw_figure {params.plot:q} {params.titles:q} {params.title:q} {output} {params.files:q} > {log} 2>&1"
+        "job jobs figure {output} <<< {params.plan:q} > {log} 2>&1"
+
+
+for study, figure in FIGURES:
+    if study in (STUDY.study, *ASKED):
+        PRODUCTS += collect(rules.draw_figure.output, study=study, figure=figure)

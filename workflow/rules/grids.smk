@@ -1,39 +1,52 @@
-# Grid studies: batches of points, one dataset for each study, and its figures. Batches are defined in
-# disc_model.studies.grid. The name of a batch's file is the hash of its text, so that a value that is removed and
-# restored needs no new job.
+# Grid studies: their points in parts, named after their content, and one dataset for each study. A grid of one part is
+# computed where it is merged.
+part_file = "results/{}/batches/{}.nc".format
+grid_file = "results/{0}/{0}.nc".format
+JOBS = {name: study.grid.jobs for name, study in GRIDS.items()}
 
 
-rule compute_batch:
+rule compute_part:
+    # Takes points that other parts of the same content have: a further value on an axis computes its own points.
     output:
-        batch_file("{study}", "{batch}"),
+        part_file("{study}", "{part}"),
     log:
-        "results/{study}/logs/compute_batch/{batch}.log",
+        "results/{study}/logs/compute_part/{part}.log",
     conda:
         "../envs/disc_model.yaml"
     resources:
         runtime=30,
     params:
-        batch=lambda w: GRIDS[w.study].batches[w.batch],
-        code=lambda w: code_of("compute_batch", *BATCHES, own_file(w.study)),
+        points=lambda w: JOBS[w.study][w.part],
     shell:
-        "job compute_batch {output} <<< {params.batch:q} > {log} 2>&1"
+        "job jobs part {output} <<< {params.points:q} > {log} 2>&1"
 
 
-rule merge_batches:
+rule merge_grid:
     input:
-        lambda w: need([batch_file(w.study, x) for x in GRIDS[w.study].batches]),
+        lambda w: [
+            part_file(w.study, part)
+            for part in JOBS[w.study]
+            if len(JOBS[w.study]) > 1
+        ],
     output:
-        nc="results/{study}/{study}.nc",
+        nc=grid_file("{study}"),
         failed="results/{study}/{study}.failed.txt",
         remarks="results/{study}/{study}.remarks.txt",
     log:
-        "results/{study}/logs/merge_batches.log",
+        "results/{study}/logs/merge_grid.log",
     conda:
         "../envs/disc_model.yaml"
     params:
-        plan=lambda w: GRIDS[w.study].merge_plan.text,
-        code=lambda w: code_of("merge_batches", *MERGING, own_file(w.study)),
-        folder=lambda w, input: Path(input[0]).parent,
+        folder=lambda w: f"results/{w.study}/batches",
+        plan=lambda w: json.dumps(
+            {
+                "layout": GRIDS[w.study].grid.layout,
+                "jobs": JOBS[w.study],
+                "attrs": GRIDS[w.study].attrs,
+            }
+        ),
     shell:
-        "job merge_batches {output.nc} {output.failed} {output.remarks} {params.folder}"
-        " <<< {params.plan:q} > {log} 2>&1"
+        "job jobs grid {output} {params.folder} <<< {params.plan:q} > {log} 2>&1"
+
+
+PRODUCTS += collect(rules.merge_grid.output, study=ASKED)

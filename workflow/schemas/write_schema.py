@@ -8,7 +8,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import GenerateJsonSchema, NoDefault, models_json_schema
 
 from disc_model.figures.kinds import KINDS
-from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.quantity import HOMES, quantity_of
 from disc_model.studies.study import Study
 
 
@@ -41,7 +41,7 @@ class _Plain(GenerateJsonSchema):
 def schema_text() -> str:
     """The JSON Schema of study files, as shipped; it describes the values of each key, but no rules
     between keys."""
-    options = {name: quantity_of(name) for name in quantity_names()}
+    options = {name: quantity_of(name).options for name in HOMES}
     models: tuple[type[BaseModel], ...] = (Study, *options.values(), *KINDS.values())
     refs, content = models_json_schema(
         [(model, "validation") for model in models], schema_generator=_Plain

@@ -175,8 +175,8 @@ OF_QUANTITIES = {
     quantity: {name: _variables(part) for name, part in parts.items()}
     for quantity, parts in _TABLES["quantities"].items()
 }
-"""Variables of quantities, by quantity, and by what they are there: its "columns", "coordinates", its "summary",
-and those that are "added" to the results for one case."""
+"""Variables of quantities, by quantity, and by what they are there: its "columns", "coordinates", and those that
+are "added" to its columns."""
 COMMON = _variables(_TABLES["common"])
 """Variables of several quantities and of sweeps."""
 GROUPS = ("events", "final_state", "initial_state")  # groups in the file of a run, beside windows

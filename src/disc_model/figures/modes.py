@@ -34,7 +34,7 @@ LINEAR_GROWTH = 0.5  # growth rate up to which the axis of modes is linear at le
 Frequency = Annotated[Positive | None, Unit("Hz")]
 
 
-@grid_figure("sliding")
+@grid_figure("sliding_modes")
 def sliding_modes(study: xr.Dataset, highest: Frequency = None) -> Figure:
     """Frequencies and growth rates of the modes of steady sliding along a parameter.
 
@@ -118,7 +118,7 @@ PROMINENT = 0.2  # least fall from a peak on both sides, of asinh(10 growth rate
 JOINED = 0.75  # greatest step of asinh(10 growth rate) along one cycle
 
 
-@grid_figure("campbell", needs=["Omega"])
+@grid_figure("campbell")
 def campbell(
     study: xr.Dataset, highest: Frequency = None, multiples: tuple[Positive, ...] = ()
 ) -> Figure:

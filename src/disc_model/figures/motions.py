@@ -55,7 +55,7 @@ def bifurcation(
     study: xr.Dataset,
     x: str,
     paper_cases: Named = NOTHING,
-    lyapunov: Annotated[xr.Dataset | None, Role("lyapunov")] = None,
+    lyapunov: Annotated[xr.Dataset | None, Role("lyapunov_exponents")] = None,
 ) -> Figure:
     """Samples of motions over a parameter, their classes and periods, and exponents.
 

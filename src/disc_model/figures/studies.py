@@ -51,7 +51,7 @@ from disc_model.figures.shown import label, placed, value_text
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Strict
 
-Curves = Annotated[xr.Dataset | None, Role("stability_curves")]
+Curves = Annotated[xr.Dataset | None, Role("neutral_curves")]
 BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
 """What curves are, and their lines."""
 NOTHING: dict[str, Any] = {}
@@ -296,7 +296,7 @@ def sliding_outcome(
     study: xr.Dataset,
     x: str,
     y: str,
-    sliding: Annotated[xr.Dataset, Role("sliding", required=True)],
+    sliding: Annotated[xr.Dataset, Role("sliding_modes", required=True)],
     by: str = NORM,
 ) -> Figure:
     """What linear analysis of steady sliding says, and what the motion does, over two parameters; the

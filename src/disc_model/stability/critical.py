@@ -80,7 +80,7 @@ def critical(
     Examples
     --------
     >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6)
+    >>> case = dm.Parameters(N=385, Omega=12)
     >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
     Critical(mu_s, stick_slip: already unstable at the lower bound, mu_s = 0.3, 1 crossing, ... values, steps ...)
 

@@ -129,7 +129,7 @@ class Critical(EqualByValue):
         Examples
         --------
         >>> import disc_model as dm
-        >>> found = dm.critical(dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
+        >>> found = dm.critical(dm.Parameters(N=385, Omega=12), "mu_s", (0.3, 0.42), points=7)
         >>> dm.save(found, "critical.nc")
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)

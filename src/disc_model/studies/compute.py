@@ -59,8 +59,9 @@ class Call:
             if name in PERTURBATIONS:
                 kicked = name.removeprefix("perturbation_")
                 start: Start = options["start"]
-                whole = start.perturbation.get(kicked, 0.0) + value
-                options["start"] = start.replace(perturbation={**start.perturbation, kicked: whole})
+                kicks: dict[Any, float] = dict(start.perturbation)
+                kicks[kicked] = kicks.get(kicked, 0.0) + value
+                options["start"] = start.replace(perturbation=kicks)
             elif not is_of_case(name):
                 options[name] = value
         return options
@@ -132,7 +133,9 @@ def stack(
         if dtype is object:
             array = array.astype(str)
         truth = present[0].dtype.kind == "b" and array.dtype.kind == "f"
-        variables[name] = xr.Variable((*sizes, *present[0].dims), array, attrs | (TRUTH if truth else {}))
+        variables[name] = xr.Variable(
+            (*sizes, *present[0].dims), array, attrs | (TRUTH if truth else {})
+        )
     return xr.Dataset(variables, coords)
 
 
@@ -160,10 +163,11 @@ def _common_coordinates(
     rows = []
     for result in results:
         row = {}
-        for name, variable in result.variables.items():
-            if str(name) not in coords or str(name) in differing:
+        for key, variable in result.variables.items():
+            name = str(key)
+            if name not in coords or name in differing:
                 dims = [differing.get(str(dim), str(dim)) for dim in variable.dims]
-                row[str(name)] = xr.Variable(dims, variable.values, variable.attrs)
+                row[name] = xr.Variable(dims, variable.values, variable.attrs)
         rows.append(row)
     return {name: own for name, own in coords.items() if name not in differing}, rows
 
@@ -193,7 +197,7 @@ def _common_attributes(several: Sequence[xr.Variable]) -> dict[str, Any]:
     common = dict(several[0].attrs)
     for each in several[1:]:
         for name in [*common]:
-            if not np.array_equal(each.attrs.get(name), common[name]):
+            if name not in each.attrs or not np.array_equal(each.attrs[name], common[name]):
                 del common[name]
     return common
 

@@ -13,17 +13,24 @@ from typing import Annotated, Any
 
 import numpy as np
 import pandas as pd
-from pydantic import BeforeValidator, Field, TypeAdapter, ValidationError, WithJsonSchema, create_model
+from pydantic import (
+    BeforeValidator,
+    Field,
+    TypeAdapter,
+    ValidationError,
+    WithJsonSchema,
+    create_model,
+)
 
 from disc_model.data.variables import CHOICES, PERTURBATIONS, attributes
 from disc_model.errors import Fault, ParameterError, raise_faults, suggestion
-from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import NUMBER_OR_WORD, PLATE, Disc, Parameters
-from disc_model.provenance import physics_hash
+from disc_model.provenance import canonical_json, content_key, physics_hash
 from disc_model.studies.quantity import Quantity, Range
 from disc_model.units import UNITS, Finite, Strict, in_si
 
 REQUIRED = ("N", "Omega")  # parameters without a base value
+ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 MOST_POINTS = 1_000_000  # Snakemake takes hours over so many jobs
 VARIED = (*Parameters.model_fields, *PERTURBATIONS)  # what a grid may vary, in this order
 WORDS = (*CHOICES, "disc")  # what varies by words
@@ -36,14 +43,17 @@ def _parts(given: Any) -> Any:
     """An axis as a list of values and ranges."""
     parts = [given] if isinstance(given, Mapping) else given
     if not isinstance(parts, list | tuple) or not parts:
-        raise ValueError("must be a list of values and ranges, or a range {start, stop, count or step}")
+        raise ValueError(
+            "must be a list of values and ranges, or a range {start, stop, count or step}"
+        )
     return parts
 
 
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
 """A value as given in the file; its parameter determines its meaning."""
 Axis = Annotated[
-    list[Range | NumberOrUnit], BeforeValidator(_parts, json_schema_input_type=list[Range | NumberOrUnit] | Range)
+    list[Range | NumberOrUnit],
+    BeforeValidator(_parts, json_schema_input_type=list[Range | NumberOrUnit] | Range),
 ]
 """Values along an axis: a list, which may mix values and ranges, or a range."""
 
@@ -73,13 +83,18 @@ def _adapter(name: str) -> TypeAdapter[Any]:
     if name in PERTURBATIONS:
         return TypeAdapter(Finite)
     info = Parameters.model_fields[name]
-    return TypeAdapter(Annotated[info.annotation, info])
+    kind: Any = Annotated[info.annotation, info]
+    return TypeAdapter(kind)
 
 
 def checked_value(name: str, value: Any) -> Any:
     """A value of a parameter in SI units, by itself; raises `ParameterError`."""
     faults: list[Fault] = []
-    plain = in_si(value, UNITS.get(name, "1"), faults, ()) if isinstance(value, str) and name not in WORDS else value
+    plain = (
+        in_si(value, UNITS.get(name, "1"), faults, ())
+        if isinstance(value, str) and name not in WORDS
+        else value
+    )
     raise_faults(faults)
     try:
         return _adapter(name).validate_python(plain)
@@ -95,7 +110,9 @@ def values_along(name: str, axis: Iterable[Any], discs: Mapping[str, Any]) -> li
         values += part.values if isinstance(part, Range) else [part]
     if name == "disc":
         wrong = [value for value in values if value not in discs]
-        raise_faults([Fault.of((), each, f"no such disc{suggestion(each, [*discs])}") for each in wrong])
+        raise_faults(
+            [Fault.of((), each, f"no such disc{suggestion(each, [*discs])}") for each in wrong]
+        )
         return values
     checked = [checked_value(name, value) for value in values]
     if name in NUMBER_OR_WORD and any(isinstance(value, str) for value in checked):
@@ -104,7 +121,9 @@ def values_along(name: str, axis: Iterable[Any], discs: Mapping[str, Any]) -> li
 
 
 def expand(
-    dims: Mapping[str, pd.DataFrame], rules: Sequence[str] = (), beside: Mapping[str, Any] | None = None
+    dims: Mapping[str, pd.DataFrame],
+    rules: Sequence[str] = (),
+    beside: Mapping[str, Any] | None = None,
 ) -> pd.DataFrame:
     """All points of a grid, a row each; their places along its dimensions are the index.
 
@@ -122,10 +141,17 @@ def expand(
     for rule in rules:
         constant = {name: x for name, x in (beside or {}).items() if name not in points}
         try:
-            points = points[points.assign(**constant).eval(rule).to_numpy(bool)]
+            points = points[points.assign(**constant).eval(rule).to_numpy(bool)]  # type: ignore[union-attr]
         except Exception as error:  # whatever pandas makes of a text
-            raise ParameterError(Fault.of(("where",), rule, f"must compare values of points: {error}")) from None
+            raise ParameterError(
+                Fault.of(("where",), rule, f"must compare values of points: {error}")
+            ) from None
     return points
+
+
+def records(points: pd.DataFrame) -> list[dict[str, Any]]:
+    """The rows of a table of points, each by name."""
+    return [{str(name): x for name, x in row.items()} for row in points.to_dict("records")]
 
 
 # ---- Grids
@@ -165,7 +191,8 @@ class Grid:
     def jobs(self) -> dict[str, str]:
         """What each job computes, as JSON, by the name of its file: a hash of what all have in common,
         and one of their own points."""
-        common = {"code": physics_hash(), **self.layout, "axes": {}}
+        codes = {name: column.flags for name, column in self.quantity.columns.items()}
+        common = {"code": physics_hash(), "codes": codes, **self.layout, "axes": {}}
         for dim in self.plane:
             common["axes"][dim] = self.dims[dim][dim].tolist()
         common.pop("dims")
@@ -178,10 +205,26 @@ class Grid:
         return jobs
 
     @property
+    def motions(self) -> dict[str, str]:
+        """The job of the points whose motions are stored, by the name of its file: all of a small grid, few
+        of a large one; none for some quantities."""
+        if self.quantity.motion is None:
+            return {}
+        few = dict(self.dims)
+        if len(self.points) > ALL_MOTIONS:
+            few = {
+                dim: _thinned(frame, self.quantity.motion.number)
+                for dim, frame in self.dims.items()
+            }
+        points = records(expand(few, self.rules, self.fixed))
+        text = canonical_json({"code": physics_hash(), **self.layout, "points": points})
+        return {content_key(text): text} if points else {}
+
+    @property
     def rows(self) -> list[dict[str, Any]]:
         """What varies at each point, by name, but along the plane."""
         others = self.points.drop(columns=[*self.plane]).drop_duplicates()
-        return others.to_dict("records") if len(others.columns) else [{}]
+        return records(others) if len(others.columns) else [{}]
 
     @property
     def layout(self) -> dict[str, Any]:
@@ -203,18 +246,28 @@ class Grid:
             without.add("D_star")
         if "disc" in self.names or self.case.disc is not None:
             without.update((*PLATE, "damping_ratio"))
-        values = {name: x for name, x in self.case.model_dump().items() if name not in without}
-        return values
+        return {name: x for name, x in self.case.model_dump().items() if name not in without}
 
 
-def dimensions(
-    axes: Any, zips: Sequence[Any], discs: Mapping[str, Any]
-) -> dict[str, pd.DataFrame]:
+def _thinned(frame: pd.DataFrame, most: int) -> pd.DataFrame:
+    """At most so many values of a dimension, evenly spaced by place and including both ends; words are all
+    kept."""
+    if len(frame) <= most or any(isinstance(value, str) for value in frame.iloc[0]):
+        return frame
+    return frame.iloc[np.round(np.linspace(0, len(frame) - 1, most)).astype(int)].reset_index(
+        drop=True
+    )
+
+
+def dimensions(axes: Any, zips: Sequence[Any], discs: Mapping[str, Any]) -> dict[str, pd.DataFrame]:
     """The columns of each dimension by its name: an axis, or a zip, along which several parameters vary
     together; raises `ParameterError`."""
     faults: list[Fault] = []
     dims: dict[str, pd.DataFrame] = {}
-    for path, group in ((("axes",), axes), *((("zip", str(i)), each) for i, each in enumerate(zips))):
+    for path, group in (
+        (("axes",), axes),
+        *((("zip", str(i)), each) for i, each in enumerate(zips)),
+    ):
         columns: dict[str, list[Any]] = {}
         for name in sorted(group.model_fields_set, key=VARIED.index):
             try:
@@ -222,7 +275,9 @@ def dimensions(
             except ParameterError as error:
                 faults += [Fault((*path, name), each.value, each.rule) for each in error.faults]
         if path == ("axes",):
-            dims |= {name: pd.DataFrame({name: sorted(set(values))}) for name, values in columns.items()}
+            dims |= {
+                name: pd.DataFrame({name: sorted(set(values))}) for name, values in columns.items()
+            }
         elif len({*map(len, columns.values())}) > 1:
             lengths = ", ".join(f"{name}: {len(values)}" for name, values in columns.items())
             faults.append(Fault(path, "", f"must have columns of equal length, not {lengths}"))
@@ -233,7 +288,7 @@ def dimensions(
     return dict(sorted(dims.items(), key=lambda dim: VARIED.index(dim[1].columns[0])))
 
 
-def grid_of(  # noqa: PLR0913
+def grid_of(
     quantity: Quantity,
     options: Any,
     base: Mapping[str, Any],
@@ -248,7 +303,9 @@ def grid_of(  # noqa: PLR0913
     raise_faults([*_wrong_names(quantity, own, base, names), *_wrong_starts(options, names)])
     number = math.prod(map(len, dims.values()))
     if number > MOST_POINTS:
-        raise_faults([Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {number}")])
+        raise_faults(
+            [Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {number}")]
+        )
     points = expand(dims, rules, {**dict(Parameters(N=0, Omega=0)), **base})
     if points.empty:
         raise_faults([Fault(("where",), "", "leaves no point")])
@@ -258,39 +315,57 @@ def grid_of(  # noqa: PLR0913
         if len(plane) != 2 or rules:
             rule = f"must be two numbers, and no rule: {quantity.name} takes whole planes"
             raise_faults([Fault(("axes",), "", rule)])
-    used = points["disc"].unique() if "disc" in points else []
+    used: Iterable[Any] = points["disc"].unique() if "disc" in points else []
     known = {str(name): discs[name] for name in used}
     case = _first_case(points, {**dict.fromkeys({*own} & {*REQUIRED}, 0.0), **base}, known)
     return Grid(
-        quantity, options, case, dims, points, known, plane, size or quantity.points_per_job, tuple(rules)
+        quantity,
+        options,
+        case,
+        dims,
+        points,
+        known,
+        plane,
+        size or quantity.points_per_job,
+        tuple(rules),
     )
 
 
-def _first_case(points: pd.DataFrame, base: Mapping[str, Any], discs: Mapping[str, Disc]) -> Parameters:
+def _first_case(
+    points: pd.DataFrame, base: Mapping[str, Any], discs: Mapping[str, Disc]
+) -> Parameters:
     """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
     first point, if none is."""
     faults: list[Fault] = []
-    for point in points.to_dict("records"):
-        values = {name: value for name, value in {**base, **point}.items() if name in Parameters.model_fields}
+    for point in records(points):
+        given = {**base, **point}
+        values: dict[str, Any] = {
+            name: x for name, x in given.items() if name in Parameters.model_fields
+        }
         if isinstance(values.get("disc"), str):
             values["disc"] = discs[values["disc"]]
         try:
             return Parameters(**values)
         except ParameterError as error:
             faults = faults or [
-                each.inside(("axes",) if each.path[0] in points else ("base",)) for each in error.faults
+                each.inside(("axes",) if each.path[0] in points else ("base",))
+                for each in error.faults
             ]
     raise ParameterError(*faults)
 
 
 def _wrong_names(
-    quantity: Quantity, own: Sequence[str], base: Mapping[str, Any], names: Sequence[str]
+    quantity: Quantity, own: Sequence[str], base: Mapping[str, Any], names: Sequence[Any]
 ) -> Iterator[Fault]:
     """Each parameter must be given once: along an axis, in base, or by the quantity."""
     if not names:
         yield Fault(("axes",), "", "is required: at least one axis or zip")
     for name in VARIED:
-        places = {"axes": name in names, "base": name in base, f"quantity {quantity.name}": name in own}
+        places = {
+            "axes": name in names,
+            "base": name in base,
+            f"quantity {quantity.name}": name in own,
+        }
         given = [place for place, holds in places.items() if holds]
         if len(given) > 1 or names.count(name) > 1:
             rule = f"is given by {given[-1]} {name} as well, and must be given once"
@@ -301,7 +376,7 @@ def _wrong_names(
             yield Fault(("axes", name), "", "must be left out where a disc is given")
 
 
-def _wrong_starts(options: Any, names: Sequence[str]) -> Iterator[Fault]:
+def _wrong_starts(options: Any, names: Sequence[Any]) -> Iterator[Fault]:
     """Only some quantities take another start, which must be given in one place only."""
     for name in names:
         if name not in PERTURBATIONS:

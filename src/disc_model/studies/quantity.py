@@ -13,7 +13,18 @@ from dataclasses import dataclass
 from functools import wraps
 from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Concatenate, Literal, NamedTuple, ParamSpec, Self, get_type_hints
+from typing import (
+    TYPE_CHECKING,
+    Annotated,
+    Any,
+    ClassVar,
+    Concatenate,
+    Literal,
+    NamedTuple,
+    ParamSpec,
+    Self,
+    get_type_hints,
+)
 
 import numpy as np
 import xarray as xr
@@ -41,14 +52,20 @@ MOST = 100_000
 FREE_NUMBERS = re.compile(
     "|".join(
         [
-            *(name for name in Parameters.model_fields if Parameters.unit(name) and not name.startswith("n_")),
+            *(
+                name
+                for name in Parameters.model_fields
+                if Parameters.unit(name) and not name.startswith("n_")
+            ),
             r"(omega|amplitude|damping_ratio|tangential)_\d+_\d+",
         ]
     )
 )
 Free = Annotated[
     str,
-    AfterValidator(must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")),
+    AfterValidator(
+        must(lambda name: bool(FREE_NUMBERS.fullmatch(name)), "must be a number of the case")
+    ),
 ]
 """A number along which a function goes: a parameter, or one of a disc's modes."""
 
@@ -119,6 +136,17 @@ def values_between(bounds: tuple[float, float], step: float) -> list[float]:
     return Range(start=bounds[0], stop=bounds[1], step=step).values
 
 
+BETWEEN: Rules = (
+    (lambda o: o.bounds[0] < o.bounds[1], "bounds={0.bounds} must ascend"),
+    (lambda o: o.bounds[1] - o.bounds[0] < (MOST - 0.5) * o.step, f"must be at most {MOST} values"),
+    (
+        lambda o: math.isclose(x := (o.bounds[1] - o.bounds[0]) / o.step, round(x)),
+        "highest - lowest of bounds={0.bounds} must be a multiple of step={0.step:g}",
+    ),
+)
+"""Rules of the options `bounds` and `step`."""
+
+
 def _listed(given: Any) -> Any:
     """A list of values, in which ranges are replaced by theirs."""
     parts = [given] if isinstance(given, Mapping) else given
@@ -170,7 +198,7 @@ class Motion(NamedTuple):
     """Motions that the explorer stores: of so many values of each axis, what they are, by the class of
     their point, and the state at which they begin, of a case and options."""
 
-    count: int
+    number: int
     text: str
     by: Mapping[str, str]
     state: Callable[..., State]
@@ -245,7 +273,10 @@ def quantity(
     rules: Rules = (),
     plane: bool = False,
     motion: Motion | None = None,
-) -> Callable[[Callable[Concatenate[Parameters, P], xr.Dataset]], Callable[Concatenate[Parameters, P], xr.Dataset]]:
+) -> Callable[
+    [Callable[Concatenate[Parameters, P], xr.Dataset]],
+    Callable[Concatenate[Parameters, P], xr.Dataset],
+]:
     """Mark a function of a case as a quantity: its keywords become options of study files, and calls of it
     check them, by their types and by the rules between them.
 
@@ -257,17 +288,30 @@ def quantity(
     ) -> Callable[Concatenate[Parameters, P], xr.Dataset]:
         name = function.__name__
         options = options_of(function, rules)
-        QUANTITIES[name] = Quantity(name, function, options, points_per_job, tuple(own), plane, motion)
+        _, *parameters = inspect.signature(function).parameters.values()
+        named = [x.name for x in parameters]
+        defaults = {x.name: x.default for x in parameters if x.default is not x.empty}
+        QUANTITIES[name] = Quantity(
+            name, function, options, points_per_job, tuple(own), plane, motion
+        )
 
         @wraps(function)
         def checked(case: Parameters, *args: P.args, **given: P.kwargs) -> xr.Dataset:
             raise_faults(foreign_case(case))
-            by_place = zip(options.model_fields, args, strict=False)
-            values = dict(options.model_validate({**dict(by_place), **given}))
-            found = function(case, **values)  # type: ignore[call-arg]
-            message = str(found["message"].values) if found["message"].ndim == 0 else ""
-            found = found.drop_vars("message").assign_attrs(parameters=case.canonical_json, message=message)
-            return words(described(found, name, values))
+            asked = {**defaults, **dict(zip(named, args, strict=False)), **given}
+            beside = {"axes": asked.pop("axes")} if plane else {}
+            chosen = options.model_validate(asked)
+            found = function(case, **beside, **dict(chosen))  # type: ignore[call-arg]
+            if found["message"].ndim == 0:
+                found = found.assign_attrs(message=str(found["message"].values)).drop_vars(
+                    "message"
+                )
+            single = [dim for dim in found.dims if dim in asked and np.ndim(asked[str(dim)]) == 0]
+            found = found.squeeze(single, drop=True)
+            found = found.assign_attrs(
+                parameters=case.canonical_json, options=chosen.model_dump_json()
+            )
+            return words(described(found, name, dict(chosen)))
 
         return checked
 
@@ -296,7 +340,9 @@ def failed(name: str, error: Exception) -> xr.Dataset:
     return found(name, {"status": "failed"}, f"{type(error).__name__}: {error}")
 
 
-def found(name: str, values: Row, message: str = "", **own: Iterable[Any]) -> xr.Dataset:
+def found(
+    name: str, values: Row, message: str | Sequence[str] = "", **own: Iterable[Any]
+) -> xr.Dataset:
     """A dataset of what a quantity has found at a point.
 
     Parameters
@@ -304,7 +350,7 @@ def found(name: str, values: Row, message: str = "", **own: Iterable[Any]) -> xr
     name : of the quantity, whose variables the table has
     values : numbers, words, arrays, or lists of these along the first own dimension, by variable; those that
         are not given, and the ends of too short lists, are missing
-    message : what there is to say; that something was cut is added
+    message : what there is to say; that something was cut is added. Several are along the first own dimension
     own : values along the dimensions of its own; without them, only variables without dimensions are returned
     """
     coords = {dim: xr.Variable(dim, np.array([*along])) for dim, along in own.items()}
@@ -317,11 +363,23 @@ def found(name: str, values: Row, message: str = "", **own: Iterable[Any]) -> xr
         value = values.get(key)
         _store(value, array[...], column)
         variables[key] = xr.Variable(column.dims, array, column.codes)
-        if isinstance(value, list) and len(value) > len(array):
-            room = f"which has room for {len(array)}"
-            cuts[column.dims[0]] = f"{len(value)} were found along {column.dims[0]}, {room}"
-    text = "; ".join(filter(None, [message.removesuffix(".") if cuts else message, *cuts.values()]))
-    return xr.Dataset({**variables, "message": ((), text)}, coords)
+        for dim, length in zip(column.dims, _shape(value), strict=False):
+            if length > coords[dim].size:
+                room = f"which has room for {coords[dim].size}"
+                cuts[dim] = f"{length} were found along {dim}, {room}"
+    texts = []
+    for text in [message] if isinstance(message, str) else message:
+        texts.append("; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()])))
+    said = ((), texts[0]) if isinstance(message, str) else ([*coords][0], texts)
+    return xr.Dataset({**variables, "message": said}, coords)
+
+
+def _shape(value: Any) -> tuple[int, ...]:
+    """The shape of an array, or of a list of arrays or lists with the longest of them."""
+    if not isinstance(value, list):
+        return np.shape(value)
+    inside = [shape for shape in map(_shape, value) if shape]
+    return (len(value), *map(max, zip(*inside, strict=False)))
 
 
 def _store(value: Any, cell: np.ndarray, column: Variable) -> None:

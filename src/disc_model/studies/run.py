@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
@@ -16,15 +17,18 @@ from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribu
 from disc_model.data.described import described
 from disc_model.data.variables import CHOICES, EXCLUDED, attributes, unit_of_parameter
 from disc_model.errors import require
-from disc_model.hashing import canonical_json
 from disc_model.parameters import Disc, Parameters
-from disc_model.provenance import git_commit, physics_hash, versions_text
+from disc_model.provenance import canonical_json, git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
 from disc_model.studies.compute import Call, compute, stack
-from disc_model.studies.grid import REQUIRED, VARIED, WORDS, Grid
+from disc_model.studies.grid import REQUIRED, VARIED, WORDS
 from disc_model.studies.quantity import quantity_of
 
+if TYPE_CHECKING:
+    from disc_model.studies.study import Study
+
 POINT = "point"
+log = logging.getLogger(__name__)
 Layout = Mapping[str, Any]
 
 
@@ -40,6 +44,14 @@ def call_of(layout: Layout) -> Call:
     discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
     base = {name: x for name, x in layout["base"].items() if x is not None}
     return Call(quantity.function, partial(_case, base), options, discs)
+
+
+def points_of(layout: Layout) -> list[dict[str, Any]]:
+    """What varies at the points of a job."""
+    points = []
+    for point in layout["points"]:
+        points.append({name: x if name in WORDS else _number(x) for name, x in point.items()})
+    return points
 
 
 def _case(base: Mapping[str, Any], **changes: Any) -> Parameters:
@@ -62,18 +74,19 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     known : results of other jobs on the same quantity, options and base, from which points are taken
     """
     layout = json.loads(job)
-    points = []
-    for point in layout["points"]:
-        points.append({name: x if name in WORDS else _number(x) for name, x in point.items()})
+    points = points_of(layout)
     there = {canonical_json(point): row for part in known for point, row in _points_of(part)}
     missing = [point for point in points if canonical_json(point) not in there]
     for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
         there[canonical_json(point)] = row
+    log.info("%d of %d points computed", len(missing), len(points))
     rows = [there[canonical_json(point)] for point in points]
     return _along_points(layout, points, rows)
 
 
-def _along_points(layout: Layout, points: Sequence[Mapping[str, Any]], rows: Sequence[xr.Dataset]) -> xr.Dataset:
+def _along_points(
+    layout: Layout, points: Sequence[Mapping[str, Any]], rows: Sequence[xr.Dataset]
+) -> xr.Dataset:
     """Results in one dataset, with what varies as coordinates along `point`."""
     places = np.arange(len(rows))[:, np.newaxis]
     results = stack(rows, places, {POINT: len(rows)}, quantity_of(layout["quantity"]).columns)
@@ -111,21 +124,31 @@ def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str])
     given = pairs[0][0].keys()
     dims = {}
     for dim, columns in layout["dims"].items():
-        values = [[x if name in WORDS else _number(x) for x in column] for name, column in columns.items()]
+        values = [
+            [x if name in WORDS else _number(x) for x in column] for name, column in columns.items()
+        ]
         dims[dim] = [*zip(*values, strict=True)]
     numbered = {dim: [*layout["dims"][dim]] for dim in dims if {*layout["dims"][dim]} <= given}
     places = []
     for point, _ in pairs:
-        places.append([dims[dim].index(tuple(point[x] for x in names)) for dim, names in numbered.items()])
+        places.append(
+            [dims[dim].index(tuple(point[x] for x in names)) for dim, names in numbered.items()]
+        )
     sizes = {dim: len(dims[dim]) for dim in numbered}
-    found = stack([row for _, row in pairs], np.array(places).reshape(len(pairs), -1), sizes, quantity.columns)
+    found = stack(
+        [row for _, row in pairs], np.array(places).reshape(len(pairs), -1), sizes, quantity.columns
+    )
 
     coords = {}
     for dim, columns in layout["dims"].items():
         for i, name in enumerate(columns):
-            coords[name] = (dim, np.array([value[i] for value in dims[dim]]), coordinate_attributes(name))
+            coords[name] = (
+                dim,
+                np.array([value[i] for value in dims[dim]]),
+                coordinate_attributes(name),
+            )
     study = found.assign_coords(coords)
-    first = {dim: [*columns][0] for dim, columns in layout["dims"].items()}
+    first = {dim: next(iter(columns)) for dim, columns in layout["dims"].items()}
     ranked = sorted(study.dims, key=lambda dim: _rank(first.get(str(dim), str(dim))))
     options = layout["options"]
     every = {
@@ -237,7 +260,7 @@ def run_study(
     grids, names = study.all_grids([folder])
     datasets: dict[str, Any] = {}
     for name in names:
-        datasets[name] = _run_grid(grids[name].grid, grids[name].attrs, map, progress)
+        datasets[name] = _run_grid(grids[name], map, progress)
     if study.specs:
         trees = dict(zip(study.specs, map(run_case, study.specs.values()), strict=True))
         datasets["cases"] = xr.DataTree(children=trees)
@@ -246,11 +269,11 @@ def run_study(
     return xr.DataTree.from_dict(datasets)
 
 
-def _run_grid(
-    grid: Grid, attrs: Mapping[str, str], map: Callable[..., Iterable[Any]], progress: bool
-) -> xr.Dataset:
-    """A grid whose points are computed here."""
+def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -> xr.Dataset:
+    """The grid of a study, whose points are computed here."""
+    grid = study.grid
+    assert grid is not None
     layout = grid.layout
     call = call_of({**layout, "axes": {dim: grid.dims[dim][dim].tolist() for dim in grid.plane}})
     rows = compute(call, grid.rows, map=map, title=grid.quantity.name, progress=progress)
-    return merge(layout, [_along_points(layout, grid.rows, rows)], attrs)
+    return merge(layout, [_along_points(layout, grid.rows, rows)], study.attrs)

@@ -236,7 +236,9 @@ def _figure(raw: Any) -> Kind:
 
 _KIND = Annotated[
     Any,
-    WithJsonSchema({"type": "object", "properties": {"kind": {"type": "string"}}, "required": ["kind"]}),
+    WithJsonSchema(
+        {"type": "object", "properties": {"kind": {"type": "string"}}, "required": ["kind"]}
+    ),
 ]
 Figure = Annotated[Kind, PlainValidator(_figure, json_schema_input_type=_KIND)]
 """A figure of any kind; `workflow/schemas/write_schema.py` adds the keys of each kind to the schema."""
@@ -263,7 +265,9 @@ def _several(value: Any) -> Any:
 
 def _given(raw: Any) -> Any:
     """What is given by name, without what null drops."""
-    return {name: x for name, x in raw.items() if x is not None} if isinstance(raw, Mapping) else raw
+    return (
+        {name: x for name, x in raw.items() if x is not None} if isinstance(raw, Mapping) else raw
+    )
 
 
 def _base(raw: Any) -> dict[str, Any]:
@@ -275,7 +279,9 @@ def _base(raw: Any) -> dict[str, Any]:
             if name not in Parameters.model_fields:
                 rule = f"unknown parameter{suggestion(name, [*Parameters.model_fields])}"
                 raise ParameterError(Fault.of((), value, rule))
-            values[name] = Disc.model_validate(value) if name == "disc" else checked_value(name, value)
+            values[name] = (
+                Disc.model_validate(value) if name == "disc" else checked_value(name, value)
+            )
         except ParameterError as error:
             faults += [each.inside((str(name),)) for each in error.faults]
     raise_faults(faults)
@@ -297,11 +303,14 @@ class Study(Strict):
         dict[str, Any], PlainValidator(_base, json_schema_input_type=SomeParameters)
     ] = Field({})
     figures: Annotated[
-        dict[Name, Figure], BeforeValidator(_given, json_schema_input_type=dict[Name, Figure | None])
+        dict[Name, Figure],
+        BeforeValidator(_given, json_schema_input_type=dict[Name, Figure | None]),
     ] = Field({})
     tol: Tolerance | None = 1e-10  # of all cases, as `record`
     record: RecordSpec = RecordSpec()
-    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field({}, validate_default=False)
+    cases: Annotated[dict[CaseName, NamedCase], Field(min_length=1)] = Field(
+        {}, validate_default=False
+    )
     claims: bool = False  # whether the paper's claims and tables are checked against the cases
     quantity: Annotated[
         str | None,
@@ -311,7 +320,8 @@ class Study(Strict):
     options: Annotated[Any, PlainValidator(_options), WithJsonSchema({"type": "object"})] = None
     axes: Columns = Columns()
     zip: Annotated[
-        tuple[Columns, ...], BeforeValidator(_several, json_schema_input_type=Columns | list[Columns])
+        tuple[Columns, ...],
+        BeforeValidator(_several, json_schema_input_type=Columns | list[Columns]),
     ] = ()
     where: Annotated[
         tuple[str, ...], BeforeValidator(_several, json_schema_input_type=str | list[str])
@@ -334,7 +344,9 @@ class Study(Strict):
                 faults += (fault.inside(("figures", name)) for fault in plot.faults(recorded))
         raise_faults(faults)
         if self.grid is not None:
-            own = {name: plot for name, plot in self.plots.items() if plot.study in ("", self.study)}
+            own = {
+                name: plot for name, plot in self.plots.items() if plot.study in ("", self.study)
+            }
             for name, plot in own.items():
                 faults += (fault.inside(("figures", name)) for fault in self._faults_of(plot))
         raise_faults(faults)
@@ -357,7 +369,9 @@ class Study(Strict):
             return None
         dims = dimensions(self.axes, self.zip, self.discs)
         quantity = quantity_of(self.quantity)
-        return grid_of(quantity, self.options, self.base, dims, self.where, self.discs, self.points_per_job)
+        return grid_of(
+            quantity, self.options, self.base, dims, self.where, self.discs, self.points_per_job
+        )
 
     @property
     def attrs(self) -> dict[str, str]:
@@ -366,6 +380,33 @@ class Study(Strict):
         if self.where:
             attrs["where"] = " and ".join(f"({rule})" for rule in self.where)
         return attrs
+
+    @property
+    def labels(self) -> dict[str, dict[str, str]]:
+        """Titles and places in the paper of the cases, as pages show them."""
+        return {
+            name: {"Title": case.title or name, "Place in the paper": case.reference}
+            for name, case in self.cases.items()
+        }
+
+    @property
+    def page(self) -> dict[str, Any]:
+        """What the explorer shows of the grid: units of figures, dimensions across and up in the first map,
+        and what stored motions are."""
+        assert self.grid is not None
+        units: dict[str, str] = {}
+        axes: list[str] = []
+        for plot in reversed([*self.plots.values()]):
+            units |= plot.units
+            if {"x", "y"} <= plot.axes.keys():
+                axes = [plot.axes["x"], plot.axes["y"]]
+        motion = self.grid.quantity.motion
+        stored = (
+            {"motion": motion.text, "motion_by": dict(motion.by)}
+            if motion
+            else {"motion": "", "motion_by": {}}
+        )
+        return {"units": units, "axes": axes, **stored}
 
     # ---- Figures
 
@@ -433,7 +474,9 @@ class Study(Strict):
 
     # ---- Further files
 
-    def all_grids(self, folders: Sequence[Path] = (Path(),)) -> tuple[dict[str, Study], tuple[str, ...]]:
+    def all_grids(
+        self, folders: Sequence[Path] = (Path(),)
+    ) -> tuple[dict[str, Study], tuple[str, ...]]:
         """Studies of all grids, also those that only figures show, and the names of those of this file and
         the files it names."""
         paths: dict[str, Path] = {}
@@ -442,7 +485,9 @@ class Study(Strict):
         grids = {self.study: self} if self.grid is not None else {}
         requested = (*grids, *paths)
         for name in sorted(self._shown_studies().difference(requested)):
-            paths.update((path.stem, path) for path in _matching(f"{name}.yaml", folders) if path.is_file())
+            paths.update(
+                (path.stem, path) for path in _matching(f"{name}.yaml", folders) if path.is_file()
+            )
         grids.update((name, self._grid_of(path)) for name, path in paths.items())
         faults = []
         for owner in (self, *(grids[name] for name in sorted({*requested} - {self.study}))):
@@ -455,7 +500,9 @@ class Study(Strict):
 
     def _shown_studies(self) -> set[str]:
         """Names of the studies that figures name."""
-        names = [name for plot in self.plots.values() for name in (plot.study, *plot.overlays.values())]
+        names = [
+            name for plot in self.plots.values() for name in (plot.study, *plot.overlays.values())
+        ]
         return {*filter(None, names)}
 
     def _grid_of(self, path: Path) -> Study:
@@ -483,7 +530,7 @@ def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
 
 def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fault]:
     """What keeps a figure in the file of a study from showing grids of other files."""
-    named = {("study",): plot.study or owner}
+    named: dict[tuple[str, ...], str] = {("study",): plot.study or owner}
     named |= {("overlays", role): name for role, name in plot.overlays.items()}
     unknown = [(path, name) for path, name in named.items() if name not in grids]
     for path, name in unknown:
@@ -501,8 +548,10 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
             f"must be a study of the quantity {plot.roles[role].quantity}": (
                 other.quantity != plot.roles[role].quantity
             ),
-            f"must be computed for the same {NORM}": not _normalizations(study) <= _normalizations(other),
-            "must be computed in the plane of the figure": not plane <= {*plot.axes.values()},
+            f"must be computed for the same {NORM}": not _normalizations(study)
+            <= _normalizations(other),
+            "must be computed in the plane of the figure": {"x", "y"} <= plot.axes.keys()
+            and not plane <= {*plot.axes.values()},
         }
         for rule, broken in rules.items():
             if broken:
@@ -512,7 +561,9 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
 def _normalizations(study: Study) -> set[str]:
     """The normalisations of the modes in a grid."""
     assert study.grid is not None
-    return {*study.grid.points[NORM]} if NORM in study.grid.points else {study.grid.case.normalization}
+    return (
+        {*study.grid.points[NORM]} if NORM in study.grid.points else {study.grid.case.normalization}
+    )
 
 
 # ---- From files to studies
@@ -525,7 +576,10 @@ def load_study(*paths: str | Path) -> Study:
 
 def read_files(*paths: str | Path) -> Any:
     """The content of study files, later ones laid over earlier ones."""
-    return reduce(lambda below, above: inherit(mapping(below), mapping(above)), map(read_file, map(Path, paths)))
+    return reduce(
+        lambda below, above: inherit(mapping(below), mapping(above)),
+        map(read_file, map(Path, paths)),
+    )
 
 
 def study_from_config(config: Any, files: Iterable[str | Path]) -> Study:
@@ -578,8 +632,16 @@ def _with_discs(raw: Any, folder: Path) -> Any:
             raise ParameterError(*(Fault(path, "", str(fault)) for fault in error.faults)) from None
 
     content = dict(mapping(raw))
-    varied = [mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))]
-    named = {name: name for axis in varied if isinstance(axis, list) for name in axis if isinstance(name, str)}
+    varied = [
+        mapping(group).get("disc") for group in (content.get("axes"), *_several(content.get("zip")))
+    ]
+    named = {
+        name: name
+        for axis in varied
+        if isinstance(axis, list)
+        for name in axis
+        if isinstance(name, str)
+    }
     if named:
         content["discs"] = {**named, **mapping(content.get("discs"))}
     return read(content, ()) if isinstance(raw, Mapping) else raw

@@ -14,11 +14,10 @@ import xarray as xr
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, attributes_of_mode
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.hashing import canonical_json
 from disc_model.parameters import PLATE, Parameters, foreign_case
-from disc_model.provenance import versions_text
+from disc_model.provenance import canonical_json, versions_text
 from disc_model.studies.compute import Call, compute, failure, is_of_case, stack
-from disc_model.studies.grid import checked_value, expand
+from disc_model.studies.grid import checked_value, expand, records
 from disc_model.studies.quantity import NUMERICAL, QUANTITIES
 from disc_model.studies.run import coordinate_attributes
 
@@ -76,7 +75,9 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
-    require((callable(function), "function", function, "must be a function, such as disc_model.floquet"))
+    require(
+        (callable(function), "function", function, "must be a function, such as disc_model.floquet")
+    )
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
     varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
@@ -85,18 +86,22 @@ def sweep(
     raise_faults([*_unknown([*options, *over], arguments)])
     dims = _dimensions(case, varied, zip, over)
     points = expand(dims)
-    rows = points.to_dict("records")
+    rows = records(points)
 
     call = Call(_Gathered(function), case.replace, options)
-    _try_first(call, rows, {*arguments} | {*over})
+    _try_first(call, rows, {"function", *arguments, *over})
     results = compute(call, rows, map=map, title=_name_of(function), progress=progress)
     sizes = {dim: len(frame) for dim, frame in dims.items()}
-    taken = {*points, *dims}
+    taken = {*map(str, points), *dims}
     results = [_beside(result, taken) for result in results]
     found = stack(results, np.array([*points.index], dtype=int).reshape(len(rows), -1), sizes)
     for name in ("status", "message"):
         found[name].attrs.setdefault("long_name", COMMON[name].long_name)
-    defaults = {name: x.default for name, x in arguments.items() if isinstance(x.default, bool | int | float | str)}
+    defaults = {
+        name: x.default
+        for name, x in arguments.items()
+        if isinstance(x.default, bool | int | float | str)
+    }
     used = {**defaults, **options}
     attrs = {
         "function": _name_of(function),
@@ -138,13 +143,21 @@ def _dimensions(
 ) -> Dims:
     """The columns of each dimension by its name; raises `ParameterError`."""
     faults: list[Fault] = []
-    dims = {name: pd.DataFrame({name: _column(name, values, case, faults)}) for name, values in varied.items()}
-    dims |= {name: pd.DataFrame({name: pd.Series([*values], dtype=object)}) for name, values in over.items()}
+    dims = {
+        name: pd.DataFrame({name: _column(name, values, case, faults)})
+        for name, values in varied.items()
+    }
+    dims |= {
+        name: pd.DataFrame({name: pd.Series([*values], dtype=object)})
+        for name, values in over.items()
+    }
     if zipped is not None:
         columns = {str(name): _column(str(name), zipped[name], case, faults) for name in zipped}
         lengths = {*map(len, columns.values())}
         if len(lengths) != 1:
-            faults.append(Fault(("zip",), "", "must have columns of equal length, and at least one"))
+            faults.append(
+                Fault(("zip",), "", "must have columns of equal length, and at least one")
+            )
         else:
             dims["_".join(columns)] = pd.DataFrame(columns)
     if not dims:
@@ -160,7 +173,9 @@ def _column(name: str, values: Any, case: Parameters, faults: list[Fault]) -> li
         return []
     known = name in Parameters.model_fields or name in case.numbers
     if not known:
-        faults.append(Fault.of((name,), values, f"is no number of the case{suggestion(name, case.numbers)}"))
+        faults.append(
+            Fault.of((name,), values, f"is no number of the case{suggestion(name, case.numbers)}")
+        )
     column = []
     for i, value in enumerate(values):
         try:
@@ -199,7 +214,8 @@ def _beside(result: xr.Dataset, taken: set[str]) -> xr.Dataset:
         if result.sizes[dim] > 1:
             rule = f"returned values along {dim}, which is a dimension of the sweep"
             return failure(ParameterError(Fault(("function",), "", rule)))
-    return result.squeeze(shared, drop=True).drop_vars([name for name in result.variables if name in taken], errors="ignore")
+    own = [name for name in result.variables if name in taken]
+    return result.squeeze(shared, drop=True).drop_vars(own, errors="ignore")
 
 
 def _base(case: Parameters, function: Any, options: Mapping[str, Any]) -> str:
@@ -224,6 +240,8 @@ def _coordinates(dims: Dims, over: Mapping[str, Any]) -> dict[str, Any]:
                 values = values if plain else [*map(str, values)]
             else:
                 of_case = name in Parameters.model_fields
-                attrs = coordinate_attributes(str(name)) if of_case else attributes_of_mode(str(name))
+                attrs = (
+                    coordinate_attributes(str(name)) if of_case else attributes_of_mode(str(name))
+                )
             coordinates[str(name)] = (dim, values, attrs)
     return coordinates

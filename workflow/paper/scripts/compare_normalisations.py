@@ -1,7 +1,7 @@
 """Set the cases of both normalisations beside each other: all cases as CSV, the page, and all as
 HTML."""
 
-from disc_model.data.dataset import load_result
+from disc_model.data.dataset import load_cases
 from disc_model.data.texts import write_page
 from disc_model.errors import script
 from workflow.paper.ledger import TEXTS, compare
@@ -9,8 +9,9 @@ from workflow.paper.measures import views
 
 
 @script
-def main(csv: str, md: str, html: str, published: str, orthonormal: str) -> None:
-    parts = compare(*(views({"cases": load_result(path)}) for path in (published, orthonormal)))
+def main(csv: str, md: str, html: str, *paths: str) -> None:
+    half = len(paths) // 2
+    parts = compare(*(views(load_cases(files)) for files in (paths[:half], paths[half:])))
     parts["cases"][2].to_csv(csv, index=False)
     write_page(md, TEXTS["title"], parts["brief"], parts["modes"])
     write_page(html, TEXTS["title"], *parts.values())

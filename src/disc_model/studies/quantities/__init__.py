@@ -1,2 +1,1 @@
-"""Quantities that a grid study can compute at each point, one module each; see
-`disc_model.studies.quantity`."""
+"""The quantities that studies compute: one function of a case each, see `disc_model.studies.quantity.HOMES`."""

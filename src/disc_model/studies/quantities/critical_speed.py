@@ -2,134 +2,167 @@
 be several.
 """
 
+from __future__ import annotations
+
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar
+from typing import TYPE_CHECKING, Annotated, Any
 
-from pydantic import AfterValidator, Field
+import numpy as np
+import xarray as xr
+from pydantic import AfterValidator, BeforeValidator, Field
 
-from disc_model.data.variables import OF_QUANTITIES, value_with_unit
+from disc_model.data.variables import value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import Coordinate, OutcomeResult, Point, Quantity, Range, listed
-from disc_model.units import Count, Seconds, Speed, Tolerance, Unit
+from disc_model.studies.quantity import BETWEEN, found, listed, quantity, values_between
+from disc_model.units import Count, Finite, Seconds, Speed, Tolerance, Unit
 
-_MULTIPLE = (
-    "the scan's step of {0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s"
+if TYPE_CHECKING:
+    from disc_model.stability.outcome import OutcomeResult
+
+PRECISION = 0.1
+"""Width to which crossings are bisected unless another is asked for, rad/s."""
+Horizons = Annotated[
+    tuple[Seconds, ...],
+    BeforeValidator(
+        lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist()
+    ),
+    AfterValidator(lambda horizons: tuple(sorted(set(horizons)))),
+    Field(min_length=1, validate_default=True),
+]
+"""A horizon, or several."""
+
+
+def _ratio(step: float, precision: float | None) -> float:
+    """The step as a multiple of the precision, for which the largest part of the step up to `PRECISION` stands."""
+    if precision is None:
+        return math.ceil(step / PRECISION - 1e-9)
+    return step / precision
+
+
+@quantity(
+    points_per_job=5,
+    own=("Omega",),
+    rules=(
+        *BETWEEN,
+        (
+            lambda o: (
+                0.5 < (r := _ratio(o.step, o.precision)) < math.inf and abs(r - round(r)) <= 1e-6
+            ),
+            "step={0.step:.6g} rad/s must be a multiple of precision={0.precision:.6g} rad/s",
+        ),
+    ),
 )
+def critical_speed(  # noqa: PLR0913
+    case: Parameters,
+    bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")] = (5.0, 30.0),
+    horizon: Horizons = 1000.0,  # type: ignore[assignment]
+    *,
+    step: Speed = 1.0,
+    precision: Speed | None = None,
+    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12,
+    early_end: bool = True,
+    extrapolate: bool = True,
+    tol: Tolerance = 1e-10,
+) -> xr.Dataset:
+    """The lowest speed of a scan with separation within a horizon, and all speeds where separation begins or
+    ends, by bisection.
 
+    Separation in a range of speeds narrower than `step` can be overlooked.
 
-class CriticalSpeed(Quantity):
-    """Scan of the speed, then bisection of each interval in which separation begins or ends."""
+    Parameters
+    ----------
+    bounds : lowest and highest speed of the scan
+    horizon : time within which separation must occur, or several, each with a critical speed of its own
+    step : of the scan
+    precision : width to which crossings are bisected, of which `step` must be a multiple; if not given, 0.1 or the next
+        smaller part of `step`
+    max_crossings : room for that many crossings
+    early_end : whether a simulation ends as soon as its outcome is known
+    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
+        are not timed
+    tol : tolerance of simulations: error of event times after a second of motion
 
-    tol: Tolerance = 1e-10
-    """tolerance of simulations: error of event times after a second of motion"""
-    early_end: bool = True
-    """whether a simulation ends as soon as its outcome is known"""
-    extrapolate: bool = True
-    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
-    horizons: Annotated[
-        tuple[Seconds, ...], Field(min_length=1), AfterValidator(lambda h: tuple(sorted(set(h))))
-    ]
-    """times within which separation must occur; each has a critical speed of its own"""
-    scan: Annotated[Range, Unit("rad/s")]
-    """speeds that are looked at first, evenly spaced"""
-    precision: Speed = 0.1
-    """width to which crossings are bisected; the scan's step must be a multiple"""
-    max_crossings: Annotated[Count, Field(ge=1, le=10_000)] = 12
-    """room for that many crossings"""
+    Returns
+    -------
+    xarray.Dataset
+        `critical_speed` (rad/s, nan if none was found in steps of the scan) and crossings, by horizon where a list is
+        given; outcomes and first separations along the scan. Contact was lost at the critical speed, and kept at the
+        next lower one computed, which is lower by `precision`; where it was lost at the lowest speed already,
+        `at_lower_bound` is true. `message` states which horizons have no critical speed, or one at the lower bound.
 
-    _rules = (
-        (lambda o: o.scan.scale == "linear", "scan must be linear"),
-        (lambda o: 0.5 < o.ratio < math.inf and abs(o.ratio - round(o.ratio)) <= 1e-6, _MULTIPLE),
-    )
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> speeds = dm.critical_speed(dm.Parameters(N=385, Omega=15), (15, 16), 100, step=0.5)
+    >>> float(speeds["critical_speed"])
+    15.1
+    """
+    from disc_model.stability.outcome import find_outcome
 
-    @property
-    def step(self) -> float:
-        """The scan's step, rad/s."""
-        return (self.scan.stop - self.scan.start) / self.scan.intervals
+    speeds = values_between(bounds, step)
+    ratio = round(_ratio(step, precision))
+    motions: dict[int, OutcomeResult] = {}
 
-    @property
-    def ratio(self) -> float:
-        """The scan's step as a multiple of the precision."""
-        return self.step / self.precision
+    def speed(i: int) -> float:
+        """The speed at a place on the lattice of the precision."""
+        if i % ratio == 0:
+            return speeds[i // ratio]
+        return float(f"{speeds[0] + i * step / ratio:.12g}")
 
-    @property
-    def starts(self) -> int:
-        return self.scan.intervals + 1
+    def look(i: int) -> None:
+        """Follow the motion from the static start, up to the longest horizon."""
+        result = find_outcome(
+            case.replace(Omega=speed(i)),
+            horizon[-1],
+            tol=tol,
+            early=early_end,
+            compared_with=horizon if extrapolate else (),
+        )
+        # return maps would take megabytes each for a disc of many modes
+        motions[i] = replace(result, near=None)
 
-    points_per_job: ClassVar = 5
-    scans: ClassVar = ("Omega",)
-    COLUMNS: ClassVar = OF_QUANTITIES["critical_speed"]["columns"]
-    COORDINATES: ClassVar = {
-        "horizon": Coordinate(lambda o: o.horizons),
-        "crossing_number": Coordinate(lambda o: range(o.max_crossings), "max_crossings"),
-        "scan_Omega": Coordinate(lambda o: o.scan.values),
+    scanned = range(0, len(speeds) * ratio, ratio)
+    for i in scanned:
+        look(i)
+    for time in horizon:
+        # every interval over which separation within the horizon begins or ends is halved, down to the lattice
+        while middles := [(a + b) // 2 for a, b in _changes(motions, time) if b - a > 1]:
+            for i in middles:
+                look(i)
+    failed = {i: result for i, result in motions.items() if result.status != "ok"}
+    values: dict[str, Any] = {
+        "status": next((result.status for result in failed.values()), "ok"),
+        "scan_outcome": [motions[i].word for i in scanned],
+        "scan_first_separation": [motions[i].timed_separation for i in scanned],
+        "scan_status": [motions[i].status for i in scanned],
+        "simulations": len(motions),
+        "simulated_time": sum(result.simulated for result in motions.values()),
+        **listed([_crossings(motions, time, speed) for time in horizon]),
     }
-
-    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        scanned = [i * round(self.ratio) for i in range(self.scan.intervals + 1)]
-        motions = self._follow(point.parameters, scanned)
-        failed = {i: result for i, result in motions.items() if result.status != "ok"}
-        values: dict[str, Any] = {
-            "status": next((result.status for result in failed.values()), "ok"),
-            "scan_outcome": [motions[i].word for i in scanned],
-            "scan_first_separation": [motions[i].timed_separation for i in scanned],
-            "scan_status": [motions[i].status for i in scanned],
-            "simulations": len(motions),
-            "simulated_time": sum(result.simulated for result in motions.values()),
-        }
-        known = _first_separations(motions)
-        crossings = [_crossings(known, horizon, self._speed) for horizon in self.horizons]
-        values.update(listed(crossings))
-        remarks = []
-        for i, each in failed.items():
-            place = value_with_unit("Omega", self._speed(i))
-            remarks.append(f"{place}: {each.message}")
-        return values, "; ".join(remarks)
-
-    def _follow(self, p: Parameters, scanned: Sequence[int]) -> dict[int, OutcomeResult]:
-        """Follow the motion from the static start, up to the longest horizon, at the speeds of the
-        scan and wherever else crossings are sought; by places on the lattice."""
-        from disc_model.stability.outcome import find_outcome
-
-        motions: dict[int, OutcomeResult] = {}
-        times = self.horizons if self.extrapolate else ()
-
-        def look(i: int) -> None:
-            result = find_outcome(
-                p.replace(Omega=self._speed(i)),
-                self.horizons[-1],
-                tol=self.tol,
-                early=self.early_end,
-                compared_with=times,
-            )
-            # return maps would take megabytes each for a disc of many modes
-            motions[i] = replace(result, near=None)
-
-        for i in scanned:
-            look(i)
-            self.start_is_done()
-        for horizon in self.horizons:
-            # every interval over which separation within the horizon begins or ends is halved, down
-            # to the lattice
-            while middles := _middles(_first_separations(motions), horizon):
-                for i in middles:
-                    look(i)
-        return motions
-
-    def _speed(self, i: int) -> float:
-        """Speed, rad/s, of a place on the lattice of the precision."""
-        place, within = divmod(i, round(self.ratio))
-        if within == 0:
-            return self.scan.value_at(place)
-        return float(f"{self.scan.start + i * self.precision:.12g}")
+    at_bound = [bool(lowest <= speeds[0]) for lowest in values["critical_speed"]]
+    remarks = [f"{value_with_unit('Omega', speed(i))}: {x.message}" for i, x in failed.items()]
+    message = "; ".join(remarks or _reasons(speeds, horizon, values["critical_speed"]))
+    own = {"horizon": horizon, "crossing_number": range(max_crossings), "scan_Omega": speeds}
+    answer = found("critical_speed", values, message, **own)
+    return answer.assign(at_lower_bound=("horizon", at_bound))
 
 
-def _first_separations(motions: Mapping[int, OutcomeResult]) -> dict[int, float]:
-    """Times of the first separations of several motions."""
-    return {i: _first_separation(result) for i, result in motions.items()}
+def _reasons(
+    speeds: Sequence[float], horizons: Sequence[float], lowest: Sequence[float]
+) -> Iterable[str]:
+    """Which horizons have no critical speed, or one at the lower bound."""
+    known = [*zip(horizons, lowest, strict=True)]
+    without = ", ".join(f"{horizon:g}" for horizon, speed in known if math.isnan(speed))
+    if without:
+        scan = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+        yield f"no separation within {without} s at {scan}"
+    at_bound = ", ".join(f"{horizon:g}" for horizon, speed in known if speed <= speeds[0])
+    if at_bound:
+        bound = f"at the lower bound, {speeds[0]:g} rad/s"
+        yield f"contact is already lost within {at_bound} s {bound}"
 
 
 def _first_separation(result: OutcomeResult) -> float:
@@ -139,16 +172,12 @@ def _first_separation(result: OutcomeResult) -> float:
     return result.first_separation
 
 
-def _middles(known: dict[int, float], horizon: float) -> list[int]:
-    """Middles of the intervals, wider than the lattice's, over which separation begins or ends."""
-    return [(a + b) // 2 for a, b in _changes(known, horizon) if b - a > 1]
-
-
-def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
-    """Pairs of neighbours on the lattice of which only one separates within the horizon; nan,
-    unknown, is in none."""
+def _changes(motions: Mapping[int, OutcomeResult], horizon: float) -> list[tuple[int, int]]:
+    """Pairs of neighbours on the lattice of which only one separates within the horizon; one that is
+    unknown is in none."""
+    known = {i: _first_separation(motions[i]) for i in sorted(motions)}
     changes = []
-    for a, b in pairwise(sorted(known)):
+    for a, b in pairwise(known):
         decided = not math.isnan(known[a] + known[b])
         if decided and (known[a] <= horizon) != (known[b] <= horizon):
             changes.append((a, b))
@@ -156,12 +185,13 @@ def _changes(known: dict[int, float], horizon: float) -> list[tuple[int, int]]:
 
 
 def _crossings(
-    known: dict[int, float], horizon: float, speed: Callable[[int], float]
+    motions: Mapping[int, OutcomeResult], horizon: float, speed: Callable[[int], float]
 ) -> dict[str, Any]:
     """Columns of the crossings for a horizon, and the critical speed."""
-    changes = [b for _, b in _changes(known, horizon)]
+    changes = [b for _, b in _changes(motions, horizon)]
+    known = {i: _first_separation(motions[i]) for i in sorted(motions)}
     # the lowest speed that separates; an unknown speed hides those above it
-    first = next((i for i in sorted(known) if not known[i] > horizon), None)
+    first = next((i for i in known if not known[i] > horizon), None)
     lowest = math.nan
     if first is not None and not math.isnan(known[first]):
         lowest = speed(first)

@@ -1,24 +1,25 @@
 """Outcome of one simulation within a horizon: the motion stays on a cycle, grows in contact, or
 separates."""
 
+from __future__ import annotations
+
 from dataclasses import asdict
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import xarray as xr
 
-from disc_model.data.variables import OF_QUANTITIES, Outcome
+from disc_model.data.variables import Outcome
+from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import (
-    COME_TO,
-    COME_TO_BY,
-    OutcomeResult,
-    Point,
-    Quantity,
-    Result,
-    Segment,
-    State,
-)
+from disc_model.studies.quantity import COME_TO, COME_TO_BY, Motion, Starting, found, quantity
 from disc_model.units import Seconds, Tolerance
+
+if TYPE_CHECKING:
+    from disc_model.simulation.result import Result
+    from disc_model.simulation.states import State
+    from disc_model.stability.outcome import OutcomeResult
+    from disc_model.stability.segments import Segment
 
 _TIMES = (
     "evaluation_time={0.evaluation_time:g} must be <= after_separation={0.after_separation:g} and <= "
@@ -27,93 +28,125 @@ _TIMES = (
 FEWEST = 4  # least number of checks of a motion that give a rate
 
 
-class HorizonOutcome(Start, Quantity):
-    """Outcome of one simulation at each point, within a horizon."""
-
-    tol: Tolerance = 1e-10
-    """tolerance of simulations: error of event times after a second of motion"""
-    early_end: bool = True
-    """whether a simulation ends as soon as its outcome is known"""
-    extrapolate: bool = False
-    """whether slow departures from cycles are extrapolated, which halves the time; their separations are not timed"""
-    horizon: Seconds
-    """longest simulated time"""
-    evaluation_time: Seconds = 1.0
-    """length of the late stretch, over which ranges and shares are taken"""
-    after_separation: Seconds = 5.0
-    """time from the first separation to the end of the late stretch"""
-
-    _rules = ((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),)
-    points_per_job: ClassVar = 80
-    motions: ClassVar = 4
-    motion: ClassVar = COME_TO
-    motion_by: ClassVar = COME_TO_BY
-    COLUMNS: ClassVar = OF_QUANTITIES["outcome"]["columns"]
-
-    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        reached, result, late = _late(point, self)
-        last = reached if result is None else result
-        values: dict[str, Any] = {
-            "status": "ok" if last.status.complete else last.status.value,
-            "outcome": reached.word,
-            "first_separation": reached.timed_separation,
-            "time_reached": reached.time,
-            "cycle_distance": reached.distance,
-        }
-        if reached.changes:
-            values["return_map_residual"] = reached.changes[-1]
-        times = np.array(reached.times[-FEWEST:])
-        changes = np.array(reached.changes[-FEWEST:])
-        if len(times) == FEWEST and np.all(changes > 0):
-            rate, _ = np.polyfit(times, np.log(changes), 1)
-            values["return_map_residual_rate"] = float(rate)
-        if reached.outcome is Outcome.SEPARATION and result is not None:
-            values["time_reached"] = result.final_state.time
-        elif reached.outcome is not None and reached.time < self.horizon:
-            values["left_at"] = reached.time
-        if late is not None:
-            values.update(asdict(late))
-        message = "" if last.status.complete else last.message
-        return values, message
-
-    def state_at(self, point: Point) -> State:
-        reached, result, _ = _late(point, self)
-        last = reached.failed or result
-        state = reached.state
-        if last is not None:
-            state = last.raise_for_status().final_state
-        assert state is not None
-        return state
-
-
 def _late(
-    point: Point, options: HorizonOutcome
+    case: Parameters,
+    horizon: float,
+    start: Start,
+    evaluation_time: float,
+    after_separation: float,
+    early_end: bool,
+    extrapolate: bool,
+    tol: float,
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
     from disc_model.stability.outcome import find_outcome
     from disc_model.stability.segments import final_segment
 
-    p = point.parameters
-    length = options.evaluation_time
-    start = make_initial_state(p, point.start, options.tol)
     reached = find_outcome(
-        p,
-        options.horizon,
-        tol=options.tol,
-        start=start,
-        early=options.early_end,
-        late=length,
-        compared_with=(options.horizon,) if options.extrapolate else (),
+        case,
+        horizon,
+        tol=tol,
+        start=make_initial_state(case, start, tol),
+        early=early_end,
+        late=evaluation_time,
+        compared_with=(horizon,) if extrapolate else (),
     )
     if reached.outcome is Outcome.SEPARATION:
-        return reached, *final_segment(
-            p, reached.state, options.after_separation, length, options.tol
-        )
+        late = final_segment(case, reached.state, after_separation, evaluation_time, tol)
+        return reached, *late
     if reached.outcome is None or reached.segment is not None:
         return reached, None, reached.segment
     # a stable cycle is known exactly; elsewhere the motion is steady
     on = reached.state
     if reached.near is not None and reached.near.cycle.stable:
         on = reached.near.cycle.state
-    return reached, *final_segment(p, on, length, length, options.tol)
+    return reached, *final_segment(case, on, evaluation_time, evaluation_time, tol)
+
+
+def _come_to(case: Parameters, **options: Any) -> State:
+    """The state that the motion has come to."""
+    reached, result, _ = _late(case, **options)
+    state = reached.state
+    if last := reached.failed or result:
+        state = last.raise_for_status().final_state
+    assert state is not None
+    return state
+
+
+@quantity(
+    points_per_job=80,
+    rules=((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),),
+    motion=Motion(4, COME_TO, COME_TO_BY, _come_to),
+)
+def outcome(
+    case: Parameters,
+    horizon: Seconds = 1000.0,
+    *,
+    start: Starting = Start(),
+    evaluation_time: Seconds = 1.0,
+    after_separation: Seconds = 5.0,
+    early_end: bool = True,
+    extrapolate: bool = False,
+    tol: Tolerance = 1e-10,
+) -> xr.Dataset:
+    """Long-term behaviour within a horizon, such as "stick_slip" or "separation", with ranges and phases
+    late in the run.
+
+    Parameters
+    ----------
+    horizon : longest simulated time
+    start : start of the motion
+    evaluation_time : length of the late stretch, over which ranges and shares are taken
+    after_separation : time from the first separation to the end of the late stretch
+    early_end : whether a simulation ends as soon as its outcome is known
+    extrapolate : whether slow departures from cycles are extrapolated, which halves the time; separations after them
+        are not timed
+    tol : tolerance of simulations: error of event times after a second of motion
+
+    Returns
+    -------
+    xarray.Dataset
+        `outcome`, `first_separation` (s), and the stretch: P_min, P_max (N), u_min, u_max (m), stick_fraction, ...
+        Of stable cycles in contact, "stick_slip" are that of `floquet`, and one whose release differs from the first
+        release of the static start by at most a tenth of the static deflection; "other_cycle" are all others
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> reached = dm.outcome(dm.Parameters(N=385, Omega=15.1), 100)
+    >>> print(reached["outcome"].item(), f"{reached['first_separation'].item():.1f} s")
+    separation 54.4 s
+    """
+    reached, result, late = _late(
+        case, horizon, start, evaluation_time, after_separation, early_end, extrapolate, tol
+    )
+    last = reached if result is None else result
+    values: dict[str, Any] = {
+        "status": "ok" if last.status.complete else last.status.value,
+        "outcome": reached.word,
+        "first_separation": reached.timed_separation,
+        "time_reached": reached.time,
+        "cycle_distance": reached.distance,
+        **_changes(reached),
+    }
+    if reached.outcome is Outcome.SEPARATION and result is not None:
+        values["time_reached"] = result.final_state.time
+    elif reached.outcome is not None and reached.time < horizon:
+        values["left_at"] = reached.time
+    if late is not None:
+        values |= asdict(late)
+    return found("outcome", values, "" if last.status.complete else last.message)
+
+
+def _changes(reached: OutcomeResult) -> dict[str, float]:
+    """The last difference of successive cycles, and its growth rate."""
+    if not reached.changes:
+        return {}
+    shown = {"return_map_residual": reached.changes[-1]}
+    times = np.array(reached.times[-FEWEST:])
+    changes = np.array(reached.changes[-FEWEST:])
+    if len(times) == FEWEST and np.all(changes > 0):
+        rate, _ = np.polyfit(times, np.log(changes), 1)
+        shown["return_map_residual_rate"] = float(rate)
+    return shown

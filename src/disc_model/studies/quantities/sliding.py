@@ -1,77 +1,72 @@
-"""Complex eigenvalues: frequencies, growth rates and damping of the modes of steady sliding along
-one parameter."""
+"""Modes of steady sliding along one parameter, by complex eigenvalues."""
 
-from typing import Annotated, Any, ClassVar
+from __future__ import annotations
 
+from typing import Annotated, Any
+
+import numpy as np
+import xarray as xr
 from pydantic import Field
 
 from disc_model.data.variables import OF_QUANTITIES, value_with_unit
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import Coordinate, Free, Point, Quantity, Range, listed
-from disc_model.units import Count, Unit
-
-_EACH = ("value", "mode")
+from disc_model.studies.quantity import BETWEEN, Free, found, listed, quantity, values_between
+from disc_model.units import Count, Finite, Positive, Unit
 
 
-class Sliding(Quantity):
-    """Modes of steady sliding along one parameter, each keeping its number."""
+@quantity(points_per_job=60, own=("name",), rules=BETWEEN)
+def sliding_modes(
+    case: Parameters,
+    *,
+    name: Free = "Omega",
+    bounds: Annotated[tuple[Finite, Finite], Unit(of="name")],
+    step: Annotated[Positive, Unit(of="name")],
+    modes: Annotated[Count, Field(ge=1, le=2000)] = 24,
+) -> xr.Dataset:
+    """Frequencies, growth rates and damping of the modes of steady sliding along one parameter, each of
+    which keeps its number.
 
-    parameter: Free = "Omega"
-    """number of the case that varies; with mu_k, mu_s rises where that is larger"""
-    scan: Annotated[Range, Unit(of="parameter")]
-    """values of the parameter"""
-    modes: Annotated[Count, Field(ge=1, le=2000)] = 24
-    """room for that many modes, numbered by frequency at the first value"""
-    points_per_job: ClassVar = 60
-    scans: ClassVar = ("parameter",)
-    COLUMNS: ClassVar = OF_QUANTITIES["sliding"]["columns"]
-    COORDINATES: ClassVar = {
-        "value": Coordinate(lambda o: o.scan.values),
-        "mode": Coordinate(lambda o: range(1, o.modes + 1), "modes"),
-    }
+    Parameters
+    ----------
+    name : number of the case that varies; with mu_k, mu_s rises where that is larger
+    bounds : its least and greatest value
+    step : between its values
+    modes : room for that many modes, numbered by frequency at the first value
+    """
+    from disc_model.stability.sliding_modes import follow_modes
 
-    def _case_at(self, p: Parameters, value: float) -> Parameters:
-        """The case of a point at a value of the parameter."""
-        if self.parameter == "mu_k":
-            return p.replace(mu_k=value, mu_s=max(p.mu_s, value))
-        return p.replace(**{self.parameter: value})
-
-    def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.sliding_modes import follow_modes
-
-        p = point.parameters
-        values = self.scan.values
-        cases = [self._case_at(p, value) for value in values]
-        followed = follow_modes(cases)
-        counts = [int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed]
-        n_modes = max(counts, default=0)
-        shape = (len(values), max(n_modes, self.modes))
-        message = ""
-        columns = {
-            name: column.empty(shape)
-            for name, column in self.COLUMNS.items()
-            if column.dims == _EACH
+    values = values_between(bounds, step)
+    followed = follow_modes([_case_at(case, name, value) for value in values])
+    n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
+    columns: dict[str, Any] = {}
+    for column, variable in OF_QUANTITIES["sliding_modes"]["columns"].items():
+        if "mode" in variable.dims:
+            columns[column] = variable.empty((len(values), max(n_modes, modes)))
+    rows = []
+    messages = []
+    for i, (sliding, of_value, numbers, mac) in enumerate(followed):
+        columns["frequency"][i, numbers] = of_value.frequency
+        columns["mode_growth_rate"][i, numbers] = of_value.growth_rate
+        columns["mac"][i, numbers] = mac
+        columns["damping_ratio"][i, numbers] = of_value.damping_ratio
+        columns["diameters"][i, numbers] = of_value.diameters
+        columns["forward_wave_fraction"][i, numbers] = of_value.forward
+        row = {
+            "unstable_modes": sliding.growing.size,
+            "contact_force": sliding.contact_force,
+            "largest_growth_rate": sliding.growth_rate,
         }
-        rows = []
-        for i, (sliding, modes, numbers, mac) in enumerate(followed):
-            row = {
-                "frequency": modes.frequency,
-                "mode_growth_rate": modes.growth_rate,
-                "mac": mac,
-                "damping_ratio": modes.damping_ratio,
-                "diameters": modes.diameters,
-                "forward_wave_fraction": modes.forward,
-            }
-            for name, column in row.items():
-                columns[name][i, numbers] = column
-            of_value = {
-                "unstable_modes": sliding.growing.size,
-                "contact_force": sliding.contact_force,
-            }
-            of_value["largest_growth_rate"] = sliding.growth_rate
-            rows.append(of_value)
-            if not sliding.status.exists:
-                message = (
-                    message or f"{value_with_unit(self.parameter, values[i])}: {sliding.message}"
-                )
-        return {**columns, **listed(rows), "n_modes": n_modes, "status": "ok"}, message
+        rows.append(row)
+        if not sliding.status.exists:
+            messages.append(f"{value_with_unit(name, values[i])}: {sliding.message}")
+    shown = {column: array[:, :n_modes] for column, array in columns.items()}
+    answer = {"status": "ok", "n_modes": n_modes, **shown, **listed(rows)}
+    numbered = np.arange(1, modes + 1)
+    return found("sliding_modes", answer, "".join(messages[:1]), value=values, mode=numbered)
+
+
+def _case_at(case: Parameters, name: str, value: float) -> Parameters:
+    """The case at a value of the parameter."""
+    if name == "mu_k":
+        return case.replace(mu_k=value, mu_s=max(case.mu_s, value))
+    return case.replace(**{name: value})
