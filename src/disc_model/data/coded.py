@@ -49,27 +49,16 @@ def words(data: Data) -> Data:
     >>> study["status"].values.tolist(), dm.words(study["status"]).values.tolist()
     ([[0], [0]], [['ok'], ['ok']])
     """
-    kinds = (xr.DataArray, xr.Dataset, xr.DataTree)
-    rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
-    require((isinstance(data, kinds), "data", data, rule))
-    if isinstance(data, xr.DataArray):
-        return _words_of(data)
+    if isinstance(data, xr.DataTree):
+        return data.map_over_datasets(words)
     if isinstance(data, xr.Dataset):
-        return _words_in(data)
-    return data.map_over_datasets(_words_in)
-
-
-def _words_in(data: xr.Dataset) -> xr.Dataset:
-    """A dataset with words in place of all numbers that stand for them."""
-    return data.assign({name: _words_of(x) for name, x in data.items() if CODED in x.attrs})
-
-
-def _words_of(variable: xr.DataArray) -> xr.DataArray:
-    """A variable with words in place of numbers that stand for them."""
-    if CODED not in variable.attrs:
-        return variable
-    worded = variable.copy(data=flag_names(variable))
-    worded.attrs = {key: x for key, x in variable.attrs.items() if key not in OF_NUMBERS}
+        return data.assign({name: words(x) for name, x in data.items() if CODED in x.attrs})
+    rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
+    require((isinstance(data, xr.DataArray), "data", data, rule))
+    if CODED not in data.attrs:
+        return data
+    worded = data.copy(data=flag_names(data))
+    worded.attrs = {key: x for key, x in data.attrs.items() if key not in OF_NUMBERS}
     return worded
 
 

@@ -15,7 +15,15 @@ import xarray as xr
 from disc_model.arrays import ComplexArray
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import known_of
-from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes, message_of
+from disc_model.data.variables import (
+    CHOICES,
+    SCALARS,
+    SERIES,
+    STATUSES,
+    Variable,
+    attributes,
+    message_of,
+)
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
@@ -99,25 +107,22 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
     result : a dataset, a result of this package, whose attributes become variables, a mapping, or one number
     function : its name, if it is one of this package
     """
-    message = message_of(result)
-    if isinstance(result, xr.Dataset):
-        data = result
-        message = result.attrs.get("message", "")
-    elif hasattr(result, "to_dataset"):
-        data = result.to_dataset()
-        own = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
-        data = data.assign(_dataset_of_values(own, type(result).__name__))
-    else:
-        kind = type(result).__name__ if is_dataclass(result) else function
-        data = _dataset_of_values(_values_of(result), kind)
+    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
+    data = result if isinstance(result, xr.Dataset) else _dataset_of(result, function)
     if not data.variables:
         rule = "must return a number, a mapping of numbers, words and arrays of one dimension, or a dataset"
         raise ParameterError(Fault(("function",), function, rule))
-    status = "ok"
-    if not isinstance(result, Mapping):
-        status = str(getattr(result, "status", status))
-    missing = {"status": status, "message": message}
-    return with_real_parts(xr.Dataset({**missing, **data.data_vars}, data.coords))
+    return with_real_parts(xr.Dataset({**words, **data.data_vars}, data.coords))
+
+
+def _dataset_of(result: Any, function: str) -> xr.Dataset:
+    """The dataset of a result, with its attributes as variables, or of its values."""
+    kind = type(result).__name__ if is_dataclass(result) else function
+    if not hasattr(result, "to_dataset"):
+        return _dataset_of_values(_values_of(result), kind)
+    data = result.to_dataset()
+    stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
+    return data.assign(_dataset_of_values(stated, kind))
 
 
 def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
@@ -127,9 +132,9 @@ def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
     for name, value in values.items():
         array = np.asarray(str(value) if isinstance(value, str) else value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            coded = name not in known or known[name].flags
-            attrs = {} if coded else known[name].texts()
-            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, attrs)
+            said = known.get(name, Variable(units=""))
+            attrs = {} if said.flags else said.texts()
+            variables[name] = ((f"{name}_index",)[: array.ndim], array, attrs)
     return xr.Dataset(variables)
 
 

@@ -8,7 +8,7 @@ import json
 from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
 import xarray as xr
 
@@ -30,36 +30,22 @@ __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 CONVENTIONS = "CF-1.11"
 
 
-class HasDataset(Protocol):
-    """A result that becomes a dataset, such as a `Branch` or a `Critical`."""
-
-    def to_dataset(self) -> xr.Dataset: ...
-
-
-class SavesItself(Protocol):
-    """A result that writes itself to a file, such as a `Result`."""
-
-    def save(self, path: str | Path) -> None: ...
-
-
 # ---- Writing
 
 
-def save(
-    data: xr.Dataset | xr.DataArray | xr.DataTree | HasDataset | SavesItself, path: str | Path
-) -> None:
+def save(data: Any, path: str | Path) -> None:
     """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
 
     Parameters
     ----------
-    data : of numbers and words; discs along a dimension are written as text, in JSON, and None beside them, the
-        plate, as "plate". A `Branch` and what `critical` returns are written as the dataset of their method
-        `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A `Result` or a `State` is
-        written by its method `save`, to .nc, and read by its method `load`
+    data : an xarray.Dataset or xarray.DataTree of numbers and words; discs along a dimension are written as text, in
+        JSON, and None beside them, the plate, as "plate". A `Branch` and what `critical` returns are written as the
+        dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
+        `Result` or a `State` is written by its method `save`, to .nc, and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
-        heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. All variables must stand
-        along the dimensions of one of them: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``.
-        Tables are for other programs: `load` reads none
+        heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
+        fewer dimensions are repeated: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``. Tables are
+        for other programs: `load` reads none
 
     Returns
     -------
@@ -177,24 +163,19 @@ def load_tree(path: str | Path) -> xr.DataTree:
     """As `load`, always as a tree."""
     file = regular_file(path)
     try:
-        groups = xr.open_groups(file, engine="netcdf4", decode_timedelta=False)
-        try:
-            # DataTree.load skips a variable with its group's name
-            return xr.DataTree.from_dict({name: _loaded(each) for name, each in groups.items()})
-        finally:
-            for each in groups.values():
-                each.close()
+        return xr.load_datatree(file, engine="netcdf4", decode_timedelta=False).map_over_datasets(
+            _with_words
+        )
     except FileNotFoundError:
         raise MissingFile(f"{file}: there is no such file") from None
     except Exception as error:  # whatever a file of another kind leads the libraries to
         raise unreadable(file, getattr(error, "strerror", None) or error) from error
 
 
-def _loaded(group: xr.Dataset) -> xr.Dataset:
-    """A group in memory, whose words are text of numpy's own."""
-    loaded = group.load()
-    words = {name: x.astype(str) for name, x in loaded.variables.items() if x.dtype.kind == "O"}
-    return loaded.assign(words)
+def _with_words(group: xr.Dataset) -> xr.Dataset:
+    """A group whose words are text of numpy's own."""
+    words = {name: x.astype(str) for name, x in group.variables.items() if x.dtype.kind == "O"}
+    return group.assign(words)
 
 
 def load_result(path: str | Path) -> xr.DataTree:

@@ -37,9 +37,11 @@ def branch_of_sweep(data: xr.Dataset) -> xr.Dataset:
     rule = f"must be a branch, but this point of the sweep failed: {row['message'].item()}"
     require((row["status"].item() == "ok", "data", "", rule))
 
-    single = [name for name, values in row.variables.items() if not values.ndim]
-    own = row.drop_vars(single)
-    own = own.rename_dims({dim: str(dim).removesuffix("_index") for dim in own.dims})
+    # numbers of places, which a sweep has as variables, and what has no place along a dimension
+    unplaced = [name for name, x in row.variables.items() if not x.ndim or name in PRESENT]
+    own = row.drop_vars(unplaced)
+    padded = [dim for dim in PRESENT if f"{dim}_index" in own.dims]
+    own = own.rename_dims({f"{dim}_index": dim for dim in padded})
     for dim, name in PRESENT.items():
         own = own.dropna(dim, how="all", subset=[name])
     own = own.assign({name: own[name].astype(kind) for name, kind in TYPES.items()})
