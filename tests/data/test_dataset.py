@@ -53,10 +53,6 @@ def sweep() -> xr.Dataset:
     return dm.sweep(dm.floquet, P, zip={"N": [150, 200], "mu_k": [0.2, 0.41]})
 
 
-def discs() -> xr.Dataset:
-    return dm.sweep(dm.steady_sliding, dm.Parameters(N=100, Omega=20), disc=[None, DISC])
-
-
 # ---- What comes back
 
 
@@ -65,32 +61,24 @@ def discs() -> xr.Dataset:
 )
 def test_data_come_back_as_they_were(make: Any, tmp_path: Path) -> None:
     data = make()
-    dm.save(data, tmp_path / "a.nc")
-    found = dm.load(tmp_path / "a.nc")
+    longest = tmp_path / f"{'x' * 252}.nc"
+    dm.save(data, longest)
+    found = dm.load(longest)
     xr.testing.assert_identical(found, data)
     kinds = {name: x.dtype.kind for name, x in data.variables.items()}
     assert {name: x.dtype.kind for name, x in found.variables.items()} == kinds
     dm.save(data, tmp_path / "b.nc")
-    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+    assert longest.read_bytes() == (tmp_path / "b.nc").read_bytes()
 
 
-def test_what_has_a_dataset_or_a_method_save_is_saved(tmp_path: Path) -> None:
-    path = tmp_path / "x.nc"
-    growth = ALL_KINDS["growth"]
-    dm.save(growth, path)
-    xr.testing.assert_identical(dm.load(path), growth.to_dataset())
-    dm.save(RUN, path)
-    assert dm.Result.load(path) == RUN
-    dm.save(RUN.final_state, path)
-    assert dm.State.load(path) == RUN.final_state
-
-
-def test_discs_are_text(tmp_path: Path) -> None:
-    for name, read in (("x.nc", dm.load), ("x.csv", pd.read_csv)):
-        dm.save(discs()[["growth_rate"]], tmp_path / name)
-        plate, other = np.asarray(read(tmp_path / name)["disc"])
-        assert plate == "plate"
-        assert dm.Disc.model_validate_json(other) == DISC
+@pytest.mark.parametrize(("name", "read"), [("x.nc", dm.load), ("x.csv", pd.read_csv)])
+def test_discs_are_text(name: str, read: Any, tmp_path: Path) -> None:
+    case = dm.Parameters(N=100, Omega=20)
+    swept = dm.sweep(dm.steady_sliding, case, disc=[None, DISC])
+    dm.save(swept[["growth_rate"]], tmp_path / name)
+    plate, other = np.asarray(read(tmp_path / name)["disc"])
+    assert plate == "plate"
+    assert dm.Disc.model_validate_json(other) == DISC
 
 
 def test_complex_numbers_are_two_variables() -> None:
@@ -141,22 +129,16 @@ def test_a_table_has_units_in_its_heads_and_words(
         assert name not in table or {*table[name]} == words
 
 
-def test_a_run_as_tables(tmp_path: Path) -> None:
-    RUN.to_csv(tmp_path / "run")
-    samples = pd.read_csv(tmp_path / "run" / "all.csv")
-    np.testing.assert_array_equal(samples["P (N)"], RUN["all"]["P"])
-    events = pd.read_csv(tmp_path / "run" / "events.csv")
-    assert events.columns[:3].tolist() == ["time (s)", "kind", "phase"]
-    assert events["kind"].tolist() == RUN.events["kind"].tolist()
+PHASE = ALL_KINDS["phase"]
 
 
 @pytest.mark.parametrize(
     ("data", "expected"),
     [
-        (ALL_KINDS["phase"], ["stick", "slip", "stick"]),
-        (ALL_KINDS["phase"].where(ALL_KINDS["Omega"] > 1), ["", "slip", "stick"]),
-        (ALL_KINDS["status"][0], ["ok", "", "two words "]),
+        (PHASE, ["stick", "slip", "stick"]),
+        (PHASE.where(ALL_KINDS["Omega"] > 1), ["", "slip", "stick"]),
         (dm.words(ALL_KINDS)["phase"], ["stick", "slip", "stick"]),
+        (xr.DataArray(np.array(["yes", None], object), attrs=FLAGS), ["yes", ""]),
         (dm.words(RUN.to_tree())["events/kind"], RUN.events["kind"].tolist()),
     ],
 )
@@ -234,17 +216,6 @@ def test_what_cannot_be_read_is_one_clear_error(read: Any, tmp_path: Path) -> No
             read(path)
     with refusal("^path=.*: must be the name of a file"):
         read(tmp_path)
-
-
-def test_a_damaged_array_is_noticed(tmp_path: Path) -> None:
-    """By the checksums in the file."""
-    path = tmp_path / "a.nc"
-    dm.save(xr.Dataset({"x": ("t", np.random.default_rng(1).random(5000))}), path)
-    damaged = bytearray(path.read_bytes())
-    damaged[len(damaged) // 2] ^= 1
-    path.write_bytes(damaged)
-    with pytest.raises(UnreadableFile):
-        dm.load(path)
 
 
 # ---- Files of named cases

@@ -1,8 +1,6 @@
 """The table of variables: names, units and words."""
 
-import numpy as np
 import pytest
-import xarray as xr
 
 from disc_model import Parameters
 from disc_model.analysis.classify import Settled
@@ -14,34 +12,15 @@ from disc_model.data.variables import (
     SCALARS,
     SERIES,
     STABLE_CYCLES,
-    STATUSES,
     WORDS,
     CycleStatus,
     Outcome,
-    Variable,
     attributes,
     attributes_of_number,
-    flag_names,
     values_text,
 )
 from disc_model.errors import Status
 from disc_model.simulation.result import EVENT_ROW, SAMPLE_ROW
-
-
-@pytest.mark.parametrize(
-    ("known", "value", "dtype"),
-    [
-        (SCALARS["status"], STATUSES.index("failed"), np.int8),
-        (SCALARS["steps"], 0, np.int64),
-        (SCALARS["first_separation"], np.nan, np.float64),
-        (SERIES["kind"], 0, np.int8),  # without a word for it, the first one
-    ],
-)
-def test_points_that_are_missing_have_a_value_that_says_so(
-    known: Variable, value: float, dtype: type
-) -> None:
-    np.testing.assert_array_equal(known.empty((2,)), [value, value])
-    assert known.empty((2,)).dtype == dtype
 
 
 @pytest.mark.parametrize(
@@ -112,17 +91,3 @@ def test_words_of_flags_are_those_of_the_enumerations() -> None:
 
 def test_the_engine_records_what_the_table_describes() -> None:
     assert SERIES.keys() == {*EVENT_ROW, *SAMPLE_ROW} - {"direction"}
-
-
-@pytest.mark.parametrize(
-    ("values", "words"),
-    [
-        (np.array([1, 0], np.int8), ["yes", "no"]),
-        ([np.nan, 0.0], ["", "no"]),
-        (["yes", "else"], ["yes", "else"]),
-        (np.array(["yes", None], object), ["yes", ""]),
-    ],
-)
-def test_flags_are_words_by_their_numbers(values: object, words: list[str]) -> None:
-    flags = xr.DataArray(values, attrs=Variable("1", "a flag", ("no", "yes")).attributes)
-    assert flag_names(flags).tolist() == words
