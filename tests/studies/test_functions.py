@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from disc_model.studies.registry import quantity_of
+from disc_model.studies.whole_study import run_study
 
 import disc_model as dm
 from disc_model.data.variables import flag_names
 from disc_model.studies import functions
-from disc_model.studies.registry import quantity_of
-from disc_model.studies.whole_study import run_study
 from tests.refusals import refusal
 
 P = dm.Parameters(N=385, Omega=14)

@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 import pytest
+from disc_model.studies.batch import read_infinity
+from disc_model.studies.registry import quantity_names, quantity_of
 
 from disc_model import floquet
 from disc_model.data.described import known_of
 from disc_model.data.variables import COMMON, WORDS, Variable, attributes_of_number, flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.studies.batch import read_infinity
 from disc_model.studies.grid import VARIED
 from disc_model.studies.quantity import Point, Quantity, Range, holds, with_ends
-from disc_model.studies.registry import quantity_names, quantity_of
 from disc_model.studies.run import describe
 from tests.refusals import refusal
 from tests.studies.conftest import compute, computed

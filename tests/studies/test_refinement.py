@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from disc_model.studies.refinement import Tile, TileOptions
 
 from disc_model.analysis.spectra import modes_at_rest
 from disc_model.data.variables import CycleStatus, Outcome
@@ -17,7 +18,6 @@ from disc_model.stability.linear_motion import NearCycle
 from disc_model.stability.outcome import OutcomeResult
 from disc_model.studies import refinement
 from disc_model.studies.quantities.regions import Regions
-from disc_model.studies.refinement import Tile, TileOptions
 
 Index = tuple[int, int]
 NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)

@@ -46,7 +46,7 @@ def _parts(given: Any) -> Any:
         raise ValueError(
             "must be a list of values and ranges, or a range {start, stop, count or step}"
         )
-    return parts
+    return [Range.model_validate(part) if isinstance(part, Mapping) else part for part in parts]
 
 
 NumberOrUnit = Annotated[Any, WithJsonSchema({"type": ["number", "string"]})]
@@ -164,7 +164,7 @@ class Grid:
     Attributes
     ----------
     quantity, options : and what the file says of it
-    case : the first possible one, with the values that do not vary
+    case, first : the first possible one, and what of it varies
     dims : columns by dimension, in the order of `VARIED`
     points : a row each
     discs : tables by the words that stand for them
@@ -175,6 +175,7 @@ class Grid:
     quantity: Quantity
     options: Any
     case: Parameters
+    first: Mapping[str, Any]
     dims: Mapping[str, pd.DataFrame]
     points: pd.DataFrame
     discs: Mapping[str, Disc]
@@ -306,7 +307,8 @@ def grid_of(
         raise_faults(
             [Fault(("axes",), "", f"must make at most {MOST_POINTS} points, and not {number}")]
         )
-    points = expand(dims, rules, {**dict(Parameters(N=0, Omega=0)), **base})
+    beside = {**dict(Parameters(N=0, Omega=0)), **base} if rules else {}
+    points = expand(dims, rules, beside)
     if points.empty:
         raise_faults([Fault(("where",), "", "leaves no point")])
     plane: tuple[str, ...] = ()
@@ -317,11 +319,12 @@ def grid_of(
             raise_faults([Fault(("axes",), "", rule)])
     used: Iterable[Any] = points["disc"].unique() if "disc" in points else []
     known = {str(name): discs[name] for name in used}
-    case = _first_case(points, {**dict.fromkeys({*own} & {*REQUIRED}, 0.0), **base}, known)
+    case, first = _first_case(points, {**dict.fromkeys({*own} & {*REQUIRED}, 0.0), **base}, known)
     return Grid(
         quantity,
         options,
         case,
+        first,
         dims,
         points,
         known,
@@ -333,9 +336,9 @@ def grid_of(
 
 def _first_case(
     points: pd.DataFrame, base: Mapping[str, Any], discs: Mapping[str, Disc]
-) -> Parameters:
-    """The case of the first point that is possible; raises `ParameterError`, with what is wrong at the
-    first point, if none is."""
+) -> tuple[Parameters, dict[str, Any]]:
+    """The case of the first point that is possible, and what of it varies; raises `ParameterError`,
+    with what is wrong at the first point, if none is."""
     faults: list[Fault] = []
     for point in records(points):
         given = {**base, **point}
@@ -345,7 +348,7 @@ def _first_case(
         if isinstance(values.get("disc"), str):
             values["disc"] = discs[values["disc"]]
         try:
-            return Parameters(**values)
+            return Parameters(**values), {name: values[name] for name in point if name in values}
         except ParameterError as error:
             faults = faults or [
                 each.inside(("axes",) if each.path[0] in points else ("base",))

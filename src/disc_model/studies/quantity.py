@@ -149,7 +149,7 @@ BETWEEN: Rules = (
 
 def _listed(given: Any) -> Any:
     """A list of values, in which ranges are replaced by theirs."""
-    parts = [given] if isinstance(given, Mapping) else given
+    parts = [given] if isinstance(given, Mapping | int | float | str) else given
     if not isinstance(parts, list | tuple | np.ndarray):
         return given
     values: list[Any] = []
@@ -158,7 +158,11 @@ def _listed(given: Any) -> Any:
     return values
 
 
-Values = Annotated[tuple[Finite, ...], BeforeValidator(_listed), Field(min_length=1)]
+Values = Annotated[
+    tuple[Finite, ...],
+    BeforeValidator(_listed, json_schema_input_type=list[Finite | Range] | Range | Finite),
+    Field(min_length=1),
+]
 """Numbers: a list of them and of ranges {start, stop, count or step, scale}, or one range."""
 
 
@@ -369,7 +373,9 @@ def found(
                 cuts[dim] = f"{length} were found along {dim}, {room}"
     texts = []
     for text in [message] if isinstance(message, str) else message:
-        texts.append("; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()])))
+        texts.append(
+            "; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()]))
+        )
     said = ((), texts[0]) if isinstance(message, str) else ([*coords][0], texts)
     return xr.Dataset({**variables, "message": said}, coords)
 

@@ -6,6 +6,7 @@ import json
 import logging
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,13 @@ def points_of(layout: Layout) -> list[dict[str, Any]]:
     for point in layout["points"]:
         points.append({name: x if name in WORDS else _number(x) for name, x in point.items()})
     return points
+
+
+def _known_or_made(
+    case: Parameters, first: Mapping[str, Any], make: Callable[..., Parameters], **changes: Any
+) -> Parameters:
+    """The case of the first point, which is made already, or another one."""
+    return case if changes == first else make(**changes)
 
 
 def _case(base: Mapping[str, Any], **changes: Any) -> Parameters:
@@ -275,5 +283,6 @@ def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -
     assert grid is not None
     layout = grid.layout
     call = call_of({**layout, "axes": {dim: grid.dims[dim][dim].tolist() for dim in grid.plane}})
+    call = replace(call, make=partial(_known_or_made, grid.case, grid.first, call.make))
     rows = compute(call, grid.rows, map=map, title=grid.quantity.name, progress=progress)
     return merge(layout, [_along_points(layout, grid.rows, rows)], study.attrs)

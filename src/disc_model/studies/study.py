@@ -5,6 +5,7 @@ One `StudyError` lists all faults: those of single values, or those between valu
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, partial, reduce
 from glob import glob
@@ -420,6 +421,9 @@ class Study(Strict):
         for dim, frame in self.grid.dims.items():
             rows = [*frame.itertuples(index=False, name=None)]
             along[dim] = [row[0] for row in rows] if [*frame] == [dim] else rows
+        endless = [name for name in plot.axes.values() if math.inf in along.get(name, [])]
+        if endless:
+            return [Fault(("x",), endless[0], "has the value inf, which no axis can show")]
         variables = {}
         columns = self.grid.quantity.columns
         for name, column in columns.items():

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from disc_model.studies.merge import summarised
 from scipy.optimize import brentq
 
 import disc_model as dm
@@ -14,7 +15,6 @@ from disc_model.data.variables import CycleStatus, flag_names
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import FloquetResult
 from disc_model.stability.frequencies import frequencies
-from disc_model.studies.merge import summarised
 from disc_model.studies.quantities.campbell import Campbell, Rates, effect_of, frequency_of
 from disc_model.studies.quantity import Point
 from tests.studies.conftest import SMALL, computed

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from disc_model.studies.whole_study import run_study
 
 from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.parameters import Parameters
 from disc_model.studies.quantities.range_law import BEGINS, SEPARATION, RangeLaw, _measure
 from disc_model.studies.quantity import Point
-from disc_model.studies.whole_study import run_study
 
 SHARE = 0.95  # of height and contact force, that one frequency has to carry
 LIMIT = 0.05  # largest deviation from the law

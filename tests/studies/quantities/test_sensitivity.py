@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from disc_model.studies.distributions import BLOCK, TruncatedNormal, quantile, unit_draws
 from scipy import stats
 
 from disc_model.parameters import Parameters
-from disc_model.studies.distributions import BLOCK, TruncatedNormal, quantile, unit_draws
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.quantities.sensitivity import Sensitivity
 from disc_model.studies.quantity import Row

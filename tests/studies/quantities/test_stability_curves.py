@@ -4,10 +4,10 @@ from typing import Any
 
 import numpy as np
 import pytest
+from disc_model.studies.quantities.stability_curves import StabilityCurves
 
 from disc_model.parameters import Parameters
 from disc_model.stability import curves
-from disc_model.studies.quantities.stability_curves import StabilityCurves
 from disc_model.studies.quantity import Point
 
 

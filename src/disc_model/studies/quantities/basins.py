@@ -47,7 +47,7 @@ Separates = Callable[[float, int, int], bool]
         ),
     ),
 )
-def basins(  # noqa: PLR0913
+def basins(
     case: Parameters,
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,),
     n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1,

@@ -49,7 +49,7 @@ distinguish branches; ranges between points of a steep branch are known roughly.
         ),
     ),
 )
-def branches(  # noqa: PLR0913
+def branches(
     case: Parameters,
     *,
     name: Free = "Omega",

@@ -27,7 +27,8 @@ PRECISION = 0.1
 Horizons = Annotated[
     tuple[Seconds, ...],
     BeforeValidator(
-        lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist()
+        lambda given: given if isinstance(given, Sequence) else np.atleast_1d(given).tolist(),
+        json_schema_input_type=list[Seconds] | Seconds,
     ),
     AfterValidator(lambda horizons: tuple(sorted(set(horizons)))),
     Field(min_length=1, validate_default=True),
@@ -55,7 +56,7 @@ def _ratio(step: float, precision: float | None) -> float:
         ),
     ),
 )
-def critical_speed(  # noqa: PLR0913
+def critical_speed(
     case: Parameters,
     bounds: Annotated[tuple[Finite, Finite], Unit("rad/s")] = (5.0, 30.0),
     horizon: Horizons = 1000.0,  # type: ignore[assignment]

@@ -143,7 +143,7 @@ def lyapunov_exponents(
         (lambda o: o.bounds[0] < o.bounds[1], "bounds={0.bounds} must ascend"),
     ),
 )
-def neutral_curves(  # noqa: PLR0913
+def neutral_curves(
     case: Parameters,
     *,
     x: Free = "Omega",

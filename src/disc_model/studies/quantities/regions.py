@@ -131,7 +131,9 @@ class _Point:
         return self.result.near
 
 
-def _point(case: Parameters, horizon: float, compared_with: tuple[float, ...], tol: float) -> _Point:
+def _point(
+    case: Parameters, horizon: float, compared_with: tuple[float, ...], tol: float
+) -> _Point:
     """The cycle at a point, and the outcome."""
     from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
     from disc_model.stability.outcome import find_outcome
@@ -142,7 +144,9 @@ def _point(case: Parameters, horizon: float, compared_with: tuple[float, ...], t
             return _Point(start, Outcome.STICK_SLIP, None)
         if start.stays_linear_until(horizon):
             return _Point(start, Outcome.GROWING, None)
-    return _Point(start, "", find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with))
+    return _Point(
+        start, "", find_outcome(case, horizon, tol=tol, near=start, compared_with=compared_with)
+    )
 
 
 def _outcome_columns(point: _Point) -> dict[str, Any]:
