@@ -188,8 +188,6 @@ CHOICES: dict[str, tuple[str, ...]] = {
 }
 # flag of points that a grid's rule leaves out; other variables have no value there
 EXCLUDED = "excluded"
-# the dimension of a grid that numbers the samples of distributed parameters
-SAMPLE = "sample"
 TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
 """Attributes of numbers that stand for True and False, since some are missing."""
 
