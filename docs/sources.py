@@ -11,7 +11,7 @@ import xarray as xr
 from docs.sentences import NUMBER, ROOT, Value, numbers_of
 
 import disc_model as dm
-from disc_model.data.dataset import Missing, MissingFile, load
+from disc_model.data.dataset import Missing, MissingFile, load_tree
 from disc_model.data.variables import flag_names
 from disc_model.figures.shown import shown
 from disc_model.figures.studies import lost_contact, thirds_of
@@ -622,7 +622,7 @@ def _contact_loss(p: dm.Parameters) -> float:
 @cache
 def _load(path: Path) -> xr.DataTree:
     """Return a dataset."""
-    return load(path)
+    return load_tree(path)
 
 
 @cache

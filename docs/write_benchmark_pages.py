@@ -22,7 +22,7 @@ from benchmarks import work_precision
 from benchmarks.answers import in_words
 from benchmarks.methods import METHODS
 from benchmarks.scenes import CONVERGED, JUDGED
-from disc_model.data.dataset import load, markdown_table
+from disc_model.data.dataset import load_tree, markdown_table
 from disc_model.errors import DiscModelError, script
 
 SPEED = {"work_precision", "work_precision_avx2", "answers"}
@@ -315,7 +315,7 @@ def measured_numbers(folder: Path) -> dict[str, Any]:
     for name in (*SPEED, "scaling", "shares"):
         path = folder / f"{name}.nc"
         if path.is_file():
-            datasets[name] = load(path).to_dataset()
+            datasets[name] = load_tree(path).to_dataset()
     numbers: dict[str, Any] = {}
     if datasets.keys() >= SPEED:
         numbers = speed_numbers(

@@ -11,7 +11,6 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.data import dataset
 from disc_model.studies.registry import quantity_names
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
@@ -174,7 +173,6 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (dm.save, {"data": GRID, "path": "x.nc"}, {}),
     (dm.words, {"data": GRID}, {}),
     *((function, {}, {"path": "text"}) for function in (dm.load, dm.Result.load)),
-    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text", "compressed": "True"}),
 ]
 ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")

@@ -20,7 +20,7 @@ __version__ = "0.3.0"
 
 _NAMES = {
     "data.coded": "words",
-    "data.exchange": "load save",
+    "data.dataset": "load save",
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
@@ -66,7 +66,7 @@ __all__ = [*_HOMES, "__version__"]
 if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
     from disc_model.data.coded import words
-    from disc_model.data.exchange import load, save
+    from disc_model.data.dataset import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
     from disc_model.errors import (

@@ -16,7 +16,7 @@ from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
 
 from disc_model.data.dataset import Missing
-from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.data.swept_branches import is_of_sweep
 from disc_model.disc.plate import mode_arrays, radial_range
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures import runs, stability
@@ -249,8 +249,8 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     units = Wishes(variable=variable, x=x, units=units).units
     data = study.to_dataset() if isinstance(study, xr.DataTree) else study
     if is_of_sweep(data):
-        each = f"disc_model.Branch.from_dataset({selected_text(data, 'study')})"
-        raise ParameterError(Fault(("study",), "", f"holds branches: draw one by {each}.plot()"))
+        rule = "holds branches: draw one by disc_model.Branch.from_dataset(study.isel(N=0)).plot()"
+        raise ParameterError(Fault(("study",), "", rule))
     single = [dim for dim, size in data.sizes.items() if size == 1 and dim != x]
     data = swapped(data.squeeze(single).compute(), x)
     name = chosen(data, variable, x)

@@ -286,8 +286,8 @@ class Result(Summarised, EqualByValue):
         >>> print(open("run/events.csv").readline().strip())
         time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
         """
+        from disc_model.data.coded import table_of
         from disc_model.data.columns import series_dataset
-        from disc_model.data.tables import table_of
 
         is_path = isinstance(path, str | os.PathLike)
         require((is_path, "path", str(path), "must be the name of a folder"))

@@ -20,8 +20,8 @@ WORDS = ("kind", "label", "phase")
 """Variables of words, which have no unit."""
 OF_BOTH = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
 """Variables of cycles and of special points."""
-OF_CYCLES = (*OF_BOTH, "separations", "diameters", "multipliers")
-OF_POINTS = (*OF_BOTH, "kind", "label", "multiplier", "after", "changes_stability")
+OF_CYCLES = (*OF_BOTH, "separations", "diameters")
+OF_POINTS = (*OF_BOTH, "kind", "label", "after", "changes_stability")
 
 
 @pytest.fixture(scope="module")
@@ -41,6 +41,8 @@ def test_a_dataset_has_what_the_branch_has(branch: Branch, data: xr.Dataset) -> 
     for name in OF_CYCLES:
         known = getattr(branch, name)
         assert_array_equal(data[name], known)
+    assert_array_equal(data["multipliers_real"], branch.multipliers.real)
+    assert_array_equal(data["multipliers_imag"], branch.multipliers.imag)
     speeds = branch.values[:, 0]
     assert_array_equal(data["Omega"], speeds)
     assert data.ended == branch.ended
@@ -75,6 +77,7 @@ def test_special_points_are_a_dimension_of_their_own(branch: Branch, data: xr.Da
             assert row[f"special_{name}"] == known
         assert row["special_Omega"] == special.values[0]
         assert row["special_u"] == special.state.u
+        assert row["special_multiplier_real"] == special.multiplier.real
         assert_array_equal(row["special_alpha"], special.state.alpha)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.arrays import Array, ComplexArray, Indices, Mask
+from disc_model.data.columns import complex_values, with_real_parts
 from disc_model.data.variables import OF_RESULTS, attributes_of_number, unit_of_parameter
 from disc_model.display import counted, drawings
 from disc_model.errors import Fault, raise_faults, require, rule_of_choice
@@ -154,9 +155,10 @@ class Branch:
         Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
         `stick_fraction`, `range`, `u_min` and `u_max` (m, for which each cycle is simulated for a period),
         `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
-        `multipliers`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
-        `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
-        `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
+        `multipliers_real` and `multipliers_imag`, and the cycle's state on the section: `psi`, `f`, `u`,
+        `u_velocity`, `phase`, `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`,
+        each with the beginning `special_`:
+        `special_kind`, `special_label`, the parameters, `special_multiplier_real` and `_imag`, `special_after`,
         `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
         the case's `parameters` in JSON, and `not_reached` if there are such values.
 
@@ -203,7 +205,7 @@ class Branch:
             period=data["period"].values,
             stick_fraction=data["stick_fraction"].values,
             growth_rate=data["growth_rate"].values,
-            multipliers=data["multipliers"].values.astype(complex),
+            multipliers=complex_values(data, "multipliers"),
             diameters=data["diameters"].values,
             separations=data["separations"].values,
             releases=data["releases"].values,
@@ -421,4 +423,5 @@ def _dataset_of(branch: Branch) -> xr.Dataset:
     if len(branch.not_reached):
         attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
     coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
-    return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
+    data = xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
+    return with_real_parts(data)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep, refuse_failed
+from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep
 from disc_model.data.variables import COORDINATES, OF_RESULTS, attributes_of_number
 from disc_model.errors import require
 from disc_model.parameters import Parameters
@@ -36,10 +36,9 @@ class StoredBranch:
     something else."""
 
     def __init__(self, data: xr.Dataset) -> None:
-        refuse_failed(data)
         if is_of_sweep(data):
             data = branch_of_sweep(data)
-        names = ["multipliers", "releases", "special_kind", "u_max", "a", "special_a"]
+        names = ["multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"]
         known = isinstance(data, xr.Dataset) and all(name in data for name in names)
         known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
         rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"

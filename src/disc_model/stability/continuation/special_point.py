@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from disc_model.arrays import Array
+from disc_model.data.columns import complex_values
 from disc_model.data.variables import values_text
 from disc_model.display import Summarised, number_text
 from disc_model.parameters import Parameters
@@ -114,6 +115,7 @@ def stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
     points = []
     modal = stored.modal("special_")
     extremes = stored_extremes(data, "special_")
+    multipliers = complex_values(data, "special_multiplier")
     for i, values in enumerate(stored.values("special_")):
         point = SpecialPoint(
             kind=str(data["special_kind"].values[i]),
@@ -121,7 +123,7 @@ def stored_special_points(stored: StoredBranch) -> tuple[SpecialPoint, ...]:
             period=float(data["special_period"].values[i]),
             stick_fraction=float(data["special_stick_fraction"].values[i]),
             growth_rate=float(data["special_growth_rate"].values[i]),
-            multiplier=complex(data["special_multiplier"].values[i]),
+            multiplier=complex(multipliers[i]),
             after=int(data["special_after"].values[i]),
             case=stored.case_at(values),
             modal=modal[i],

@@ -5,7 +5,7 @@ from typing import Any
 
 import pandas as pd
 
-from disc_model.data.tables import head_of
+from disc_model.data.coded import head_of
 
 WIDTH = 80  # characters of a line of a printed table, as terminals have
 UNITS = "units"
