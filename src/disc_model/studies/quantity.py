@@ -380,11 +380,7 @@ def found(
         texts.append(
             "; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()]))
         )
-<<<<<<< HEAD
     said = ((), texts[0]) if isinstance(message, str) else (next(iter(coords)), texts)
-=======
-    said = ((), texts[0]) if isinstance(message, str) else ([*coords][0], texts)
->>>>>>> h/lead
     return xr.Dataset({**variables, "message": said}, coords)
 
 
