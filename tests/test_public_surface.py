@@ -11,7 +11,6 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.studies.quantity import HOMES
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {
@@ -211,13 +210,3 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
     assert hash(first) == hash(compute(case))
     assert first != compute(case.replace(E=1.01 * case.E))
     assert first != 3
-
-
-def test_quantities_that_are_no_functions_lead_to_studies() -> None:
-    """A notebook had no `bifurcation` or `campbell`, and did not say where these are."""
-    assert {*dm._OF_STUDIES} == {*HOMES} - {*dm.__all__}
-    for name in dm._OF_STUDIES:
-        with pytest.raises(AttributeError, match=f"run_study.*{name}"):
-            getattr(dm, name)
-    for name in ("bifurcation", "campbell", "run_study"):
-        assert name in str(dm.__doc__)

@@ -279,7 +279,8 @@ class Strict(BaseModel):
     def _in_si(cls, data: Any, handler: Any) -> Any:
         """Convert numbers with units."""
         if isinstance(data, dict):
-            faults: list[Fault] = []
+            wrong = [name for name in data if not isinstance(name, str)]
+            faults = [Fault.of((str(name),), data[name], "a name must be text") for name in wrong]
             data = in_si(data, cls._units(data), faults, ())
             raise_faults(faults)
         return handler(data)

@@ -498,8 +498,8 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     """Speeds at which separation begins and ends on ramps of the speed, against their rate; a line where
     the stable cycle ends, the limit of slow ramps."""
     figure, [ax] = row(1, 2.4)
-    options = stated_in(study, "options")
-    low, high = (placed(study["onset_speed"], options[end]) for end in ("low", "high"))
+    bounds = stated_in(study, "options")["bounds"]
+    low, high = (placed(study["onset_speed"], end) for end in bounds)
     for name, way, end, edge, marker, colour in (
         ("onset_speed", "rising", "begins", UPPER, "^", RED),
         ("offset_speed", "falling", "ends", LOWER, "v", BLUE),
