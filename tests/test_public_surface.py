@@ -54,7 +54,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.choose_modes,
         {"case": P, "quantity": "sliding_growth"},
-        {"case": "dict", "tolerance": "None", "highest_frequency": "None", "progress": "True"},
+        {"case": "dict", "tolerance": "None"},
     ),
     (
         dm.simulate,
@@ -172,10 +172,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (RUN.to_csv, {}, {"path": "text"}),
     (dm.save, {"data": GRID, "path": "x.nc"}, {}),
     (dm.words, {"data": GRID}, {}),
-    *(
-        (function, {}, {"path": "text"})
-        for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)
-    ),
+    *((function, {}, {"path": "text"}) for function in (dm.load, dm.Result.load)),
 ]
 ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")

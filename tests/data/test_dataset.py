@@ -201,7 +201,7 @@ def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "read", [dm.load, dm.Result.load, dm.State.load, load_result, lambda path: load_cases([path])]
+    "read", [dm.load, dm.Result.load, load_result, lambda path: load_cases([path])]
 )
 def test_what_cannot_be_read_is_one_clear_error(read: Any, tmp_path: Path) -> None:
     path = tmp_path / "a.nc"

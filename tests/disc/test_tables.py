@@ -1,7 +1,6 @@
 """Discs given by a table of their modes."""
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +9,7 @@ import xarray as xr
 import yaml
 
 import disc_model as dm
-from disc_model import mode_choice
 from disc_model.disc.plate import mode_arrays, mode_shapes
-from disc_model.errors import DiscModelError
 from disc_model.simulation.states import engine_case
 from disc_model.studies.grid import GridStudy
 from disc_model.studies.merge import merge_batches
@@ -178,41 +175,6 @@ def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFix
     shown = command.out("modes", f"disc={path}")
     for omega in dm.Disc.from_csv(path).omega:
         assert f"{omega:.6g}" in shown
-
-
-@pytest.mark.parametrize(
-    ("growth", "modes", "error"),
-    [
-        (lambda n: 1 + 0.1 / n**2, 3, (0.1 / 9 - 0.1 / 64) / (1 + 0.1 / 64)),
-        (lambda n: 1.0 if n > 1 else np.nan, 2, 0.0),
-    ],
-)
-def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
-    growth: Callable[[int], float], modes: int, error: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Compared with twice as many and with the whole table."""
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: growth(len(p.disc.omega)))
-    disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc}, quantity="growth")
-    assert choice.parameters.disc == disc.first(modes)
-    assert choice.modes == 2 * modes - 1
-    assert choice.rich == (8,)
-    assert choice.error == pytest.approx(error)
-
-
-def test_a_whole_table_is_not_said_to_have_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It was compared with itself where fewer modes did not do, and its error given as 0."""
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: float(len(p.disc.omega)))
-    disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    case = dm.Parameters(N=385, Omega=15.1, disc=disc)
-    with pytest.raises(
-        DiscModelError, match=r"among 5 and 8 modes of the table, .* give a table with more modes"
-    ):
-        dm.choose_modes(case, quantity="growth")
-    with pytest.raises(DiscModelError, match="no fewer than all 2 modes of the table"):
-        dm.choose_modes(case.replace(disc=disc.first(2)), 1e-4)
-    with pytest.raises(DiscModelError, match="only one mode of the table moves at the slider"):
-        dm.choose_modes(case.replace(disc=disc.first(1)), quantity="growth")
 
 
 BRAKES = Path(__file__).parents[2] / "config" / "discs"

@@ -258,7 +258,7 @@ def region_map() -> Example:
             "separation",
             "no cycle found",
             "cycle loses stability",
-            "paper's case and outcome",
+            "paper: separation",
         ),
     )
 
@@ -361,7 +361,7 @@ def ramps() -> Example:
         ),
         (
             "rising: separation begins",
-            "falling: there is no separation on the way down, or it continues",
+            "falling, 8 to 20 rad/s: there is no separation on the way down, or it continues",
             "stable cycle ends (fold), 15.20",
         ),
     )
@@ -430,7 +430,7 @@ def late_range() -> Example:
             ),
             Shown(1, "y", "Relative speed of the disc's surface", speeds, "", "linear"),
         ),
-        ("N = 120 N", "dashed: separation ignored, 1.1 to 2 times the range"),
+        ("N = 120 N", "ringed: separating", "dashed: separation ignored, 1.1 to 2 times the range"),
     )
 
 
@@ -687,7 +687,7 @@ def campbell() -> Example:
             Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
             Shown(1, "y", GROWTH, study["growth_rate"], "1/s"),
         ),
-        ("mode of steady sliding", "2 $f_s$"),
+        ("mode that grows", "2 $f_s$"),
     )
 
 
@@ -706,7 +706,7 @@ def sliding_modes() -> Example:
             Shown(1, "x", DAMPER, study["value"], "N s/m", "linear"),
             Shown(1, "y", "Growth rate of the mode", study["mode_growth_rate"], "1/s"),
         ),
-        ("mode of steady sliding", "growing mode"),
+        ("mode that grows",),
     )
 
 

@@ -432,7 +432,7 @@ def test_lines_are_found_unless_noise_has_one_of_them(
     monkeypatch.setattr(paper_tables, "table_2_lines", lambda case: both)
     monkeypatch.setattr(paper_tables, "table_2", lambda case: table)
     monkeypatch.setattr(paper_tables, "stick_slip_rate", lambda case: 67.0)
-    monkeypatch.setattr(section44.spectra, "chance", lambda *_: chance)
+    monkeypatch.setattr(section44.signals, "chance", lambda *_: chance)
     samples = SimpleNamespace(time=None, values=None)
     case = known(signal=lambda *_: samples)
     found = section44.lines(case, bound=0.5)

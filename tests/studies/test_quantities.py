@@ -1,335 +1,776 @@
-"""What all quantities must keep: a batch has the results of its points, and a failure costs its own
-point alone."""
+"""Quantities of studies: what functions of a case say of motions that are known, and what they refuse."""
 
+import importlib
 import math
-import re
-from collections.abc import Callable
+import pickle
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 import pytest
-from disc_model.studies.batch import read_infinity
-from disc_model.studies.registry import quantity_names, quantity_of
+import xarray as xr
+from scipy import stats
 
-from disc_model import floquet
-from disc_model.data.described import known_of
-from disc_model.data.variables import COMMON, WORDS, Variable, attributes_of_number, flag_names
+import disc_model as dm
+from disc_model.analysis.classify import Settled, Settling
+from disc_model.data.variables import OF_QUANTITIES, CycleStatus, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.studies.grid import VARIED
-from disc_model.studies.quantity import Point, Quantity, Range, holds, with_ends
-from disc_model.studies.run import describe
+from disc_model.stability import attractors
+from disc_model.stability.linear_motion import NearCycle
+from disc_model.stability.outcome import Attractor, OutcomeResult
+from disc_model.studies.quantity import HOMES, Range, quantity_of
 from tests.refusals import refusal
-from tests.studies.conftest import compute, computed
+from tests.stability.test_attractor import stretch
 
-SCAN = {"start": 10, "stop": 20, "count": 2}
-SWEEP = {"dwell": 0.5, "max_dwell": 1, "evaluation_time": 0.2}
-OPTIONS: dict[str, dict[str, Any]] = {
-    "basins": {"energies": [0.01, 0.1], "n_starts": 2, "horizon": 3},
-    "bifurcation": {"transient": 0.5, "samples": 3},
-    "branches": {"scan": SCAN, "max_points": 3} | SWEEP,
-    "campbell": {"modes": 4},
-    "critical_speed": {"horizons": [1, 2], "scan": SCAN, "precision": 5},
-    "floquet": {},
-    "hysteresis": {"scan": SCAN} | SWEEP,
-    "locking": {"transient": 0.5, "record": 0.5, "max_record": 0.5, "releases": 2, "probes": 2},
-    "lyapunov": {"transient": 0.5, "duration": 0.5},
-    "outcome": {"horizon": 2, "evaluation_time": 0.2, "after_separation": 0.2},
-    "ramps": {"low": 10, "high": 12, "rates": {"start": 5, "stop": 10, "count": 2}, "dwell": 0.2},
-    "range_law": {"horizon": 0.6, "displaced_horizon": 0.6, "evaluation_time": 0.4},
-    "regions": {"horizon": 5, "initial_cell_size": 2},
-    "sensitivity": {
-        "distributions": {"k": {"distribution": "uniform", "low": 4e4, "high": 5e4}},
-        "samples": 2,
-        "simulated_samples": 1,
-        "horizon": 1,
-    },
-    "sliding": {"scan": SCAN},
-    "stability_curves": {
-        "x_range": [10, 20],
-        "y_lines": SCAN | {"stop": 200},
-        "points": 3,
-        "max_points": 3,
-    },
-}
+P = Parameters(N=385, Omega=14)
+SEPARATED = {"prerun": {"parameters": {"Omega": 15.1}, "time": 70}}
+NARROW = {"distribution": "uniform", "low": 0.9999, "high": 1.0001, "relative": True}
+FALLING = P.replace(Omega=15, mu_s=0.3, mu_k=0.2, friction_decay=2.0, normalization="orthonormal")
 
 
-def grid(name: str, **batch: Any) -> dict[str, Any]:
-    """A small grid over the damping of the spring, and a plane or the speed where it is needed."""
-    scanned = quantity_of(name).model_validate(OPTIONS[name]).scanned
-    base = {key: value for key, value in {"N": 200, "Omega": 15}.items() if key not in scanned}
-    axes: dict[str, Any] = {"c_p": [0, 0.02, 0.05]}
-    if name in ("campbell", "regions"):
-        axes["Omega"] = [base.pop("Omega"), 16, 17]
-    raw = {
-        "quantity": name,
-        "options": OPTIONS[name],
-        "base": base | {"n_diameters": 1},
-        "axes": axes,
-        "batch": batch,
-    }
-    return {"study": "small"} | raw
+def function_of(name: str) -> Callable[..., xr.Dataset]:
+    """The public function of a quantity, which checks its options and returns words."""
+    module = importlib.import_module(f"disc_model.studies.quantities.{HOMES[name]}")
+    function: Callable[..., xr.Dataset] = getattr(module, name)
+    return function
 
 
-@pytest.mark.compiled
-@pytest.mark.parametrize("name", quantity_names())
-def test_a_batch_of_a_grid_has_the_results_of_its_points(name: str) -> None:
-    """To the last bit: points of a batch share nothing. Tiles of a plane may share a batch."""
-    if name == "regions":
-        tiled = grid(name)
-        tiled["axes"] |= {"normalization": ["as_published", "orthonormal"]}
-        alone = {"over": ["c_p", "Omega"]}
-        together = {"over": ["c_p", "Omega", "normalization"]}
-        one, all_ = (computed(**tiled | {"batch": batch}) for batch in (alone, together))
-    else:
-        one, all_ = (computed(**grid(name, size=size)) for size in (1, 100))
-    assert one.identical(all_.assign_attrs(one.attrs))
-    quantity = quantity_of(name)
-    assert {*quantity.COLUMNS, *quantity.SUMMARY_COLUMNS, "message"} == {*one.data_vars}
-    assert set(np.unique(flag_names(one["status"]))) == {"ok"}
-    numbers = [
-        key for key, column in quantity.COLUMNS.items() if not column.flags and not column.whole
-    ]
-    # there is no curve in so small a plane
-    assert any(np.isfinite(one[key]).any() for key in numbers) or name == "stability_curves"
+def message_of(found: xr.Dataset) -> str:
+    return str(found.attrs["message"])
 
 
-def unexplained(study: Any) -> list[str]:
-    """Numbers that are nan somewhere, and whose attributes do not say why."""
-    found = []
-    for name, variable in study.data_vars.items():
-        missing = variable.dtype.kind in "fc" and np.isnan(variable.values).any()
-        if missing and "missing" not in variable.attrs:
-            found.append(str(name))
-    return found
+# ---- All quantities
 
-
-@pytest.mark.compiled
-@pytest.mark.parametrize("name", quantity_names())
-def test_a_study_says_what_nan_means(name: str) -> None:
-    """Points of a disc at events, energies and whole curves were nan without a word."""
-    options = [{}]
-    if name == "bifurcation":
-        options = [{}, {"section": "event"}]
-    for chosen in options:
-        raw = grid(name)
-        raw["options"] = raw["options"] | chosen
-        assert unexplained(computed(**raw)) == []
-
-
-@pytest.mark.parametrize("name", quantity_names())
-def test_a_quantity_says_how_many_points_a_job_has_and_what_its_motions_show(name: str) -> None:
-    quantity = quantity_of(name)
-    assert "status" in quantity.COLUMNS
-    assert quantity.points_per_job >= 1
-    assert (
-        bool(quantity.motions)
-        == bool(quantity.motion)
-        == (quantity.state_at is not Quantity.state_at)
-    )
-    assert bool(quantity.SUMMARY_COLUMNS) == ("summarise" in vars(quantity))
-
-
-P, Q = (Point(Parameters(N=N, Omega=1)) for N in (1, 0))
-
-
-def made_up_quantity(compute_point: Callable[..., object]) -> SimpleNamespace:
-    """A quantity of one number."""
-    columns = {"status": COMMON["status"], "value": Variable("1", "a number")}
-    return SimpleNamespace(COLUMNS=columns, COORDINATES={}, compute_point=compute_point)
-
-
-@pytest.mark.parametrize("name", quantity_names())
-def test_all_that_a_quantity_gives_has_a_name_and_a_unit_or_classes(name: str) -> None:
-    quantity = quantity_of(name)
-    columns = {**quantity.COLUMNS, **quantity.SUMMARY_COLUMNS}
-    made = quantity.model_validate(OPTIONS[name]).model_dump()
-    for key, column in columns.items():
-        attributes = column.texts(made)
-        assert attributes.get("long_name"), key
-        # the values are of another parameter in each row
-        assert attributes.get("units") or key == "parameter_values", key
-    known = known_of(name)
-    for key in {**quantity.COORDINATES, **quantity.SUMMARY_COORDINATES}:
-        assert known[key].texts(made)["long_name"], key
-
-
-@pytest.mark.parametrize("name", [*VARIED, "sample"])
-def test_all_that_varies_has_a_name(name: str) -> None:
-    assert describe(name)["long_name"]
-
-
-def test_a_numerical_failure_is_the_status_of_its_point() -> None:
-    """One singular matrix used to end all points of a batch."""
-
-    def compute_point(point: Point):
-        N = point.parameters.N
-        return {"status": "ok", "value": np.linalg.solve([[N]], [N**2])[0]}, ""
-
-    table = compute(made_up_quantity(compute_point), [P, Q, P])
-    assert [WORDS["point_statuses"][i] for i in table.arrays["status"]] == ["ok", "failed", "ok"]
-    np.testing.assert_array_equal(table.arrays["value"], [1.0, math.nan, 1.0])
-    assert table.messages == ["", "LinAlgError: Singular matrix", ""]
-
-
-def test_a_mistake_in_the_program_is_no_status() -> None:
-    def compute_point(point: Point):
-        raise KeyError("horizon")
-
-    with pytest.raises(KeyError):
-        compute(made_up_quantity(compute_point), [P])
-
-
-# ---- ranges and rules
-
-
-def test_ranges_have_equal_steps_or_equal_ratios_and_both_ends() -> None:
-    assert Range(start=1, stop=2, step=0.25).values == [1, 1.25, 1.5, 1.75, 2]
-    assert Range(start=0.1, stop=0.5, count=5).values == [0.1, 0.2, 0.3, 0.4, 0.5]
-    assert Range(start=2, stop=162, count=5, scale="log").values == [2, 6, 18, 54, 162]
-    assert Range(start=1, stop=2, step=0.25).intervals == 4
-
-
-@pytest.mark.parametrize(
-    ("rule", "kept"),
-    [
-        ("mu_k <= mu_s", True),
-        ("mu_k < 0.2 or N > 300", False),
-        ("1/c > 0", False),  # cannot be evaluated
-        ("contact == 'unilateral'", True),
-        ("contact < 1", False),
-        ("mu_k_over_mu_s == 0.5", True),
-        ("k == 50000", True),  # a value that is not given has that of Table 1
-    ],
-)
-def test_a_rule_compares_all_values_of_a_point(rule: str, kept: bool) -> None:
-    point = {"N": 200, "mu_s": 0.4, "mu_k_over_mu_s": 0.5, "c": 0, "contact": "unilateral"}
-    assert holds([rule], point) is kept
-    assert holds(["N > 100", rule], point) is kept
-
-
-def test_a_share_comes_before_the_ends_of_its_interval() -> None:
-    found = with_ends("share", (0.3, 0.1, 0.6))
-    assert found == {"share": 0.3, "share_low": 0.1, "share_high": 0.6}
-
-
-def test_the_word_for_infinity_is_a_number_where_numbers_stand() -> None:
-    assert read_infinity("friction_decay", "inf") == math.inf
-    assert read_infinity("disc", "inf") == "inf", "the name of a table"
-    assert read_infinity("N", 3.0) == 3.0
-
-
-# ---- single columns
-
-
-def test_the_leading_multiplier_of_a_point_is_that_of_its_cycle() -> None:
-    p = Parameters(N=300, Omega=14, n_diameters=1)
-    cycle = floquet(p)
-    values, _ = quantity_of("floquet")().compute_point(Point(p))
-    largest = cycle.multipliers[np.argmax(np.abs(cycle.multipliers))]
-    assert abs(complex(values["multiplier_re"], values["multiplier_im"])) == abs(largest)
-    assert values["growth_rate"] == pytest.approx(np.log(abs(largest)) / cycle.period)
-    assert values["stick_fraction"] == cycle.stick_fraction
-
-
-def test_exponents_have_converged_or_not_or_are_unknown(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = SimpleNamespace(
-        status=Status.OK,
-        exponents=np.array([0.3, -0.2, -np.inf]),
-        errors=np.array([0.1, 0.2, np.nan]),
-        converged=np.array([True, False, False]),
-        trivial_exponent=0.01,
-        duration=7.0,
-        separations=3,
-    )
-    monkeypatch.setattr("disc_model.stability.lyapunov.lyapunov_exponents", lambda *_, **__: found)
-    monkeypatch.setattr("disc_model.simulation.starts.state_after", lambda *_: None)
-    quantity = quantity_of("lyapunov").model_validate({"transient": 1, "duration": 7})
-    values, _ = quantity.compute_point(P)
-    words = quantity.COLUMNS["converged"].flags
-    assert [words[i] for i in values["converged"]] == ["yes", "no", "unknown"]
-    assert values["averaging_time"] == 7.0
-    assert values["separations"] == 3
-
-
-@pytest.mark.parametrize(
-    ("parameter", "units"),
-    [
-        ("Omega", "rad s-1"),
-        ("mu_k_over_mu_s", "1"),
-        ("omega_2_0", "rad s-1"),
-        ("damping_ratio_2_0", "1"),
-    ],
-)
-def test_numbers_of_modes_have_units_in_datasets_too(parameter: str, units: str) -> None:
-    """They had none."""
-    assert attributes_of_number(parameter)["units"] == units
-
-
-@pytest.mark.parametrize(
-    ("rule", "kept"),
-    [
-        ("mu_k <= mu_s", True),
-        ("mu_k > mu_s", False),
-        ("mu_k / c_p > 0", False),
-        ("n_diameters * normalization != 'x'", False),
-        ("n_diameters == 2", True),
-    ],
-)
-def test_a_rule_that_cannot_be_evaluated_does_not_hold(rule: str, kept: bool) -> None:
-    """Neither a division by zero, nor a word that would be repeated."""
-    values = {"mu_k": 0.2, "mu_s": 0.4, "c_p": 0.0, "n_diameters": 2, "normalization": "x"}
-    assert holds([rule], values) is kept
-
-
-RULES = [
+TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
+    (
+        "floquet",
+        P.replace(N=300),
+        {},
+        {"growth_rate": 0.06907159, "period": 0.014554692, "stick_fraction": 0.2358604},
+    ),
+    (
+        "lyapunov_exponents",
+        P.replace(Omega=15.1),
+        {"transient": 15, "duration": 5, "start": SEPARATED},
+        {"exponent": [-0.1496, -0.1544], "converged": ["no", "no"], "averaging_time": 5},
+    ),
+    (
+        "neutral_curves",
+        P,
+        {"bounds": (14.5, 15.5), "lines": (370, 385), "points": 9, "max_points": 12},
+        {"kind": ["fold", "fold", "none"], "resonance_frequency": [135.419172] * 2, "n_curves": 2},
+    ),
+    (
+        "sliding_modes",
+        FALLING,
+        {"bounds": (10, 50), "step": 20},
+        {"unstable_modes": [1, 3, 3], "largest_growth_rate": [42.786285, 7.8807809, 3.2208469]},
+    ),
+    (
+        "outcome",
+        P.replace(Omega=15.1),
+        {"horizon": 100},
+        {"outcome": "separation", "first_separation": 54.418906, "time_reached": 59.418906},
+    ),
+    (
+        "bifurcation",  # once for each of the two separations in a period
+        P.replace(Omega=14.5),
+        {"transient": 60, "section": "event", "samples": 4, "start": SEPARATED},
+        {"psi": [0.0544399, 0.0719417] * 2, "period_events": 2, "kind": "separating"},
+    ),
+    (
+        "branches",  # the fold lies at 15.0949 rad/s
+        P,
+        {
+            "bounds": (14.75, 15.25),
+            "step": 0.25,
+            "dwell": 60,
+            "evaluation_time": 1,
+            "max_points": 60,
+        },
+        {"n_branches": 2, "separations": [0, 2], "sweep_range": [8.89628e-05, 1.559323e-04]},
+    ),
     (
         "hysteresis",
-        SWEEP | {"scan": SCAN, "dwell": 0.1},
-        "evaluation_time=0.2 must be <= dwell=0.1",
+        P,
+        {"bounds": (14, 16), "dwell": 20, "max_dwell": 80},
+        {"onset_speed": 16, "offset_speed": math.nan, "stay": [20, 20, 80, 20, 20, 20]},
     ),
-    ("branches", SWEEP | {"scan": SCAN, "dwell": 0.1}, "evaluation_time=0.2 must be <= dwell=0.1"),
     (
-        "branches",
-        SWEEP | {"scan": SCAN, "sweep_from": 21},
-        "sweep_from=21 must be <= the scan's last value, 20",
+        "critical_speed",
+        P,
+        {"bounds": (15, 16), "step": 0.5, "horizon": (50, 100)},
+        {"critical_speed": [15.3, 15.1], "n_crossings": [1, 1], "simulations": 6},
     ),
+    (
+        "basins",
+        P,
+        {"energies": (1e-4, 0.1), "n_starts": 3, "horizon": 60},
+        {"critical_energy": 0.0707107, "attractor_starts": [3, 3], "separating_fraction": 0.5},
+    ),
+    (
+        "campbell",  # at 7.35 rad/s the motion is near another cycle, of 0.0004/s
+        P.replace(N=375),
+        {"bounds": (7.3, 7.4), "step": 0.05},
+        {"near_motion": [1, 0, 1], "growth_rate": [8.115285e-4, 0.2788523, 3.201901e-4]},
+    ),
+    (
+        "sensitivity",
+        P.replace(N=260, Omega=19),
+        {
+            "distributions": {"k": NARROW},
+            "samples": 2,
+            "simulated_samples": 2,
+            "extrapolate": False,
+        },
+        {"first_separation": [273.46777, 272.92294], "probability_separation": 1.0},
+    ),
+    (
+        "locking",
+        P.replace(N=300, Omega=20),
+        {"start": {"prerun": {"parameters": {}, "time": 300}}, "probes": 2},
+        {"period_releases": 45, "period_separations": 316, "leading_multiplier": 0.7792300},
+    ),
+    (
+        "ramps",  # onset comes late, and the end far below
+        P,
+        {"bounds": (8, 22), "dwell": 20, "rates": (0.05, 0.1)},
+        {"onset_speed": [17.350035, 19.032361], "offset_speed": [9.427039, 9.244294]},
+    ),
+    (
+        "range_law",
+        P.replace(Omega=15.1),
+        {"horizon": 3, "displaced_horizon": 20},
+        {"range": [math.nan, 0.03517120], "deviation": [math.nan, 0.02223191]},
+    ),
+    (
+        "regions",  # just below two oscillations of 135.42 Hz
+        P.replace(N=0),
+        {"axes": {"N": [100.0, 110.0], "Omega": [14.0, 15.0]}, "horizon": 50},
+        {"cycle": ["followed"] * 4, "growth_rate": [-0.0031225616], "period_ratio": [1.9058395]},
+    ),
+]
+"""Quantity, case, options, and values of variables, of which arrays may have more."""
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("name", "case", "options", "expected"), TABLE, ids=[row[0] for row in TABLE]
+)
+def test_a_quantity_says_what_is_known(
+    name: str, case: Parameters, options: dict[str, Any], expected: dict[str, Any]
+) -> None:
+    found = function_of(name)(case, **options)
+    assert {*found["status"].values.ravel()} == {"ok"}
+    for variable, values in expected.items():
+        first = found[variable].values.ravel()[: np.size(values)].tolist()
+        if isinstance(first[0], str):
+            assert first == np.atleast_1d(values).tolist()
+        else:
+            rough = 1e-3 if name == "lyapunov_exponents" else 1e-6
+            assert first == pytest.approx(np.atleast_1d(values).tolist(), rel=rough, nan_ok=True)
+    columns = OF_QUANTITIES[name]["columns"]
+    assert {*found.data_vars} >= {*columns}
+    for variable, array in found.data_vars.items():
+        assert array.attrs["long_name"], variable
+        missing = array.dtype.kind == "f" and bool(np.isnan(array.values).any())
+        assert not missing or "missing" in array.attrs, f"{variable} does not say why it is nan"
+
+
+@pytest.mark.parametrize("name", HOMES)
+def test_a_quantity_can_be_sent_to_other_processes(name: str) -> None:
+    function = quantity_of(name).function
+    assert pickle.loads(pickle.dumps(function)) is function
+    assert pickle.loads(pickle.dumps(function_of(name))) is function_of(name)
+
+
+SWEEP = {"bounds": (10, 20), "step": 5, "dwell": 10}
+FAULTS: list[tuple[str, dict[str, Any], str]] = [
+    ("hysteresis", SWEEP | {"dwell": 0.1}, "evaluation_time=5 must be <= dwell=0.1"),
+    ("hysteresis", SWEEP | {"max_dwell": 5}, "max_dwell=5 must be >= dwell=10"),
+    ("hysteresis", SWEEP | {"step": 3}, "must be a multiple of step=3"),
+    ("hysteresis", SWEEP | {"name": "Nn"}, "name='Nn': must be a number of the case"),
+    (
+        "hysteresis",
+        SWEEP | {"name": "h", "bounds": (1e-3, 2e-3), "step": 1e-3},
+        "shapes of the modes",
+    ),
+    (
+        "hysteresis",
+        SWEEP | {"name": "mu_k", "bounds": (0.2, 0.6), "step": 0.2},
+        "must be <= mu_s=0.4",
+    ),
+    ("branches", SWEEP | {"sweep_from": 21}, "sweep_from=21 must be <= the greatest value, 20"),
     ("locking", {"record": 5, "max_record": 4}, "record=5 must be <= max_record=4"),
     (
         "outcome",
         {"horizon": 0.5},
         "evaluation_time=1 must be <= after_separation=5 and <= horizon=0.5",
     ),
-    ("ramps", {"low": 3, "high": 2, "rates": SCAN}, "low=3 must be < high=2"),
-    (
-        "range_law",
-        {"horizon": 1},
-        "evaluation_time=2 must be < horizon=1 and < displaced_horizon=40",
-    ),
+    ("outcome", {"horizon": 5, "scan": 1}, "scan=1: unknown"),
+    ("outcome", {"start": {"w": 1}}, "start.*w"),
+    ("ramps", {"bounds": (3, 2), "rates": [1]}, "must ascend"),
+    ("ramps", {"bounds": (2, 3), "rates": {"start": 0, "stop": 1, "count": 2}}, "must be > 0"),
+    ("range_law", {"horizon": 1}, "evaluation_time=2 must be < horizon=1"),
     (
         "critical_speed",
-        {"horizons": [1], "scan": SCAN, "precision": 3},
-        "rad/s must be a multiple of precision=3 rad/s",
+        {"step": 0.5, "precision": 0.2},
+        "step=0.5 rad/s must be a multiple of precision=0.2",
     ),
+    ("critical_speed", {"bounds": 14}, "bounds=14"),
+    ("critical_speed", {"bounds": (15, 14)}, "must ascend"),
+    ("critical_speed", {"bounds": (0, 1e6), "step": 1}, "must be at most 100000 values"),
     ("basins", {"energies": [0, 1], "n_starts": 2}, "n_starts=2 must be 1 where an energy is 0"),
+    ("basins", {"energies": [2, 1]}, "must ascend"),
+    (
+        "sensitivity",
+        {"distributions": {"k": NARROW}, "samples": 3},
+        "samples=3 must be a power of two",
+    ),
+    ("sensitivity", {"distributions": {"k": NARROW | {"low": 2}}}, "low=2 must be < high=1.0001"),
+    ("sensitivity", {"distributions": {"kk": NARROW}}, "must be of a parameter that is a number"),
+    ("neutral_curves", {"bounds": (1, 2), "lines": [1], "x": "N"}, "x and y must differ"),
+    (
+        "bifurcation",
+        {"transient": 500, "section": "event"},
+        "max_transient=480 must be >= transient=500",
+    ),
 ]
-"""Options that break a rule between them, and what it says."""
+"""Options that cannot be, and what is said of them."""
 
 
-@pytest.mark.parametrize(("name", "options", "said"), RULES)
-def test_a_rule_between_options_shows_their_values(
-    name: str, options: dict[str, Any], said: str
+@pytest.mark.parametrize(("name", "options", "said"), FAULTS)
+def test_what_cannot_be_is_said(name: str, options: dict[str, Any], said: str) -> None:
+    with refusal(said):
+        function_of(name)(P, **options)
+
+
+def test_ranges_have_equal_steps_or_equal_ratios_and_both_ends() -> None:
+    assert Range(start=1, stop=2, step=0.25).values == [1, 1.25, 1.5, 1.75, 2]
+    assert Range(start=0.1, stop=0.5, count=5).values == [0.1, 0.2, 0.3, 0.4, 0.5]
+    assert Range(start=2, stop=162, count=5, scale="log").values == [2, 6, 18, 54, 162]
+
+
+# ---- Critical speeds
+
+CROSSINGS = [
+    # separation after so many seconds from a speed on, horizons, critical speeds, crossings of the first
+    ({13.4: 10.0}, (900,), [13.4], [(13.4, "begins")]),
+    ({13.0: 10.0, 14.2: math.inf}, (900,), [13.0], [(13.0, "begins"), (14.2, "ends")]),
+    ({12.0: 10.0}, (900,), [12.0], []),
+    ({13.0: 50.0, 14.0: 5.0}, (10, 50), [14.0, 13.0], [(14.0, "begins")]),
+    ({13.0: math.nan, 14.0: 5.0}, (10,), [math.nan], []),  # an unknown speed hides those above it
+]
+
+
+def moving(first: dict[float, float]) -> Callable[..., OutcomeResult]:
+    """Motions whose first separation comes after so many seconds from a speed on."""
+
+    def find_outcome(p: Parameters, horizon: float, **_: Any) -> OutcomeResult:
+        reached = [time for speed, time in first.items() if p.Omega > speed - 1e-6]
+        time = reached[-1] if reached else math.inf
+        if math.isnan(time):
+            lost: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+            return OutcomeResult(failed=lost)
+        return OutcomeResult(simulated=2.0, first_separation=time if time <= horizon else math.nan)
+
+    return find_outcome
+
+
+@pytest.mark.parametrize(("first", "horizons", "speeds", "crossings"), CROSSINGS)
+def test_every_crossing_is_found_and_bisected(
+    first: dict[float, float],
+    horizons: tuple[float, ...],
+    speeds: list[float],
+    crossings: list[tuple[float, str]],
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    with refusal(re.escape(said)):
-        quantity_of(name).model_validate(options)
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving(first))
+    found = dm.critical_speed(P, (12, 15), horizons, step=0.5)
+    assert found["critical_speed"].values == pytest.approx(speeds, nan_ok=True)
+    for i, (speed, kind) in enumerate(crossings):
+        assert found["crossing"].values[0, i] == pytest.approx(speed)
+        assert found["crossing_kind"].values[0, i] == kind
+    assert found["n_crossings"].values[0] == len(crossings)
+    assert found["simulated_time"] == 2 * found["simulations"] or math.isnan(speeds[0])
 
 
-def test_an_axis_has_a_hundred_thousand_values_at_most() -> None:
-    made = Range(start=0, stop=1, count=100_000)
-    assert made.intervals == 99_999
-    rule = "must be at most 100000 values"
-    with refusal(rule):
-        Range(start=0, stop=1, count=100_001)
-    with refusal(rule):
-        Range(start=0, stop=1, step=1e-5)
+CRITICAL = [
+    # horizon, speed of the first separation, what is said
+    (900, 16, "no separation within 900 s at 4 speeds from 12 to 15 rad/s"),
+    ([5, 900], 12, "contact is already lost within 900 s at the lower bound, 12 rad/s"),
+    (900, 13, ""),
+]
+
+
+@pytest.mark.parametrize(("horizon", "speed", "said"), CRITICAL)
+def test_a_critical_speed_that_is_not_between_the_bounds_says_why(
+    horizon: Any, speed: float, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving({speed: 10.0}))
+    found = dm.critical_speed(P, (12, 15), horizon)
+    assert message_of(found).endswith(said)
+    assert bool(message_of(found)) == bool(said)
+    assert found["critical_speed"].ndim == np.ndim(horizon)
+    assert bool(found["at_lower_bound"].values.any()) == (speed == 12)
+
+
+@pytest.mark.parametrize(("step", "simulations"), [(0.25, 6), (0.05, 5), (1, 8)])
+def test_the_precision_follows_the_step(
+    step: float, simulations: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """To 0.1 rad/s, or the next smaller part of the step."""
+    monkeypatch.setattr(
+        "disc_model.stability.outcome.find_outcome", moving({13 + step / 100: 10.0})
+    )
+    found = dm.critical_speed(P, (13 - 2 * step, 13 + 2 * step), step=step)
+    part = step / math.ceil(step / 0.1 - 1e-9)
+    assert found["critical_speed"].item() == pytest.approx(13 + part)
+    assert found["simulations"].item() == simulations
+
+
+def test_what_has_no_room_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    alternating = {2: math.inf, 3: 1.0, 4: math.inf, 5: 1.0, 6: math.inf}
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving(alternating))
+    found = dm.critical_speed(P, (2, 6), step=1, precision=1, max_crossings=3)
+    assert found["n_crossings"] == 4
+    assert message_of(found).startswith("4 were found along crossing_number, which has room for 3")
+    modes = dm.sliding_modes(FALLING, bounds=(10, 50), step=20, modes=4)
+    assert message_of(modes) == "10 were found along mode, which has room for 4"
+    every = dm.sliding_modes(FALLING, bounds=(10, 50), step=20)
+    np.testing.assert_array_equal(modes["frequency"], every["frequency"][:, :4])
+
+
+# ---- Hysteresis
+
+LOST: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
+SWEEPS = [
+    # separation rates up and down, onset, offset, what is said
+    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept at all 3 speeds from 12 to 16 rad/s"),
+    (
+        [[0, 0, 9], [9, 9, 9]],
+        16,
+        math.nan,
+        "still lost on the way down at the lower bound, 12 rad/s",
+    ),
+    ([[9, 9, 9], [0, 9, 9]], math.nan, 14, "lost on the way up from the lower bound on, 12 rad/s"),
+    ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at 16 rad/s, where the way down begins"),
+    ([[0, 0, 9], [0, 9, 9]], 16, 14, ""),
+    ([[0, 0, 9], [9, 0, 9]], 16, 16, ""),  # a gap ends it, though it begins again below
+    ([[0, 0, 9], [None, 9, 9]], 16, math.nan, "Omega = 12 rad/s: lost"),
+]
+
+
+@pytest.mark.parametrize(("rates", "onset", "offset", "said"), SWEEPS)
+def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
+    rates: list[list[Any]], onset: float, offset: float, said: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def sweep(*_: Any) -> Iterator[Any]:
+        settled = attractors.Arrival(Settling(Settled.SETTLED))
+        for place in [(0, 0), (0, 1), (0, 2), (1, 2), (1, 1), (1, 0)]:
+            rate = rates[place[0]][place[1]]
+            late = None if rate is None else stretch(separation_rate=rate)
+            yield place, LOST, late, settled
+
+    monkeypatch.setattr(attractors, "sweep", sweep)
+    found = dm.hysteresis(P, (12, 16), 10, step=2)
+    assert found["onset_speed"].item() == pytest.approx(onset, nan_ok=True)
+    assert found["offset_speed"].item() == pytest.approx(offset, nan_ok=True)
+    assert said in message_of(found)
+    assert bool(message_of(found)) == bool(said)
+
+
+@pytest.mark.compiled
+def test_a_sweep_of_the_preload_goes_on_from_load_to_load() -> None:
+    stays = {"dwell": 10, "max_dwell": 10, "evaluation_time": 1, "tol": 1e-8}
+    sweep = dm.hysteresis(P, (300, 420), name="N", step=40, **stays)
+    assert sweep["sweep_N"].values.tolist() == [300, 340, 380, 420]
+    assert sweep["sweep_N"].attrs["units"] == sweep["onset"].attrs["units"] == "N"
+    assert sweep["separation_rate"].sel(direction="up").values[0] == 0
+    assert (sweep["separation_rate"].sel(direction="down").values[:3] > 100).all()
+    assert "still lost on the way down at the lower bound, N = 300 N" in message_of(sweep)
+    assert "has not settled and may yet separate: raise max_dwell" in message_of(sweep)
+
+
+# ---- Basins
+
+CALM = stretch(u_min=0, u_max=1e-5, separation_rate=0, stick_fraction=0.3, separation_fraction=0)
+NEAR = Attractor(Outcome.STICK_SLIP, CALM, 0.015, 1, -0.1, np.zeros((1, 2)))
+APART = Attractor(Outcome.SEPARATING, stretch(u_min=0, u_max=0.03))
+UNDECIDED = OutcomeResult(Outcome.UNDECIDED, 60.0)
+FAILED = OutcomeResult(None, 1.0, failed=LOST)
+
+
+@pytest.fixture
+def kicked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., xr.Dataset]:
+    """Basins of made-up starts: start i separates beyond an energy, or comes to what is said."""
+
+    def found(
+        least: Callable[[int], float] = lambda i: 0.02 * (i + 1),
+        known: dict[int, OutcomeResult] | None = None,
+        **options: Any,
+    ) -> xr.Dataset:
+        def follow(_: Any, start: tuple[float, int]) -> OutcomeResult:
+            energy, i = start
+            attractor = APART if energy > least(i) else NEAR
+            return (known or {}).get(i, OutcomeResult(attractor.kind, 50.0, attractor=attractor))
+
+        made = type("Made", (), {"__init__": lambda *_, **__: None, "follow": follow})
+        monkeypatch.setattr(attractors, "Basins", made)
+        monkeypatch.setattr(
+            attractors, "random_perturbation", lambda p, s, energy, key: (energy, key[2])
+        )
+        return dm.basins(P, **options)
+
+    return found
+
+
+def test_shares_are_counted_with_wilsons_intervals(kicked: Callable[..., xr.Dataset]) -> None:
+    """Three of ten: 0.108 to 0.603 at 95 %, 0.154 to 0.503 at 80 % (Wilson 1927)."""
+    for confidence, ends in ((0.95, (0.1078, 0.6032)), (0.8, (0.1538, 0.5026))):
+        found = kicked(energies=[0.07], n_starts=10, confidence=confidence)
+        of_class = found.sel(attractor_class="separating")
+        for share in ("basin_fraction", "separating_fraction"):
+            assert of_class[share] == 0.3
+            both = of_class[f"{share}_low"].item(), of_class[f"{share}_high"].item()
+            assert both == pytest.approx(ends, abs=1e-4)
+        assert found["attractor_starts"].values[:3].tolist() == [7, 3, 0]
+        assert found["attractor_index"].values[0].tolist() == [2, 2, 2, *[1] * 7]
+
+
+@pytest.mark.parametrize(
+    ("undecided", "ends"), [(4, (0.0, 1.0)), (2, (0.0456, 0.9544)), (0, (0.15, 0.85))]
+)
+def test_undecided_starts_widen_intervals(
+    kicked: Callable[..., xr.Dataset], undecided: int, ends: tuple[float, float]
+) -> None:
+    known = dict.fromkeys(range(undecided), UNDECIDED)
+    found = kicked(lambda i: 1.0 * (i % 2), known, energies=[0.5], n_starts=4)
+    both = found["separating_fraction_low"].item(), found["separating_fraction_high"].item()
+    assert both == pytest.approx(ends, abs=1e-4)
+    assert found["basin_fraction"].sum() == pytest.approx(1)
+
+
+ENERGIES = [
+    # least separating energy by start, options, critical energy, message
+    (lambda i: 0.02 * (i + 1), {"n_bisection_directions": 2, "precision": 0.01}, 0.02),
+    (lambda i: -1.0, {}, 0.0),
+    (lambda i: (0.04, 0.01, 9)[i], {"precision": 0.01}, 0.04),
+    (lambda i: (0.04, 0.01, 9)[i], {"precision": 0.01, "n_bisection_directions": 2}, 0.01),
+    (lambda i: 9.0, {}, math.nan),
+]
+
+
+@pytest.mark.parametrize(("least", "options", "energy"), ENERGIES)
+def test_the_least_kick_is_bisected(
+    kicked: Callable[..., xr.Dataset], least: Any, options: dict[str, Any], energy: float
+) -> None:
+    found = kicked(least, energies=[0.05, 1.0], n_starts=3, **options)
+    assert found["critical_energy"].item() == pytest.approx(energy, rel=0.011, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("known", "status", "said"),
+    [
+        ({0: FAILED}, "ok", "1 of 3 starts failed, such as lost"),
+        (dict.fromkeys(range(3), FAILED), "non_finite", "3 of 3 starts failed, such as lost"),
+        (
+            {0: UNDECIDED, 1: replace(UNDECIDED, first_separation=2.0)},
+            "ok",
+            "2 of 3 starts (1 after contact was lost) undecided within the horizon: raise it",
+        ),
+    ],
+)
+def test_starts_of_which_nothing_is_known_are_told(
+    kicked: Callable[..., xr.Dataset], known: Any, status: str, said: str
+) -> None:
+    found = kicked(known=known, energies=[0.01], n_starts=3)
+    assert found["status"] == status
+    assert message_of(found) == said
+
+
+# ---- Campbell diagrams
+
+SPEEDS = np.linspace(8, 12, 401)
+MEETING = 10.0  # rad/s, where the stick-slip frequency of 10 Omega meets the mode of 100 Hz
+PEAK = -0.2 + 0.1 / (1 + ((SPEEDS - MEETING) / 0.02) ** 2)
+GAP = np.abs(SPEEDS - MEETING - 0.05) < 0.015
+LEVEL = np.full(401, -0.1)
+NOWHERE = np.full(401, math.nan)
+MADE_UP: list[tuple[dict[str, Any], dict[str, Any], list[tuple[float, float, str]]]] = [
+    # growth rate of the cycle and of the mode, and frequencies; options; crossings: speed, multiple, effect
+    ({}, {}, [(10, 1, "rises")]),
+    ({}, {"min_rise": 0.2}, [(10, 1, "no_rise")]),
+    ({"rate": PEAK + 0.15, "of_mode": PEAK + 0.15}, {}, [(10, 1, "destabilises")]),
+    ({"rate": LEVEL}, {}, [(10, 1, "mode_rises")]),
+    ({"rate": LEVEL, "of_mode": LEVEL}, {}, [(10, 1, "no_rise")]),
+    ({"rate": np.where(GAP, math.nan, PEAK)}, {}, [(10, 1, "no_cycle")]),
+    ({"near": np.where(GAP, 0.0, math.nan)}, {}, [(10, 1, "not_near")]),
+    ({"of_mode": NOWHERE}, {}, [(10, 1, "unresolved")]),
+    ({}, {"step": 0.2}, [(10, 1, "unresolved")]),
+    ({}, {"bounds": (9.95, 12)}, [(10, 1, "beyond_scan")]),
+    ({"releases": 20 * SPEEDS}, {}, [(10, 0.5, "rises")]),
+    ({"releases": 4 * SPEEDS - 0.01}, {}, [(8.335833, 3, "no_rise"), (10.0025, 2.5, "rises")]),
+    # none within a gap, nor where the frequency jumps over that of the mode
+    ({"near": np.where(np.abs(SPEEDS - MEETING) < 0.055, 0.0, math.nan)}, {}, []),
+    ({"releases": np.where(SPEEDS < MEETING - 0.005, 9 * SPEEDS, 11 * SPEEDS)}, {}, []),
+]
+
+
+@pytest.mark.parametrize(("made", "options", "crossings"), MADE_UP)
+def test_crossings_are_where_frequencies_meet_and_say_what_growth_does_there(
+    made: dict[str, Any],
+    options: dict[str, Any],
+    crossings: list[tuple[float, float, str]],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    at = {"rate": PEAK, "of_mode": PEAK, "releases": 10 * SPEEDS, "near": NOWHERE, **made}
+    modes = SimpleNamespace(
+        frequency=np.array([100.0]),
+        growth_rate=np.array([-1.0]),
+        diameters=np.array([1]),
+        forward=np.array([0.5]),
+    )
+
+    def frequencies(p: Parameters, tol: float) -> Any:
+        i = int(np.argmin(np.abs(SPEEDS - p.Omega)))
+        cycle = SimpleNamespace(
+            status=CycleStatus.OK,
+            growth_rate=at["rate"][i],
+            releases=1,
+            period=1 / at["releases"][i],
+            sliding=SimpleNamespace(growth_rate=0.0),
+            near=at["near"][i],
+            message="",
+        )
+        return cycle, modes, (np.array([100.0]), np.array([at["of_mode"][i]]), np.array([1.0]))
+
+    monkeypatch.setattr("disc_model.stability.frequencies.frequencies", frequencies)
+    monkeypatch.setattr("disc_model.stability.frequencies.may_be_near", lambda cycle: cycle.near)
+    found = dm.campbell(P, **{"bounds": (8, 12), "step": 0.01, **options})
+    count = found["n_crossings"].item()
+    names = ("crossing_Omega", "crossing_multiple", "crossing_effect")
+    columns = (found[name].values[:count].tolist() for name in names)
+    for (speed, *rest), (expected, *others) in zip(
+        zip(*columns, strict=True), crossings, strict=True
+    ):
+        assert speed == pytest.approx(expected, abs=1e-6)
+        assert rest == others
+
+
+# ---- Sensitivity
+
+
+def test_samples_are_of_the_distributions_and_more_of_them_keep_the_first(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def find_cycle(p: Parameters, tol: float) -> Any:
+        motion = "unstable" if p.k > 5e4 else "stable"
+        return SimpleNamespace(motion=motion, growth_rate=p.k)
+
+    monkeypatch.setattr("disc_model.stability.cycle.find_cycle", find_cycle)
+    normal = {
+        "distribution": "truncated_normal",
+        "mean": 4.9e4,
+        "deviation": 3e3,
+        "low": 4e4,
+        "high": 6e4,
+    }
+    distributions = {"k": normal, "mu_k": {"distribution": "uniform", "low": 0.2, "high": 0.5}}
+    few, many = (
+        dm.sensitivity(P, distributions=distributions, samples=n, seed=3) for n in (16, 256)
+    )
+    drawn = many["parameter_values"].sel(parameter="k").values
+    np.testing.assert_array_equal(few["parameter_values"], many["parameter_values"][:16])
+    exact = stats.truncnorm(-3, 11 / 3, 4.9e4, 3e3)
+    assert np.max(np.abs(np.sort(exact.cdf(drawn)) - (np.arange(256) + 0.5) / 256)) < 0.5 / 256
+    # mu_k above mu_s makes no case: a third of the samples has failed, and says so
+    ok = many["status"].values == "ok"
+    assert 0.6 < ok.mean() < 0.7
+    assert "must be <= mu_s" in str(many["message"].values[~ok][0])
+    hits = int((drawn[ok] > 5e4).sum())
+    assert many["n_failed_cycles"] == (~ok).sum()
+    assert many["probability_unstable"] == hits / ok.sum()
+    least = stats.binomtest(hits, 256).proportion_ci(0.95, "wilson").low
+    assert many["probability_unstable_low"].item() == pytest.approx(least)
+
+
+# ---- Regions
+
+
+def near(
+    *, stable: bool = False, slow: bool = False, x: float = 0.0, size: float = 1.0
+) -> NearCycle:
+    """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
+    cycle: Any = SimpleNamespace(
+        stable=stable,
+        slow=slow,
+        growth_rate=0.1,
+        period=0.015,
+        releases=1,
+        separations=0,
+        parameters=P,
+    )
+    map_: Any = SimpleNamespace(deflection=size)
+    return NearCycle(cycle, True, map_, np.array([x, 0.0]), np.zeros(2), np.eye(2))
+
+
+NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
+APART_BY = [near(stable=True, x=3.0 * i) for i in range(6)]
+PLANES: list[tuple[list[Any], str, list[Any]]] = [
+    # what the search finds at the points of a row, a variable, its values
+    (
+        [near(stable=True), near(slow=True), near(), NO_CYCLE],
+        "method",
+        ["multipliers"] * 2 + ["simulation"] * 2,
+    ),
+    (
+        [near(stable=True), near(slow=True), near()],
+        "outcome",
+        ["stick_slip", "growing", "separation"],
+    ),
+    ([near(stable=True), NO_CYCLE, ValueError("")], "status", ["ok", "ok", "failed"]),
+    ([near(stable=True), near(x=0.001)], "branch_continues_second", ["yes", "no"]),
+    ([near(stable=True), near(x=0.1)], "branch_continues_second", ["no", "no"]),
+    ([near(x=3.0), near(x=6.0, size=2.0)], "branch_continues_second", ["yes", "no"]),
+    ([near(), near(x=0.03)], "other_cycles", [1, 1]),
+    ([near(), near(x=0.019)], "other_cycles", [0, 0]),
+    (APART_BY, "other_cycles", [3] * 6),  # four with its own
+    ([near(), NO_CYCLE], "cycle", ["followed", "no_cycle"]),
+]
+
+
+@pytest.mark.parametrize(("starts", "variable", "values"), PLANES)
+def test_a_plane_says_how_outcomes_are_known_and_what_joins_cycles(
+    starts: list[Any], variable: str, values: list[Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def search(p: Parameters) -> Any:
+        start = starts[int(p.Omega) - 1]
+        if isinstance(start, ValueError):
+            raise dm.ModeError("no shape")
+        return start
+
+    def newton(map_: Any, guess: np.ndarray, **_: Any) -> Any:
+        return SimpleNamespace(start=guess) if variable == "other_cycles" else None
+
+    separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
+    monkeypatch.setattr("disc_model.stability.linear_motion.cycle_of_static_start", search)
+    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: separation)
+    monkeypatch.setattr("disc_model.stability.return_map.newton", newton)
+    monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
+    axes = {"N": [100.0], "Omega": [1.0 + i for i in range(len(starts))]}
+    found = dm.regions(P, axes=axes, horizon=10)
+    assert found[variable].dims == ("N", "Omega")
+    assert found[variable].values[0].tolist() == values
+    assert bool(found["message"].values.any()) == (variable == "status")
+
+
+@pytest.mark.compiled
+def test_a_separation_has_a_time_where_that_is_asked_for() -> None:
+    """At 273 s, after a slow departure from the cycle, which is extrapolated elsewhere."""
+    axes = {"N": [260.0], "Omega": [19.0]}
+    rough = dm.regions(P, axes=axes, horizon=500)
+    exact = dm.regions(P, axes=axes, horizon=500, timed=[{"N": 260, "Omega": 19}])
+    assert rough["outcome"].item() == exact["outcome"].item() == "separation"
+    assert rough["method"].item() == "extrapolation"
+    assert math.isnan(rough["first_separation"].item())
+    assert exact["first_separation"].item() == pytest.approx(272.5209)
+
+
+# ---- Motions
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("changes", "extent"),  # mm, as printed with three digits by other runs of the paper's cases
+    [
+        ({"N": 200, "Omega": 20}, 18.2),
+        ({"N": 300, "Omega": 20}, 27.4),
+        ({"N": 385, "Omega": 15.1}, 35.2),
+        ({"N": 200, "Omega": 20, "k": 2e4}, 15.6),
+        ({"N": 400, "Omega": 30, "normalization": "orthonormal"}, 9.31),
+    ],
+)
+def test_separation_holds_the_range_where_contact_is_lost(
+    changes: dict[str, Any], extent: float
+) -> None:
+    found = dm.range_law(P.replace(**changes), horizon=3, displaced_horizon=20).sel(
+        begin="displaced"
+    )
+    assert 1e3 * found["range"].item() == pytest.approx(extent, rel=0.005)
+    assert min(found["vibration_share"], found["force_share"]) >= 0.95
+    assert found["deviation"].item() == pytest.approx(found["flight_excess"].item(), abs=0.01)
+
+
+LOCKS = [
+    # start, changes of the case, what the motion does
+    ({"parameters": {"N": 385, "Omega": 15.1}, "time": 70}, {}, "without_stick"),
+    ({"parameters": {}, "time": 5}, {}, "in_contact"),
+    ({"parameters": {"N": 385, "Omega": 20}, "time": 60}, {"n_circles": 1}, "undecided"),
+]
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("start", "changes", "motion"), LOCKS)
+def test_a_motion_locks_only_with_stick_and_separation(
+    start: dict[str, Any], changes: dict[str, Any], motion: str
+) -> None:
+    case = Parameters(N=200, Omega=20, **changes)
+    found = dm.locking(case, start={"prerun": start}, transient=5, record=5, max_record=10)
+    assert found["motion"].item() == motion
+    assert found["period_releases"] == 0
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(
+    ("case", "kind", "transient"),
+    [
+        (Parameters(N=200, Omega=0), "at_rest", 2.0),
+        (Parameters(N=50, Omega=15, c_p=0.5), "steady_sliding", 2.0),
+        # contact is first lost at 11 s; the cycle that it comes to has 86 separations
+        (Parameters(N=800, Omega=40, n_diameters=2), "separating", 32.0),
+    ],
+)
+def test_a_transient_is_doubled_until_the_motion_has_settled(
+    case: Parameters, kind: str, transient: float
+) -> None:
+    found = dm.bifurcation(case, section="event", transient=2, max_transient=600, samples=5)
+    assert found["kind"].item() == kind
+    assert found["transient_time"].item() == transient
+    assert message_of(found) == ""
+    assert np.isfinite(found["psi"]).sum() == (5 if kind == "separating" else 0)
+
+
+@pytest.mark.compiled
+def test_samples_once_a_turn_are_those_of_the_run() -> None:
+    case = Parameters(N=200, Omega=20, n_diameters=0)
+    turn = 2 * np.pi / case.Omega
+    found = dm.bifurcation(case, transient=1.7 * turn, samples=3, theta=2.0)
+    turns = {"turns": dm.Poincare(theta=2.0)}
+    every = dm.simulate(case, 4.5 * turn, turns)["turns"]
+    for name in ("psi", "u", "P", "w_point"):
+        # both runs stop elsewhere, which leaves the error of events
+        assert found[name].values == pytest.approx(every[name].values[2:5], rel=1e-6, abs=1e-9)
+
+
+def test_columns_are_those_of_steady_sliding_at_each_value() -> None:
+    """With mu_k, mu_s rises where that would be larger."""
+    found = dm.sliding_modes(FALLING, name="mu_k", bounds=(0.1, 0.5), step=0.2)
+    for i, mu_k in enumerate((0.1, 0.3, 0.5)):
+        case = FALLING.replace(mu_k=mu_k, mu_s=max(mu_k, FALLING.mu_s))
+        sliding = dm.steady_sliding(case)
+        assert found["largest_growth_rate"].values[i] == sliding.growth_rate
+        upper = sliding.eigenvalues[sliding.eigenvalues.imag > 0]
+        of_modes = found.isel(value=i).dropna("mode", subset=["frequency"])
+        assert sorted(2 * np.pi * of_modes["frequency"].values) == pytest.approx(
+            sorted(upper.imag), rel=1e-10
+        )
+        assert sorted(of_modes["mode_growth_rate"].values) == pytest.approx(
+            sorted(upper.real), abs=1e-9
+        )
+    without = dm.sliding_modes(FALLING, bounds=(0, 20), step=10)
+    assert message_of(without).startswith("Omega = 0 rad/s: The disc is not driven")
+    assert np.isnan(without["largest_growth_rate"].values).tolist() == [True, False, False]

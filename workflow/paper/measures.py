@@ -16,7 +16,7 @@ from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.display import counted
 from disc_model.parameters import Parameters
-from workflow.paper import growth
+from workflow.paper import growth, signals
 
 SEPARATION = variables.PHASES.index("separation")
 
@@ -388,7 +388,7 @@ class Signal(NamedTuple):
 
         Fuzz fills it, and lines do not.
         """
-        return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
+        return signals.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
 
     def power_above(self, frequency: float) -> float:
         """Return the ratio of the power above a frequency in Hz to that above `LOW`.
@@ -396,7 +396,7 @@ class Signal(NamedTuple):
         Raises `Missing` if there is no line above `LOW`.
         """
         self.lines(above=LOW)
-        return spectra.power_share(self.time, self.values, frequency, LOW)
+        return signals.power_share(self.time, self.values, frequency, LOW)
 
     def lines(self, count: int | None = None, **options: float) -> list[spectra.Line]:
         """Return lines of the spectrum; raises `Missing` if there are none.
@@ -416,7 +416,7 @@ class Signal(NamedTuple):
     def strongest(self, near: float, within: float) -> spectra.Line:
         """Return the strongest line within `within` Hz of a frequency; raises `Absent`."""
         try:
-            return spectra.strongest(self.time, self.values, near, within)
+            return signals.strongest(self.time, self.values, near, within)
         except ValueError as error:
             raise Absent(f"case {self.case}: {error} in w_point") from None
 

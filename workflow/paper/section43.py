@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.analysis import spectra
-from disc_model.analysis.classify import SAME, Settled, distinct_points, separation_location
+from disc_model.analysis.classify import Settled, separation_location
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.parameters import Parameters
@@ -26,6 +26,7 @@ from workflow.paper.model import (
     partly,
     verdict_on,
 )
+from workflow.paper.signals import SAME, distinct_points
 
 LOADS = (50, 125, 200, 300, 385, 600)
 """Preloads of the paper and beyond, N."""

@@ -13,7 +13,7 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.parameters import Parameters
 from workflow.paper import growth as growth_rates
-from workflow.paper import measures, paper_tables
+from workflow.paper import measures, paper_tables, signals
 from workflow.paper.measures import HIGH, LOW, Array, CaseView, Mask
 from workflow.paper.model import FALSE, NOT_TESTED, PART, TRUE, Answer, graded, partly
 from workflow.paper.section2 import BASE
@@ -94,7 +94,7 @@ def lines(case: CaseView, *, bound: float) -> Answer:
     signal = case.signal(*EARLY)
     most = np.abs(table["ours_Hz"] - table["paper_Hz"]).max()
     chances = [
-        spectra.chance(signal.time, signal.values, line, paper_tables.SEARCHED) for line in found
+        signals.chance(signal.time, signal.values, line, paper_tables.SEARCHED) for line in found
     ]
     chance = len(found) * max(chances)
     rows = []

@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from disc_model.errors import DiscModelError
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import CaseSpec, Start
-from disc_model.simulation.request import Execution
+from disc_model.simulation.case import CaseSpec, Execution, Start
 from disc_model.simulation.starts import make_initial_state
 from disc_model.sources import PHYSICS, git_commit, source_hash, versions_text
 

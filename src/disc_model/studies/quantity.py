@@ -177,6 +177,7 @@ def _started(given: Any) -> Any:
 
 Starting = Annotated[Start, BeforeValidator(_started)]
 """A start: perturbations {u, u_velocity, f} of the static start, or {prerun: {parameters, time}}."""
+STATIC = Start()
 COME_TO = (
     "What the motion has come to: a while after the first separation, on the cycle it settled to, "
     "or at the horizon."
@@ -310,13 +311,16 @@ def quantity(
                 found = found.assign_attrs(message=str(found["message"].values)).drop_vars(
                     "message"
                 )
-            single = [dim for dim in found.dims if dim in asked and np.ndim(asked[str(dim)]) == 0]
+            single = [
+                dim for dim in found.dims if isinstance(asked.get(str(dim)), int | float | str)
+            ]
             found = found.squeeze(single, drop=True)
             found = found.assign_attrs(
                 parameters=case.canonical_json, options=chosen.model_dump_json()
             )
             return words(described(found, name, dict(chosen)))
 
+        function.__qualname__ += ".__wrapped__"  # by which pickle finds it
         return checked
 
     return mark
@@ -376,7 +380,7 @@ def found(
         texts.append(
             "; ".join(filter(None, [text.removesuffix(".") if cuts else text, *cuts.values()]))
         )
-    said = ((), texts[0]) if isinstance(message, str) else ([*coords][0], texts)
+    said = ((), texts[0]) if isinstance(message, str) else (next(iter(coords)), texts)
     return xr.Dataset({**variables, "message": said}, coords)
 
 

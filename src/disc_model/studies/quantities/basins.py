@@ -20,8 +20,7 @@ from disc_model.data.variables import UNKNOWN_OUTCOMES, WORDS
 from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Start
-from disc_model.studies.quantity import MOST, Starting, found, listed, quantity, with_ends
+from disc_model.studies.quantity import MOST, STATIC, Starting, found, listed, quantity, with_ends
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -52,7 +51,7 @@ def basins(
     energies: Annotated[tuple[Energy, ...], Field(min_length=1)] = (0.0,),
     n_starts: Annotated[Count, Field(ge=1, le=MOST)] = 1,
     *,
-    start: Starting = Start(),
+    start: Starting = STATIC,
     horizon: Seconds = 200.0,
     seed: Annotated[Count, Field(ge=0)] = 1,
     attractor_tol: Annotated[Real, Field(ge=0, le=0.25)] = 0.1,

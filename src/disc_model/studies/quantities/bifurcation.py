@@ -15,7 +15,7 @@ from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
 from disc_model.stability.thresholds import FIRST_LEG
-from disc_model.studies.quantity import MOST, Motion, Starting, found, quantity
+from disc_model.studies.quantity import MOST, STATIC, Motion, Starting, found, quantity
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -77,7 +77,7 @@ def bifurcation(
     section: Literal["stroboscopic", "event"] = "stroboscopic",
     samples: Annotated[Count, Field(ge=1, le=MOST)] = 50,
     theta: Annotated[Finite, Unit("rad")] = 1.0,
-    start: Starting = Start(),
+    start: Starting = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Samples of the motion after a transient, for bifurcation diagrams.

@@ -68,7 +68,7 @@ def campbell(
             row, message = {"status": "failed"}, f"{type(error).__name__}: {error}"
         rows.append(row)
         messages.append(message)
-    values = listed(rows)
+    values: dict[str, Any] = dict(listed(rows))
     own: dict[str, Any] = {"Omega": speeds, "mode": range(1, modes + 1)}
     along = found("campbell", values, messages, **own)
     crossings = sorted(_crossings(along, half_bandwidth, min_rise), key=_place)

@@ -15,7 +15,16 @@ from disc_model.data.variables import WORDS, CycleStatus, message_of
 from disc_model.errors import SimulationError
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Start
-from disc_model.studies.quantity import Free, Motion, Starting, Values, found, listed, quantity
+from disc_model.studies.quantity import (
+    STATIC,
+    Free,
+    Motion,
+    Starting,
+    Values,
+    found,
+    listed,
+    quantity,
+)
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
@@ -86,7 +95,7 @@ def lyapunov_exponents(
     duration: Seconds,
     count: Annotated[Count, Field(ge=1, le=7)] = 2,
     interval: Seconds = 0.05,
-    start: Starting = Start(),
+    start: Starting = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """The largest Lyapunov exponents of the motion across all its events, without the one along it, which
@@ -187,7 +196,7 @@ def neutral_curves(
         "n_continuation_failures": len(curves.failures),
         **listed(rows),
     }
-    own = {"curve": range(max_curves), "curve_point": range(2 * max_points)}
+    own: dict[str, Any] = {"curve": range(max_curves), "curve_point": range(2 * max_points)}
     return found("neutral_curves", values, **own)
 
 

@@ -102,7 +102,9 @@ def hysteresis(
     values |= {"status": status, **_edges(swept, values)}
     every = found("hysteresis", values, direction=DIRECTIONS, sweep_Omega=swept)
     if name != SPEED:
-        every = _named_along(every, name)
+        edges = dict(zip(edges_along(SPEED), edges_along(name), strict=True))
+        every = every.rename({"sweep_Omega": f"sweep_{name}", **edges})
+        every[f"sweep_{name}"].attrs = {**attributes_of_number(name), "parameter": name}
     return every.assign(message=failure or "; ".join(_reasons(words(every), name)))
 
 
@@ -128,18 +130,6 @@ def _edges(swept: Sequence[float], values: dict[str, Any]) -> dict[str, float]:
         if quiet.size and done[1, quiet[-1]]:
             edges["offset_speed"] = swept[quiet[-1] + 1]
     return edges
-
-
-def _named_along(sweep: xr.Dataset, name: str) -> xr.Dataset:
-    """A sweep along another number than the speed, with its values under the name of that number."""
-    edges = dict(zip(edges_along(SPEED), edges_along(name), strict=True))
-    renamed = sweep.rename({f"sweep_{SPEED}": f"sweep_{name}", **edges})
-    number = attributes_of_number(name)
-    renamed[f"sweep_{name}"].attrs = {**number, "parameter": name}
-    for edge in edges.values():
-        known = OF_QUANTITIES["hysteresis"]["added"][edge]
-        renamed[edge].attrs = {"units": number.get("units", "1"), **known.texts()}
-    return renamed
 
 
 def _reasons(sweep: xr.Dataset, name: str) -> Iterable[str]:

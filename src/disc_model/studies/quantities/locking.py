@@ -11,8 +11,8 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Start, Window
-from disc_model.studies.quantity import Starting, found, quantity
+from disc_model.simulation.case import Window
+from disc_model.studies.quantity import STATIC, Starting, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millise
         ),
     ),
 )
-def locking(
+def locking(  # noqa: PLR0913
     case: Parameters,
     *,
     transient: Seconds = 60.0,
@@ -40,7 +40,7 @@ def locking(
     multipliers: bool = True,
     releases: Annotated[Count, Field(ge=1, le=10_000)] = 50,
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
-    start: Starting = Start(),
+    start: Starting = STATIC,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Number of releases of stick after which a motion that separates repeats, mean number of separations between
@@ -72,6 +72,8 @@ def locking(
         if values["motion"] != "undecided" or 2 * record > max_record:
             break
         record *= 2
+    for name in ("release_phase", "release_separations"):
+        values[name] = values.get(name, np.empty(0))[:releases]
     values |= {"status": "ok", "record_time": record}
     message = ""
     if lock is not None and multipliers:
