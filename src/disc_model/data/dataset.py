@@ -41,7 +41,7 @@ def save(data: Any, path: str | Path) -> None:
     data : an xarray.Dataset or xarray.DataTree of numbers and words; discs along a dimension are written as text, in
         JSON, and None beside them, the plate, as "plate". A `Branch` and what `critical` returns are written as the
         dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
-        `Result` or a `State` is written by its method `save`, to .nc, and read by its method `load`
+        `Result` is written by its method `save`, to .nc, and read by its method `load`
     path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
         heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
         fewer dimensions are repeated: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``. Tables are
