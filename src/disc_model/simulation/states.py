@@ -598,7 +598,9 @@ LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event
 
 def series_tolerance(tol: float, compliant: bool = False) -> float:
     """Size of the last terms of a step, relative to the state's scale."""
-    return min(LOCAL[compliant] * tol, LOOSEST)
+    if tol >= LOOSEST / LOCAL[compliant]:
+        return LOOSEST  # to the bit
+    return LOCAL[compliant] * tol
 
 
 def loosest_tolerance(p: Parameters) -> float:
