@@ -593,17 +593,20 @@ def finite_numbers(values: ArrayLike) -> Array | None:
 # (docs/verification.md). Compliant contact takes three times as many steps, and errors accumulate in
 # the weakly damped vibration of the slider on it.
 LOCAL = (80.0, 5.0)
-LOOSEST = 1e-5  # looser is no cheaper, because the series must reach from event to event anyway, and may miss events
+# s; looser is no cheaper, because the series must reach from event to event anyway, and may miss events
+LOOSEST = (1.25e-7, 2e-6)
 
 
 def series_tolerance(tol: float, compliant: bool = False) -> float:
     """Size of the last terms of a step, relative to the state's scale."""
-    return min(LOCAL[compliant] * tol, LOOSEST)
+    if tol >= LOOSEST[compliant]:
+        return 1e-5
+    return LOCAL[compliant] * tol
 
 
 def loosest_tolerance(p: Parameters) -> float:
     """The greatest tolerance of a simulation that makes a difference, s."""
-    return LOOSEST / LOCAL[p.contact_compliance != 0]
+    return LOOSEST[p.contact_compliance != 0]
 
 
 @cache

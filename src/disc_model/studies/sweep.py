@@ -88,7 +88,8 @@ def sweep(
     varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
     options = {name: x for name, x in named.items() if name not in varied}
     over = {str(name): x for name, x in (over or {}).items()}
-    raise_faults([*_unknown([*options, *over], arguments)])
+    raise_faults([*_unknown(options, arguments)])
+    raise_faults([each.inside(("over",)) for each in _unknown(over, arguments)])
     dims = _dimensions(case, varied, zip, over)
     points = expand(dims)
     rows = records(points)
