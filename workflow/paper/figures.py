@@ -503,7 +503,7 @@ def mark_highest(ax: Axes, case: xr.DataTree) -> None:
     """Mark the disc's highest natural frequency."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
     natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
-    text = f"the disc's highest natural frequency, {natural:.0f} Hz"
+    text = f"highest natural frequency, {natural:.0f}\u00a0Hz"
     ax.axhline(natural, color=SKY, lw=1.0, ls=(0, (1, 1)), label=text)
 
 

@@ -175,7 +175,8 @@ def draw_lines(
         chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
         usual["label"] = ", ".join(map(value_text, chosen))
     elif by not in array.coords or array.sizes[by] > MOST_VALUES:
-        array, doubt = (each if each is None else flattened(each, x) for each in (array, doubt))
+        array = flattened(array, x)
+        doubt = None if doubt is None else flattened(doubt, x)
         usual |= {"marker": ".", "linestyle": "", "missing": ""}
     if doubt is not None:
         usual["doubt"] = doubt.attrs["long_name"]
