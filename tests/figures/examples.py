@@ -330,7 +330,7 @@ def critical_speed() -> Example:
     scan = {"bounds": [8, 16], "step": 1}
     axes = {"N": LOADS, **ONE}
     options = {"horizon": [900], **scan}
-    own = {"horizon": [900.0]}
+    own = {"horizon": [900.0], "scan_Omega": np.arange(8.0, 17)}
     onset = np.array([10.0, 12.0, 14.0])
     offset = np.array([8.5, 9.0, 12.5])
     hysteresis = {

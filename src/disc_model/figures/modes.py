@@ -157,6 +157,8 @@ def campbell(
     multiples : of the stick-slip frequency, that are drawn over all speeds
     """
     figure, axes = panels([["frequency"], ["rate"]], PAGE, 2.4, sharex=True, height_ratios=[3, 2])
+    if "Omega" not in study.dims:
+        study = study.expand_dims("Omega")
     draw_campbell([*axes.values()], study, highest, multiples)
     return figure
 

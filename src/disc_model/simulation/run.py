@@ -104,7 +104,7 @@ class Run:
         order = states.series_order(request.tol)
         self.state, self.probe, self.series = states.take_workspace(self.case, order)
         at_switch = initial is not None and states.write_state(
-            self.case, initial, self.state, self.key
+            self.case, initial, self.state, self.key, is_start=True
         )
         start = self.time
 

@@ -413,15 +413,18 @@ def read_state(
     )
 
 
-def write_state(case: EngineCase, source: State, state: EngineState, key: str = "") -> bool:
-    """Write ``source`` to the engine's state; key as in `read_state`. Returns whether the engine
+def write_state(
+    case: EngineCase, source: State, state: EngineState, key: str = "", *, is_start: bool = False
+) -> bool:
+    """Write ``source`` to the engine's state; key as in `read_state`. The start of a run must not be
+    inside the disc, but a direction of change may be. Returns whether the engine
     has to determine the phase at this instant first: the state lies at an event of another case.
     Raises `ParameterError`."""
     _check(source, case)
     motion.clear(state)
     modal = np.concatenate([getattr(source, name) for name in MODAL])
     state.disc[case.places] = modal[case.present]
-    gap = _checked_gap(case, source, state)
+    gap = _checked_gap(case, source, state, is_start=is_start)
     rate = _rate_over_material(case, source)
 
     # the engine's scalars are those of `PLAIN`, with the rate over the material in place of f
@@ -437,14 +440,15 @@ def write_state(case: EngineCase, source: State, state: EngineState, key: str = 
     return at_event and _forget_switch(case, state)
 
 
-def _checked_gap(case: EngineCase, source: State, state: EngineState) -> float:
+def _checked_gap(case: EngineCase, source: State, state: EngineState, *, is_start: bool) -> float:
     """The slider's height over the disc, m. Raises `ParameterError` if it is within the disc, or not on it
     in rigid contact."""
     row = case.point[0]
     w = float(row.dot(state.disc))
     gap = source.u - w
     apart = source.phase == "separation"
-    if gap == 0 or (gap > 0 and apart) or (case.model.has_compliance and not apart):
+    allowed = gap > 0 or not is_start if apart else case.model.has_compliance
+    if gap == 0 or allowed:
         return gap
     size = float(np.abs(row).dot(np.abs(state.disc))) + abs(source.u_velocity) * case.model.unit
     place = "at or above" if apart else "at"
