@@ -11,7 +11,7 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.studies.registry import quantity_names
+from disc_model.studies.quantity import HOMES
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {
@@ -215,7 +215,7 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
 
 def test_quantities_that_are_no_functions_lead_to_studies() -> None:
     """A notebook had no `bifurcation` or `campbell`, and did not say where these are."""
-    assert {*dm._OF_STUDIES} == {*quantity_names()} - {*dm.__all__}
+    assert {*dm._OF_STUDIES} == {*HOMES} - {*dm.__all__}
     for name in dm._OF_STUDIES:
         with pytest.raises(AttributeError, match=f"run_study.*{name}"):
             getattr(dm, name)

@@ -11,7 +11,7 @@ from disc_model import Poincare, Window
 from disc_model.errors import Fault
 from disc_model.figures.kinds import KINDS, kind_of
 from disc_model.figures.schema import CasePlot, Kind, Plot
-from disc_model.studies.registry import quantity_names
+from disc_model.studies.quantity import HOMES
 from tests.figures.examples import EXAMPLES
 from tests.processes import python
 from tests.refusals import refusal
@@ -49,7 +49,7 @@ def test_keys_of_a_kind_are_the_parameters_of_its_function(name: str) -> None:
 def test_a_kind_shows_quantities_that_there_are(name: str) -> None:
     kind = KINDS[name]
     roles = {role.quantity for role in getattr(kind, "roles", {}).values()}
-    assert {*kind.shows.quantities, *roles} <= {*quantity_names()}
+    assert {*kind.shows.quantities, *roles} <= {*HOMES}
 
 
 @pytest.mark.parametrize(

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from disc_model.figures.draw import PAGE, edges, lone_cells
 from disc_model.figures.kinds import KINDS, kind_of, render, save
 from disc_model.figures.looks import LOOKS, looks_of
-from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.quantity import HOMES, quantity_of
 from tests.figures.examples import (
     DAMPERS,
     EXAMPLES,
@@ -264,8 +264,8 @@ def test_single_cells_of_a_class_are_hatched_as_finer_than_the_grid() -> None:
 
 def test_classes_of_a_flag_are_told_apart_in_grey_print() -> None:
     """By lightness, or by pattern, and none is called as another."""
-    for name in quantity_names():
-        for variable, column in quantity_of(name).COLUMNS.items():
+    for name in HOMES:
+        for variable, column in quantity_of(name).columns.items():
             words = [str(word) for word in column.flags if word in LOOKS]
             for one, other in combinations(looks_of(words).values(), 2):
                 assert one.label != other.label, variable

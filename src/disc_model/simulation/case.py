@@ -22,8 +22,8 @@ from pydantic import (
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
-from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import FORMAT, Parameters
+from disc_model.provenance import canonical_json, content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]

@@ -24,9 +24,9 @@ from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, rule_of_choice, suggestion
 from disc_model.parameters import Parameters
+from disc_model.provenance import versions_text
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
 from disc_model.simulation.states import Array, State, is_finite_array
-from disc_model.sources import versions_text
 from disc_model.units import Finite, Real, Strict, in_si, is_number, is_whole
 
 if TYPE_CHECKING:

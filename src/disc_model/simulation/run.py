@@ -18,8 +18,8 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
 from disc_model.errors import Fault, ParameterError, Status
-from disc_model.hashing import content_key
 from disc_model.parameters import Parameters
+from disc_model.provenance import content_key
 from disc_model.simulation import states
 from disc_model.simulation.case import Execution, Ramp, SampleTimes, Windows, angle_of_drive, pieces
 from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result

@@ -18,7 +18,7 @@ from disc_model.data.variables import (
 )
 from disc_model.display import counted, drawings
 from disc_model.parameters import Parameters
-from disc_model.sources import versions_text
+from disc_model.provenance import versions_text
 from disc_model.stability.cycle import STICK_SLIP
 from disc_model.stability.parameter_scan import SLIDING
 

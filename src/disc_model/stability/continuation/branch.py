@@ -16,8 +16,8 @@ from disc_model.data.variables import OF_RESULTS, attributes_of_number, unit_of_
 from disc_model.display import counted, drawings
 from disc_model.errors import Fault, raise_faults, require, rule_of_choice
 from disc_model.parameters import Parameters, Quantity
+from disc_model.provenance import versions_text
 from disc_model.simulation.states import State, is_finite
-from disc_model.sources import versions_text
 from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
 from disc_model.stability.continuation.data import (
     POINTS,
