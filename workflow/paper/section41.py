@@ -13,8 +13,8 @@ from scipy.signal import find_peaks
 from disc_model.analysis import classify, spectra
 from disc_model.data import texts
 from disc_model.data.dataset import Missing
-from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.variables import UNKNOWN_OUTCOMES, Outcome, flag_names
+from disc_model.studies.quantities.swept_speeds import swept_speeds
 from workflow.paper import energy, judging_tables, measures, model
 from workflow.paper.measures import Absent, CaseView, extent, or_none, pairs, published
 from workflow.paper.model import AMBIGUOUS, FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded

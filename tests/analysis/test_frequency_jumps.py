@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from disc_model.data.frequency_jumps import frequency_jumps
+from disc_model.analysis.frequency_jumps import frequency_jumps
 
 GAP = np.nan
 
