@@ -84,7 +84,7 @@ INSIDE = "must be at or above the disc under the slider"
     ("p", "arguments", "fault"),
     [
         (P, {}, "t_end: is required, or duration"),
-        (P, {"t_end": 1, "duration": 1}, "t_end: must be left out"),
+        (P, {"t_end": 1, "duration": 1}, "t_end=1: must be left out"),
         (P, {"t_end": 0.0}, "t_end=0: must be finite"),
         (P, {"duration": "5 kg"}, "duration='5 kg': must be finite"),
         (P, {"t_end": 1, "tol": 0.9e-15}, r"tol=.*: must be within 1e-15 and 0\.01$"),

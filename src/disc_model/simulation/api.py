@@ -10,7 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from disc_model.errors import Fault, as_text, raise_faults, require, violations, with_known_names
+from disc_model.errors import (
+    Fault,
+    ParameterError,
+    as_text,
+    raise_faults,
+    require,
+    violations,
+    with_known_names,
+)
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import (
@@ -139,9 +147,9 @@ def _sampled(windows: Windows | None, start: float, end: float, stop_at: str | N
 def _span(t_end: Any, duration: Any, initial_state: Any) -> tuple[float, float, list[str]]:
     """Return the times of a run from an end or a duration, s, one of which must be given, and what is wrong with
     them. They are plain floats: others would make the engine compile again, and would round differently."""
-    needed = t_end is not None or duration is not None
+    if t_end is None and duration is None:
+        raise ParameterError(Fault(("t_end",), "", "is required, or duration instead of it"))
     alone = t_end is None or duration is None
-    require((needed, "t_end", t_end, "is required, or duration instead"))
     require((alone, "t_end", t_end, f"must be left out beside {duration=!s}"))
 
     # the start is 0 until its fault is reported
