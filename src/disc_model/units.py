@@ -279,7 +279,8 @@ class Strict(BaseModel):
     def _in_si(cls, data: Any, handler: Any) -> Any:
         """Convert numbers with units."""
         if isinstance(data, dict):
-            faults: list[Fault] = []
+            rule = "a name must be text"
+            faults = [Fault.of((repr(x),), data[x], rule) for x in data if not isinstance(x, str)]
             data = in_si(data, cls._units(data), faults, ())
             raise_faults(faults)
         return handler(data)
