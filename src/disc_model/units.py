@@ -308,9 +308,10 @@ class Strict(BaseModel):
     def model_validate_json(cls, json_data: str | bytes | bytearray, **kwargs: Any) -> Self:
         """The model from the JSON that `model_dump_json` writes."""
         try:
-            return cls.model_validate(json.loads(json_data), **kwargs)
-        except json.JSONDecodeError as error:
+            values = json.loads(json_data)
+        except (ValueError, RecursionError) as error:
             raise ParameterError(f"is no JSON: {error}") from None
+        return cls.model_validate(values, **kwargs)
 
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
