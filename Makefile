@@ -55,7 +55,7 @@ survival: env
 	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
 	cp results/paper/survival.md docs/model_sensitivity.md
 
-# Comparisons with measurements: tables and pictures of docs/measurements.md.
+# Comparisons with measurements: tables of docs/measurements.md.
 measurements: env
 	$(BIN)/python -m docs.measurements.report
 
