@@ -48,7 +48,10 @@ rule measure:
     threads: 1024
     params:
         code=code_of("../../benchmarks/scripts/measure", *PHYSICS, BENCHMARKS),
-        study=lambda w: " ".join(re.split("/|_(?=stick|separating)", w.part)),
+        # such as: failure_maps RK4 stick_slip
+        study=lambda w: " ".join(Path(w.part).parts)
+        .replace("_st", " st")
+        .replace("_se", " se"),
     shell:
         "OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 job ../../benchmarks/scripts/measure {output} {params.study} > {log} 2>&1"
 
