@@ -110,7 +110,9 @@ def answers(method: str, settings: Sequence[float] | None = None) -> pd.DataFram
                     seconds = min(seconds, again)
             except Broken as broken:
                 result: MethodResult = broken.args[0]
-                found, seconds, reason = {}, result.seconds, f"{result.outcome}"
+                found = {}
+                seconds = result.seconds
+                reason = f"{result.outcome}"
                 if result.outcome is RunStatus.TOO_SLOW:
                     hopeless.add(ask)
             for name in names:

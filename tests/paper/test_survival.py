@@ -9,14 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
-import yaml
 
-from disc_model import Parameters, residual_flexibility
+from disc_model import Parameters
 from disc_model.data.variables import STATUSES
-from disc_model.studies.study import load_study
 from tests.analysis.test_classify import logistic
 from tests.paper.evidence import grid, kept_events
-from workflow.paper import SURVIVAL_GRIDS, survival
+from workflow.paper import survival
 from workflow.paper.measures import CaseView
 from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer
 from workflow.paper.survival import CHANGED, CONCLUSIONS, MODELS
@@ -162,8 +160,6 @@ ALL_KNOWN = (-0.1, -0.2, 0.1, -0.1, 0.05, 0.1)
 
 BELOW_FOLD = curves("fold", 14.9, 15.2)
 OFF_FOLD = curves("fold", 15.0, 15.34)
-JUST_BELOW = curves("fold", 14.82, 15.12)
-FAR_BELOW = curves("fold", 14.79, 15.09)
 NO_FOLD = curves("neutral", 14.9, 15.2, missed=2)
 HALF_FOLD = curves("fold", 14.9, 15.2, border=["yes", "no", "no"])
 FAILED = BELOW_FOLD.assign(grid({}, status="failed"))
@@ -177,17 +173,11 @@ GRID_CASES = [
     (ONSET, onset("qqqqgg", *ALL_KNOWN), NOT_COMPUTED),  # nothing separates
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.2), FALSE),  # the cycle continues
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.05), TRUE),  # a fold just above the speed
-    (ONSET, onset("qqsqss", *MORE_STABLE, fold=20.0), TRUE),
     (ONSET, onset("qqsqss", *MORE_STABLE, fold=19.95), FALSE),  # at the speed, the cycle is beyond
     (ONSET, onset("xqsqgs", *MORE_STABLE), NOT_COMPUTED),
-    (ONSET, onset("qqsqgs", -0.1, -0.2, 0.1, -0.1, 0.05, 5e-4), TRUE),  # neither stable nor not
     (ONSET, onset("ssssss", *[0.1] * 6), NOT_COMPUTED),  # no cycle is stable
-    (FOLD, at_fold(BELOW_FOLD, 15.1, 17.0), TRUE),  # one of two speeds is the fold's
-    (FOLD, at_fold(NO_FOLD, 25.0), NOT_COMPUTED),  # the cycle is stable below, and not above
     (FOLD, at_fold(BELOW_FOLD, 15.1), TRUE),  # at 15.05, within 15.0 .. 15.1
     (FOLD, at_fold(OFF_FOLD, 15.1), FALSE),  # at 15.17
-    (FOLD, at_fold(JUST_BELOW, 15.1), TRUE),  # at 14.97, less than 0.05 below 15.0 .. 15.1
-    (FOLD, at_fold(FAR_BELOW, 15.1), FALSE),  # at 14.94
     (FOLD, at_fold(HALF_FOLD, 15.1), FALSE),  # a stable cycle adjoins one end only
     (FOLD, at_fold(NO_FOLD, 15.1), NOT_COMPUTED),  # a curve that was missed may be the fold
     (FOLD, at_fold(NO_FOLD, 15.1, rate=0.1), FALSE),  # the cycle goes on, unstable
@@ -203,7 +193,6 @@ GRID_CASES = [
     (NORMAL, damping("c", GROWING, GROWING + GROWING_RAISED), FALSE),
     (IN_PLANE, in_plane(MANY - 0.05), FALSE),
     (IN_PLANE, in_plane(raised(1, 0, 0.05)), TRUE),  # a stable cycle grows
-    (IN_PLANE, in_plane(raised(1, 0, NAN), "no_cycle"), TRUE),
     (IN_PLANE, in_plane(raised(1, 0, -0.02)), FALSE),  # it decays more slowly, and is stable still
     (IN_PLANE, in_plane(MANY[:, :3] - 0.05), NOT_COMPUTED),  # few cycles say nothing
     (IN_PLANE, damping("c", GROWING, GROWING), NOT_COMPUTED),  # of the other damper
@@ -390,34 +379,3 @@ def test_each_model_is_judged_by_its_own_data() -> None:
         "1 have none that was found, and 0 have"
     )
     assert sections[0][2]["Found"].iloc[0].startswith(told)
-
-
-def test_the_cases_are_the_same_under_the_five_models() -> None:
-    study = load_study(CONFIG / "survival.yaml")
-    kinds = set()
-    models = set()
-    for spec in study.specs.values():
-        p = spec.parameters
-        kinds.add((p.N, p.Omega, p.contact))
-        compliant = p.contact_compliance != 0
-        on_surface = p.friction_offset != 0
-        models.add((p.normalization, compliant, p.contact_force, on_surface))
-    assert len(study.specs) == len(MODELS) * len(kinds)
-    assert models == {*MODELS.values()}
-
-
-@pytest.mark.parametrize("name", SURVIVAL_GRIDS)
-def test_a_grid_study_asks_for_the_five_models(name: str) -> None:
-    base = Parameters(N=200, Omega=20, normalization="orthonormal")
-    plate = residual_flexibility(base)
-    raw = yaml.safe_load((CONFIG / "survival" / f"{name}.yaml").read_text())
-    zips = raw["zip"]
-    if not isinstance(zips, list):
-        zips = [zips]
-    (models,) = [columns for columns in zips if "normalization" in columns]
-    points = zip(*(models[parameter] for parameter in CHANGED), strict=True)
-    for model, (scale, compliance, force, offset) in zip(MODELS.values(), points, strict=True):
-        assert (scale, compliance != 0, force, offset != 0) == model
-        residual = (plate.total - plate.kept) * model[1]
-        assert compliance == pytest.approx(residual, rel=1e-12)
-        assert offset == base.h / 2 * model[3]

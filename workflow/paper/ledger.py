@@ -1,10 +1,11 @@
 """The ledger: every statement of the paper with a verdict, as a table and as a page with a summary."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from inspect import ismodule
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from disc_model.data.dataset import Missing
@@ -127,8 +128,25 @@ def compare(models: Mapping[str, Mapping[str, CaseView]]) -> list[Section]:
         if name in models["orthonormal"] and case.from_rest:
             names.setdefault(case.parameters, name)
     old, new = ([models[model][name] for name in names.values()] for model in NAMES)
+    failed = np.array([[case.status == "failed" for case in cases] for cases in (old, new)])
+    separate = np.array([[case.separates for case in cases] for cases in (old, new)])
+    before, after = separate[:, ~failed.any(axis=0)].sum(axis=1)
+    brief = fill(TEXTS["brief"], cases=int((~failed.any(axis=0)).sum()), before=before, after=after)
+    claims = _verdicts(models)
+    both = claims[[*NAMES.values()]]
+    counts = both.apply(pd.Series.value_counts).reindex([*VERDICTS]).fillna(0).astype(int)
+    changed = claims[both.nunique(axis=1) > 1]
+    return [
+        ("", brief, counts.rename_axis("verdict").reset_index()),
+        ("The cases of the paper", TEXTS["cases"], _cases(old, new)),
+        ("Statements of the paper whose verdict changes", TEXTS["verdicts"], changed),
+    ]
+
+
+def _cases(old: Sequence[CaseView], new: Sequence[CaseView]) -> pd.DataFrame:
+    """Return results of cases as published, and of the same with orthonormal modes."""
     columns = {
-        "Case": [*names.values()],
+        "Case": [case.name for case in old],
         "Parameters": [_parameters_text(case) for case in old],
         "First separation, as published": [_first_separation(case) for case in old],
         "First separation, Eq. (17)": [_first_separation(case) for case in new],
@@ -136,26 +154,15 @@ def compare(models: Mapping[str, Mapping[str, CaseView]]) -> list[Section]:
         "Growth, Eq. (17) (1/s)": [rate_text(case.growth_rate, "", "–") for case in new],
         "P in the end, Eq. (17) (N)": [_late_force(case) for case in new],
     }
-    whole = [
-        pair for pair in zip(old, new, strict=True) if not any(c.status == "failed" for c in pair)
-    ]
-    before, after = (sum(case.separates for case in cases) for cases in zip(*whole, strict=True))
-    brief = fill(TEXTS["brief"], cases=len(whole), before=before, after=after)
+    return pd.DataFrame(columns)
 
+
+def _verdicts(models: Mapping[str, Mapping[str, CaseView]]) -> pd.DataFrame:
+    """Return the rows that are judged by cases, with their verdicts under both normalisations."""
     by_cases = [bool(row.cases) for row in ROWS]
-    verdicts = [check_claims(models[model])[by_cases] for model in NAMES]
-    claims = verdicts[0][["place", "quote"]].assign(
-        **{words: table["verdict"] for words, table in zip(NAMES.values(), verdicts, strict=True)},
-        Found=verdicts[1]["here"],
-    )
-    both = claims[[*NAMES.values()]]
-    counts = both.apply(pd.Series.value_counts).reindex([*VERDICTS]).fillna(0).astype(int)
-    changed = claims[both.nunique(axis=1) > 1]
-    return [
-        ("", brief, counts.rename_axis("verdict").reset_index()),
-        ("The cases of the paper", TEXTS["cases"], pd.DataFrame(columns)),
-        ("Statements of the paper whose verdict changes", TEXTS["verdicts"], changed),
-    ]
+    old, new = (check_claims(models[model])[by_cases] for model in NAMES)
+    verdicts = {"as published": old["verdict"], "Eq. (17)": new["verdict"]}
+    return old[["place", "quote"]].assign(**verdicts, Found=new["here"])
 
 
 def _parameters_text(case: CaseView) -> str:

@@ -46,6 +46,10 @@ FEWEST_BINS = 4
 """Bins of the history below which no slope is fitted."""
 
 
+Found = dict[str, Any]
+"""What is measured, by name."""
+
+
 class Absent(Missing):
     """The evidence exists but lacks the feature that a row states: the statement is false."""
 
@@ -530,6 +534,9 @@ class Signal(NamedTuple):
             raise Absent(f"case {self.case}: {error} in w_point") from None
 
 
+Cases = Sequence[CaseView]
+
+
 # ---- Several cases
 
 
@@ -545,7 +552,7 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
     return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
-def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
+def pairs(cases: Cases) -> list[tuple[CaseView, CaseView]]:
     """Return cases with separation, each with the case that ignores separation.
 
     Raises `Missing` if one has no such case.
@@ -609,7 +616,7 @@ def _failed(study: xr.Dataset) -> Mask:
     return variables.flag_names(study["status"]) != "ok"
 
 
-def facts(study: xr.Dataset) -> dict[str, Any]:
+def facts(study: xr.Dataset) -> Found:
     """Return what sentences state of a grid study.
 
     These are its base values, its options, and the extent of each axis of numbers.

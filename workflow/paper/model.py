@@ -6,21 +6,20 @@ condition for each verdict, of which the first that holds gives the verdict; its
 """
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args
 
 import jinja2
 import pandas as pd
-import xarray as xr
 import yaml
 from pydantic import BaseModel, ConfigDict, TypeAdapter
 
 from disc_model.data.dataset import Missing
 from disc_model.data.texts import fill
 from disc_model.parameters import Parameters
-from workflow.paper.measures import Absent, CaseView, extent, facts
+from workflow.paper.measures import Absent, CaseView, Found, extent, facts
 
 Verdict = Literal[
     "true", "true in part", "false", "ambiguous in the paper", "cause not tested", "not computed"
@@ -161,39 +160,33 @@ class Row(BaseModel):
         except Missing as missing:
             return Answer(NOT_COMPUTED, f"{missing}.")
 
-    def _evidence(
-        self, known: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame]
-    ) -> dict[str, Any]:
+    def _evidence(self, known: Mapping[str, CaseView], tables: Mapping[str, pd.DataFrame]) -> Found:
         """Return what expressions know; raises `Missing` if it is not there."""
-        if self.every:
-            cases = [case for case in known.values() if not case.is_grid]
-        else:
-            cases = [required_case(known, name, until) for name, until in self.cases.items()]
-        for what, names, there in (
-            ("study", self.scans, known),
-            ("table", self.from_tables, tables),
-        ):
-            for name in names:
-                if name not in there:
-                    raise Missing(f"{what} {name} is not among those of this run")
-        for case in cases:
-            end = f"{case['time_reached']:g} s"
-            lost = case.separates or case.bilateral
-            if not lost and (self.separates is True or case.name in self.separates):
-                raise Missing(f"no separation in {end} (case {case.name})")
-            if (self.steady is True or case.name in self.steady) and not case.settled:
-                raise Missing(f"case {case.name} has not settled in {end}: {case.settling()}")
-
-        values: dict[str, Any] = {"cases": cases, "place": "", "stated": {}}
+        _require("study", self.scans, known)
+        _require("table", self.from_tables, tables)
+        cases = self._cases(known)
+        values: Found = {"cases": cases, "place": "", "stated": {}}
         if cases:
             values |= {"case": cases[0], "place": cases[0].place}
-        studies: dict[str, xr.Dataset | None] = {}
-        studies |= {name: known[name].node.to_dataset() for name in self.scans}
-        if studies:
-            values["stated"] = facts(known[self.scans[0]].node.to_dataset())
-        for name in self.optional_scans:
-            studies[name] = known[name].node.to_dataset() if name in known else None
-        return {**values, **studies, **{name: tables[name] for name in self.from_tables}}
+        for name in self.scans + self.optional_scans:
+            values[name] = known[name].node.to_dataset() if name in known else None
+        if self.scans:
+            values["stated"] = facts(values[self.scans[0]])
+        return values | {name: tables[name] for name in self.from_tables}
+
+    def _cases(self, known: Mapping[str, CaseView]) -> list[CaseView]:
+        """Return the cases; raises `Missing` if one of them is not as the row needs it."""
+        if self.every:
+            return [case for case in known.values() if not case.is_grid]
+        cases = [required_case(known, name, until) for name, until in self.cases.items()]
+        for case in cases:
+            end = f"{case['time_reached']:g} s"
+            kept = not (case.separates or case.bilateral)
+            if kept and _among(case.name, self.separates):
+                raise Missing(f"no separation in {end} (case {case.name})")
+            if _among(case.name, self.steady) and not case.settled:
+                raise Missing(f"case {case.name} has not settled in {end}: {case.settling()}")
+        return cases
 
     def _on_settling(self) -> str:
         """Return a remark on the motions whose steady state the row is about."""
@@ -205,6 +198,18 @@ class Row(BaseModel):
         if len(named) == 1:
             return "The motion has settled."
         return "All motions judged here have settled."
+
+
+def _among(name: str, named: Literal[True] | tuple[str, ...]) -> bool:
+    """Return whether a key of a row names a case, as it does all if it is True."""
+    return named is True or name in named
+
+
+def _require(what: str, names: Iterable[str], known: Container[str]) -> None:
+    """Raise `Missing` for the first study or table that is not known."""
+    for name in names:
+        if name not in known:
+            raise Missing(f"{what} {name} is not among those of this run")
 
 
 def _evaluated(expression: str, values: Mapping[str, Any]) -> Any:

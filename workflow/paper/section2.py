@@ -4,7 +4,7 @@ They are about the scale and the number of modes, and about the disc and the sli
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -18,7 +18,7 @@ from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.disc.plate import mode_shapes
 from disc_model.parameters import Parameters
 from workflow.paper.judging_tables import GROWTHS, PRECURSOR
-from workflow.paper.measures import Array, CaseView, extent, pairs, width_ratio
+from workflow.paper.measures import Array, Cases, Found, extent, pairs, width_ratio
 from workflow.paper.model import parameters_of
 
 BASE = Parameters(N=200, Omega=20)
@@ -63,7 +63,7 @@ def first_separations(points: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     return pd.DataFrame(times).T
 
 
-def separation_by_normalisation(*maps: xr.Dataset) -> dict[str, Any]:
+def separation_by_normalisation(*maps: xr.Dataset) -> Found:
     """Measure what becomes of the points of `SEPARATING` with both sets of modes.
 
     Parameters
@@ -120,7 +120,7 @@ def second_relation(p: Parameters) -> Array:
     return norms(p) * omega**2 / p.D
 
 
-def after_more_modes(cases: Sequence[CaseView], share: float) -> dict[str, Any]:
+def after_more_modes(cases: Cases, share: float) -> Found:
     """Measure what more modes change after a separation.
 
     Parameters
@@ -145,7 +145,7 @@ def after_more_modes(cases: Sequence[CaseView], share: float) -> dict[str, Any]:
 # ---- Conditions and frequencies
 
 
-def slip_condition(cases: Sequence[CaseView]) -> Array:
+def slip_condition(cases: Cases) -> Array:
     """Return whether Eq. (24) holds at stops of the slider, where ψ' = Ω."""
     holds: list[bool] = []
     for case in cases:
@@ -176,7 +176,7 @@ def moving_load_speed(p: Parameters, further: int = 0) -> float:
 # ---- What separation changes
 
 
-def pairs_of(cases: Sequence[CaseView], factor: float = math.inf) -> list[tuple[Any, ...]]:
+def pairs_of(cases: Cases, factor: float = math.inf) -> list[tuple[Any, ...]]:
     """Return a row for each pair of a case with separation and one without it.
 
     It has their place, the ratio of the disc's ranges, both shares of stick, both ranges, and how
@@ -195,7 +195,7 @@ def pairs_of(cases: Sequence[CaseView], factor: float = math.inf) -> list[tuple[
 # that falls
 
 
-def growth_of_sliding(precursor: pd.DataFrame) -> dict[str, Any]:
+def growth_of_sliding(precursor: pd.DataFrame) -> Found:
     """Count combinations of load and speed by what friction and a damper do to growth.
 
     Parameters

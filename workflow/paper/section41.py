@@ -3,7 +3,6 @@
 Separation occurs, ignoring it changes the motion, and the critical speed for separation.
 """
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -17,7 +16,16 @@ from disc_model.data.swept_speeds import swept_speeds
 from disc_model.data.texts import fill
 from disc_model.data.variables import UNKNOWN_OUTCOMES, flag_names
 from workflow.paper import energy, judging_tables, measures
-from workflow.paper.measures import Absent, CaseView, extent, or_none, pairs, published
+from workflow.paper.measures import (
+    Absent,
+    Cases,
+    CaseView,
+    Found,
+    extent,
+    or_none,
+    pairs,
+    published,
+)
 from workflow.paper.model import FALSE, PART, TRUE, read_texts
 from workflow.paper.section2 import BASE, moving_load_speed
 
@@ -32,7 +40,7 @@ def push_of_spring(case: CaseView) -> float:
     return case["k"] * float(np.mean(height))
 
 
-def sticks_in_settled(study: xr.Dataset) -> dict[str, Any]:
+def sticks_in_settled(study: xr.Dataset) -> Found:
     """Return the ``extent`` of shares of stick over the ``settled`` motions of a study of a ``size``."""
     settled = flag_names(study["settled"]) == "settled"
     shares = study["stick_fraction"].transpose(*study["settled"].dims).values
@@ -46,7 +54,7 @@ def sticks_in_settled(study: xr.Dataset) -> dict[str, Any]:
     }
 
 
-def line_counts(cases: Sequence[CaseView], floor: float) -> dict[str, Any]:
+def line_counts(cases: Cases, floor: float) -> Found:
     """Count lines in the disc's late spectrum with separation and without it.
 
     Parameters
@@ -75,7 +83,7 @@ def between_separations(case: CaseView) -> tuple[str, float]:
     return measures.repeats(motion, "separation"), float(intervals[: motion.period].sum())
 
 
-def ranges_of_pairs(cases: Sequence[CaseView]) -> list[tuple[Any, ...]]:
+def ranges_of_pairs(cases: Cases) -> list[tuple[Any, ...]]:
     """Return place, ratio and both ranges of the disc of cases with separation and without it."""
     return [
         (case.place, measures.width_ratio(case, other), case.disc, other.disc)
@@ -83,7 +91,7 @@ def ranges_of_pairs(cases: Sequence[CaseView]) -> list[tuple[Any, ...]]:
     ]
 
 
-def supplied_energies(cases: Sequence[CaseView], energies: pd.DataFrame) -> dict[str, Any]:
+def supplied_energies(cases: Cases, energies: pd.DataFrame) -> Found:
     """Measure which energy separation withholds of what maintained contact supplies.
 
     Parameters
@@ -138,7 +146,7 @@ def changed_by(small_changes: pd.DataFrame, case: CaseView) -> list[str]:
     return list(of_case["parameter"][separates != case.separates])
 
 
-def lowest_speeds_in_time(study: xr.Dataset, depth: float) -> dict[str, Any]:
+def lowest_speeds_in_time(study: xr.Dataset, depth: float) -> Found:
     """Measure how the lowest speed with separation changes with the preload, at each horizon.
 
     Parameters
@@ -211,7 +219,7 @@ def lowest_speeds(study: xr.Dataset, depth: float) -> tuple[str, str]:
 
 def separations_below(
     study: xr.Dataset, sweeps: xr.Dataset | None, basins: xr.Dataset | None, within: float
-) -> dict[str, Any]:
+) -> Found:
     """Find separations below the critical speed for separation.
 
     Parameters
@@ -229,7 +237,7 @@ def separations_below(
         15 rad/s separate, and their energies.
     """
     critical = measures.sound(published(study))["critical_speed"].isel(horizon=-1)
-    found: dict[str, Any] = {"known": critical.notnull().any(), "below": [], "swept": {}}
+    found: Found = {"known": critical.notnull().any(), "below": [], "swept": {}}
     if sweeps is not None:
         begins, turns = xr.align(critical, published(sweeps), join="inner")
         swept = swept_speeds(turns)
@@ -253,7 +261,7 @@ def _separating_kicks(basins: xr.Dataset) -> tuple[int, int, Any]:
     return separating, kicks, extent(basins["energy"].values)
 
 
-def slow_separations(cases: Sequence[CaseView], share: float) -> list[tuple[str, float]]:
+def slow_separations(cases: Cases, share: float) -> list[tuple[str, float]]:
     """Return cases that separate below a share of the critical speed of a moving load.
 
     There is a row for each, of its place and its speed over that critical speed.
@@ -263,7 +271,7 @@ def slow_separations(cases: Sequence[CaseView], share: float) -> list[tuple[str,
     return [(place, part) for place, part in rows if part < share]
 
 
-def slow_growth_and_separation(study: xr.Dataset, share: float) -> dict[str, Any]:
+def slow_growth_and_separation(study: xr.Dataset, share: float) -> Found:
     """Count growing cycles and separations on a map over speed and preload, and at low speeds.
 
     Parameters

@@ -13,7 +13,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import Outcome, flag_names, values_text
 from disc_model.parameters import Parameters
 from workflow.paper import growth, measures, paper_tables
-from workflow.paper.measures import STRETCH, Absent, Array, CaseView, Mask, extent
+from workflow.paper.measures import STRETCH, Absent, Array, Cases, CaseView, Found, Mask, extent
 
 LOADS = (50, 125, 200, 300, 385, 600)
 """Preloads of the paper and beyond, N."""
@@ -33,7 +33,7 @@ def growth_with(case: CaseView, **changes: Any) -> float:
     return growth.growth_of(case.parameters.replace(**changes))
 
 
-def slowest(cases: Sequence[CaseView]) -> float:
+def slowest(cases: Cases) -> float:
     """Return the lowest speed of the cases that separate, rad/s, or inf if none does."""
     return min((case["Omega"] for case in cases if case.separates), default=math.inf)
 
@@ -41,7 +41,7 @@ def slowest(cases: Sequence[CaseView]) -> float:
 # ---- Damping
 
 
-def growth_with_damping(case: CaseView, name: str, value: float) -> dict[str, Any]:
+def growth_with_damping(case: CaseView, name: str, value: float) -> Found:
     """Measure what damping does to growth rates at `LOADS` and `SPEEDS`.
 
     Parameters
@@ -87,7 +87,7 @@ def _counted(before: Array, after: Array) -> Mask:
 # ---- Stiffness and modulus
 
 
-def growth_over_steps(study: xr.Dataset, name: str, direction: int) -> dict[str, Any]:
+def growth_over_steps(study: xr.Dataset, name: str, direction: int) -> Found:
     """Count steps of a parameter on a map over it and the speed.
 
     Parameters
@@ -161,7 +161,7 @@ def stable_combinations(case: CaseView, **changes: Any) -> int:
 # ---- Motions before and after separation
 
 
-def power_of_combinations(case: CaseView) -> dict[str, Any]:
+def power_of_combinations(case: CaseView) -> Found:
     """Measure the disc's power at combinations of stick-slip rate and drive before it separates.
 
     Returns
@@ -189,7 +189,7 @@ def power_of_combinations(case: CaseView) -> dict[str, Any]:
     }
 
 
-def starts_of_separation(case: CaseView) -> dict[str, Any]:
+def starts_of_separation(case: CaseView) -> Found:
     """Measure where in its vertical motion the slider leaves the disc, in the window ``zoom``.
 
     Returns
@@ -218,7 +218,7 @@ def starts_of_separation(case: CaseView) -> dict[str, Any]:
     }
 
 
-def section_in_separation(case: CaseView) -> dict[str, Any]:
+def section_in_separation(case: CaseView) -> Found:
     """Return ranges of the disc's displacement in the section after the first separation, mm.
 
     They are those of the points in separation (``lost``), and of ``every`` point.

@@ -13,7 +13,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.modes import plate_modes
 from workflow.paper import growth, measures, paper_tables
-from workflow.paper.measures import HIGH, LOW, Array, CaseView, Mask
+from workflow.paper.measures import HIGH, LOW, Array, Cases, CaseView, Found, Mask
 from workflow.paper.section2 import BASE, coupled
 from workflow.paper.section43 import plane
 
@@ -63,7 +63,7 @@ def chance(case: CaseView) -> float:
     )
 
 
-def strongest_lines(cases: Sequence[CaseView], within: float) -> dict[str, list[bool]]:
+def strongest_lines(cases: Cases, within: float) -> dict[str, list[bool]]:
     """Say of the six strongest lines between 100 and 300 Hz of each case what they are.
 
     Parameters
@@ -109,7 +109,7 @@ def far_apart(lines: Sequence[tuple[float, float]], within: float) -> int:
 
 def power_at(
     case: CaseView, stretch: Stretch, belongs: Callable[[float], bool], below: float = math.inf
-) -> dict[str, Any]:
+) -> Found:
     """Measure which ``part`` of the power of lines above `LOW` belongs to some frequencies.
 
     Parameters
@@ -136,7 +136,7 @@ def power_at(
     }
 
 
-def inplane_power(case: CaseView) -> dict[str, Any]:
+def inplane_power(case: CaseView) -> Found:
     """Measure the power at combinations of the stick-slip rate and the drive: `power_at`."""
     rate = paper_tables.stick_slip_rate(case)
 
@@ -146,7 +146,7 @@ def inplane_power(case: CaseView) -> dict[str, Any]:
     return {"rate": rate, **power_at(case, EARLY, is_combination, below=HIGH)}
 
 
-def natural_power(case: CaseView, within: float, turns: float) -> dict[str, Any]:
+def natural_power(case: CaseView, within: float, turns: float) -> Found:
     """Measure the power at natural frequencies before separation: `power_at`.
 
     A point fixed on the disc sees them shifted by multiples of the drive's frequency.
@@ -179,12 +179,8 @@ def power_above(case: CaseView, window: str, start: float, stop: float) -> float
 
 
 def risen_power(
-    cases: Sequence[CaseView],
-    factor: float,
-    floor: float,
-    windows: Sequence[str],
-    spans: Sequence[float],
-) -> dict[str, Any]:
+    cases: Cases, factor: float, floor: float, windows: Sequence[str], spans: Sequence[float]
+) -> Found:
     """Measure power above `HIGH` before and after the first separation.
 
     Parameters
@@ -226,7 +222,7 @@ def filled(
 # ---- Stages of the motion
 
 
-def growth_stages(case: CaseView) -> dict[str, Any]:
+def growth_stages(case: CaseView) -> Found:
     """Measure growth rates of the disc's range before the first separation and at the end, 1/s.
 
     Returns
@@ -252,7 +248,7 @@ def growth_stages(case: CaseView) -> dict[str, Any]:
 # ---- The conclusions, as far as the rows on the sections do not judge them
 
 
-def reattachments(cases: Sequence[CaseView], longest: float) -> dict[str, Any]:
+def reattachments(cases: Cases, longest: float) -> Found:
     """Count separations that begin a time in s before the end of a run, and those that end there.
 
     Returns
@@ -288,7 +284,7 @@ def damping_both_ways(study: xr.Dataset) -> tuple[int, int]:
     return (growing & (rates[:, -1] < rates[:, 0])).sum(), growing.sum()
 
 
-def stiffened(case: CaseView, *speeds: float, **changes: Any) -> dict[str, Any]:
+def stiffened(case: CaseView, *speeds: float, **changes: Any) -> Found:
     """Measure growth rates with `STIFFENED`.
 
     Parameters
@@ -324,7 +320,7 @@ def stiffened(case: CaseView, *speeds: float, **changes: Any) -> dict[str, Any]:
     return {"stiffened": " ".join(sentences), "steps": [*np.sign(steps)], "rises": rises}
 
 
-def discs_in_contact(study: xr.Dataset, slow: float) -> dict[str, Any]:
+def discs_in_contact(study: xr.Dataset, slow: float) -> Found:
     """Find discs that keep contact at every speed, on a map of elastic modulus and speed.
 
     Parameters
@@ -353,7 +349,7 @@ def discs_in_contact(study: xr.Dataset, slow: float) -> dict[str, Any]:
     }
 
 
-def vertical_branch(cases: Sequence[CaseView]) -> dict[str, Any]:
+def vertical_branch(cases: Cases) -> Found:
     """Compare rises of the rate of separations with those of two frequencies normal to the disc.
 
     These are that of the coupled mode, and that of the slider on its spring alone.
@@ -383,9 +379,7 @@ def equal_to_one(values: Sequence[float], within: float) -> bool:
     return all(abs(each - 1) <= within for each in values)
 
 
-def errors_without_separation(
-    cases: Sequence[CaseView], study: xr.Dataset, within: float
-) -> dict[str, Any]:
+def errors_without_separation(cases: Cases, study: xr.Dataset, within: float) -> Found:
     """Count ranges that come out wrong if separation is ignored, on two discs.
 
     Parameters

@@ -1,7 +1,7 @@
 """Model sensitivity: the paper's main conclusions, judged like rows of the ledger under five models."""
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from disc_model.data.texts import Section
 from disc_model.data.variables import Outcome, flag_names, stated_in
 from disc_model.display import counted
 from workflow.paper import ledger, measures, section41
-from workflow.paper.measures import CaseView, rate_text, sound
+from workflow.paper.measures import Cases, CaseView, Found, rate_text, sound
 from workflow.paper.model import read_texts, rows_of
 
 CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset")
@@ -66,7 +66,7 @@ def at_points(points: xr.Dataset, rates: xr.Dataset) -> tuple[Any, Any]:
 
 def separations_by_cycle(
     points: xr.Dataset, rates: xr.Dataset, curves: xr.Dataset, fold_distance: float
-) -> dict[str, Any]:
+) -> Found:
     """Count points that separate by whether their cycle is unstable, not found or stable.
 
     Parameters
@@ -83,7 +83,8 @@ def separations_by_cycle(
     early = []
     at_fold = True
     for i, j in np.argwhere(kinds[2]):
-        load, speed = float(points["N"][i]), float(points["Omega"][j])
+        load = float(points["N"][i])
+        speed = float(points["Omega"][j])
         early.append(measures.place(load, speed))
         above = np.array([*folds_at(curves, load)]) - speed
         at_fold = at_fold and bool(np.any((above >= 0) & (above <= fold_distance)))
@@ -99,7 +100,7 @@ def separations_by_cycle(
 
 def onset_at_fold(
     curves: xr.Dataset, speed: xr.Dataset, rates: xr.Dataset, load: float, within: float
-) -> dict[str, Any]:
+) -> Found:
     """Compare speeds at which separation begins at a preload with folds of the quiet cycle.
 
     Parameters
@@ -122,7 +123,7 @@ def onset_at_fold(
     # a crossing lies between its speed and one step of the bisection below it
     width = float(stated_in(speed, "options")["precision"])
     outside = [np.maximum(high - width - folds, folds - high) for high in highs]
-    found: dict[str, Any] = {"folds": folds, "highs": highs, "growth": [], "missed": 0}
+    found: Found = {"folds": folds, "highs": highs, "growth": [], "missed": 0}
     found["apart"] = [np.min(each, initial=math.inf) for each in outside]
     if not found["apart"] or min(found["apart"]) <= within:
         return found
@@ -154,7 +155,7 @@ def folds_at(curves: xr.Dataset, load: float) -> Iterator[float]:
             yield float(x[j] + share * (x[j + 1] - x[j]))
 
 
-def separating(cases: Sequence[CaseView]) -> list[CaseView]:
+def separating(cases: Cases) -> list[CaseView]:
     """Return cases that lose contact.
 
     Raises `Missing` if there is none, or if a case did not reach its end. Bilateral contact may end
@@ -169,7 +170,7 @@ def separating(cases: Sequence[CaseView]) -> list[CaseView]:
     return found
 
 
-def first_lowest_speeds(speed: xr.Dataset, depth: float) -> dict[str, Any]:
+def first_lowest_speeds(speed: xr.Dataset, depth: float) -> Found:
     """Return the verdict of `section41.lowest_speeds`, in words, and from how many speeds."""
     study = sound(speed.isel(horizon=0))
     verdict, words = section41.lowest_speeds(study, depth)
@@ -180,7 +181,7 @@ def first_lowest_speeds(speed: xr.Dataset, depth: float) -> dict[str, Any]:
 # ---- Motion after a separation
 
 
-def late_widths(cases: Sequence[CaseView], wider: float) -> dict[str, Any]:
+def late_widths(cases: Cases, wider: float) -> Found:
     """Compare the disc's late range with separation with that without it.
 
     Parameters
@@ -215,7 +216,7 @@ def late_widths(cases: Sequence[CaseView], wider: float) -> dict[str, Any]:
     return found
 
 
-def repetitions(cases: Sequence[CaseView]) -> list[tuple[str, bool | None, str]]:
+def repetitions(cases: Cases) -> list[tuple[str, bool | None, str]]:
     """Return of cases that separate their place, whether they repeat, None if that is open, and when.
 
     That is judged by the intervals between releases, or else separations.
@@ -266,7 +267,7 @@ def normal_damping(study: xr.Dataset) -> dict[str, int]:
     return {name: int(points.sum()) for name, points in counts.items()}
 
 
-def inplane_damping(study: xr.Dataset, large: float) -> dict[str, Any]:
+def inplane_damping(study: xr.Dataset, large: float) -> Found:
     """Count cycles that in-plane damping makes grow faster, or ends.
 
     Parameters
