@@ -14,7 +14,7 @@ from disc_model.data.described import known_of
 from disc_model.data.swept_branches import variables_of_branch
 from disc_model.data.variables import CycleStatus, message_of
 from disc_model.simulation.result import Result
-from disc_model.stability.critical_values import Critical, attributes_of_critical
+from disc_model.stability.critical import Critical, attributes_of_critical
 
 OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""

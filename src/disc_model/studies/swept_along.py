@@ -13,7 +13,7 @@ from disc_model.data.variables import OF_QUANTITIES, attributes_of_number, unit_
 from disc_model.errors import Fault, raise_faults, require
 from disc_model.parameters import foreign_case
 from disc_model.simulation.states import mode_arrays
-from disc_model.stability.continuation.arguments import free_faults, values_in_si
+from disc_model.stability.continuation import free_faults, values_in_si
 
 
 def scan_along(case: Any, name: Any, bounds: Any, step: Any) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from disc_model.studies.quantity import Coordinate, Free, Point, Quantity, Range
 from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Unit
 
 if TYPE_CHECKING:
-    from disc_model.stability.curves import StabilityCurve
+    from disc_model.stability.continuation import StabilityCurve
 
 
 class StabilityCurves(Quantity):
@@ -52,7 +52,7 @@ class StabilityCurves(Quantity):
     }
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.curves import neutral_curves
+        from disc_model.stability.continuation import neutral_curves
 
         lines = self.y_lines
         margin = self.margin * (lines.stop - lines.start)
