@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 import disc_model as dm
-from disc_model.stability.continuation.arguments import interval_in_si
+from disc_model.stability.continuation import interval_in_si
 from tests.refusals import refusal
 
 MODES: dict[str, Any] = {"diameters": [0, 2], "omega": [5837.0, 7615.0], "amplitude": [0.43, 0.54]}

@@ -20,7 +20,7 @@ from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
 from disc_model.studies.quantity import tried
 from disc_model.studies.run import run_batch
-from tests.stability.continuation.toy_maps import fold_at, fold_map, outside
+from tests.stability.toy_maps import fold_at, fold_map, outside
 from tests.studies.refused import parse_grid
 
 __all__ = ["fold_map"]

@@ -9,7 +9,7 @@ import pytest
 import disc_model as dm
 from disc_model.parameters import RATIOS, Parameters
 from disc_model.simulation.case import CaseSpec
-from disc_model.stability import curves, sliding_modes
+from disc_model.stability import continuation, sliding_modes
 from disc_model.studies.quantities import sensitivity
 from disc_model.studies.run import run_batch
 from disc_model.studies.study import parse_study
@@ -77,7 +77,7 @@ def cases_computed(monkeypatch: pytest.MonkeyPatch) -> list[Parameters]:
         return {"cycle": "failed"}, ""
 
     monkeypatch.setattr(sliding_modes, "follow_modes", follow_modes)
-    monkeypatch.setattr(curves, "neutral_curves", neutral_curves)
+    monkeypatch.setattr(continuation, "neutral_curves", neutral_curves)
     monkeypatch.setattr("disc_model.stability.attractors.sweep", sweep)
     monkeypatch.setattr(sensitivity, "evaluate", evaluate)
     return cases

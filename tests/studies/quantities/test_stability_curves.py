@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from disc_model.parameters import Parameters
-from disc_model.stability import curves
+from disc_model.stability import continuation
 from disc_model.studies.quantities.stability_curves import StabilityCurves
 from disc_model.studies.quantity import Point
 
@@ -20,9 +20,9 @@ def test_curves_may_leave_the_range_of_lines_by_the_margin(
 
     def neutral_curves(p, bounds, lines, **how):
         asked.append((bounds, lines, how))
-        return curves.NeutralCurves(p, bounds, (), ())
+        return continuation.NeutralCurves(p, bounds, (), ())
 
-    monkeypatch.setattr(curves, "neutral_curves", neutral_curves)
+    monkeypatch.setattr(continuation, "neutral_curves", neutral_curves)
     lines = {"start": 180, "stop": 420, "count": 3}
     options = StabilityCurves(x_range=[3, 18], y_lines=lines, margin=margin, points=9, max_step=0.2)
     values, _ = options.compute_point(Point(Parameters(N=1, Omega=1)))

@@ -163,14 +163,14 @@ class CycleProblem:
         scale: float | None,
         tol: float,
         order: Counts | None = None,
-        make_map: MapFactory = ReturnMap,
+        make_map: MapFactory | None = None,
     ) -> None:
         self.base = base
         self.names = names
         self.tol = tol
         self.order = order
-        self.make_map = make_map
-        self.reference = make_map(base, tol)
+        self.make_map: MapFactory = make_map or ReturnMap
+        self.reference = self.make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
         self.scales = np.array([scale or parameter_scale(base, name) for name in names])
@@ -296,7 +296,7 @@ class CycleProblem:
     def place_of(self, cycle: FloquetResult) -> Array:
         """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
         if cycle.state is None or (cycle.releases > 1 and not self.order):
-            rule = f"must have a cycle of one release, but the search ended with {cycle.message}"
+            rule = f"must have a cycle, but the search ended with {cycle.message}"
             fault = Fault(("case",), "", f"{rule}; {self._another_start}")
             if self.order:
                 fault = Fault(("guess",), "", f"must lie near a cycle, but {cycle.message}")
@@ -855,6 +855,8 @@ class Search:
                 if point is not None:
                     entries.append(Entry(point))
             entries.append(after)
+            if after.kind and any(abs(last.value - x) <= _margin(x) for x in scaled):
+                entries.append(Entry(last))
         return Course(self.problem, entries, course.first, course.last)
 
 
