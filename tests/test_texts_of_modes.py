@@ -71,9 +71,3 @@ def test_bounds_of_a_ratio_may_be_in_percent() -> None:
     faults: list[Any] = []
     assert interval_in_si("mu_k_over_mu_s", ("50 mm", "70 mm"), faults) is None
     assert len(faults) == 2
-
-
-@pytest.mark.compiled
-def test_a_push_may_be_in_percent() -> None:
-    branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
-    assert branch.state(0, "1 %") == branch.state(0, 0.01)

@@ -19,7 +19,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -55,10 +55,8 @@ from disc_model.stability.return_map import (
     ENDS,
     PARAMETERS,
     Counts,
-    MapFactory,
     Orbit,
     ReturnMap,
-    SectionMap,
     newton,
     newton_step,
 )
@@ -163,19 +161,19 @@ class CycleProblem:
         scale: float | None,
         tol: float,
         order: Counts | None = None,
-        make_map: MapFactory | None = None,
+        make_map: Callable[..., Any] | None = None,
     ) -> None:
         self.base = base
         self.names = names
         self.tol = tol
         self.order = order
-        self.make_map: MapFactory = make_map or ReturnMap
+        self.make_map = make_map or ReturnMap
         self.reference = self.make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
         self.scales = np.array([scale or parameter_scale(base, name) for name in names])
         self._differentiable = tuple(name for name in names if name in PARAMETERS)
-        self._map: SectionMap | None = None  # the map of the parameters last used
+        self._map: Any = None  # the map of the parameters last used
         self._values: tuple[float, ...] = ()
 
     def values(self, point: CurvePoint) -> Array:
@@ -191,7 +189,7 @@ class CycleProblem:
         """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
         return ", ".join(map(value_with_unit, self.names, self.values(point).tolist()))
 
-    def map_at(self, z: Array) -> SectionMap:
+    def map_at(self, z: Array) -> Any:
         """The return map of the case at a point."""
         values = tuple(z[self.n :].tolist())
         if self._map is None or values != self._values:
@@ -199,7 +197,7 @@ class CycleProblem:
             self._values = values
         return self._map
 
-    def _make_map(self, z: Array) -> SectionMap:
+    def _make_map(self, z: Array) -> Any:
         try:
             p = self.case(z)
             missing = min(p.Omega, p.N, p.k_p) <= 0
@@ -218,7 +216,7 @@ class CycleProblem:
         """The state of the point on the section."""
         return self.map_at(z).state(self.section_point(z))
 
-    def _turn(self, section_map: SectionMap) -> Array:
+    def _turn(self, section_map: Any) -> Array:
         """Factors from the coordinates of a map to those of the reference."""
         return self.reference.scale / section_map.scale
 
