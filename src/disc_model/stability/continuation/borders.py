@@ -449,31 +449,26 @@ class _Seed(NamedTuple):
     period: float
 
 
+@dataclass
 class _CurveSearch:
     """The search for curves in a plane of two parameters.
 
     plane : bounds of both parameters by name, SI units; the first one is scanned
     steps : steps along a curve
-    span : (2,), lengths of both intervals, over which distances in the plane are taken
     curves, failures : what was found so far, and descriptions of what could not be followed
     """
 
-    def __init__(
-        self,
-        p: Parameters,
-        plane: Mapping[str, tuple[float, float]],
-        tol: float,
-        steps: StepControl,
-    ) -> None:
-        x, y = plane
-        self.p = p
-        self.plane = plane
+    p: Parameters
+    plane: Mapping[str, tuple[float, float]]
+    tol: float
+    steps: StepControl
+    curves: list[StabilityCurve] = field(default_factory=list)
+    failures: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        x, y = self.plane
         self.names = (x, y)
-        self.tol = tol
-        self.steps = steps
-        self.span = np.array([high - low for low, high in plane.values()])
-        self.curves: list[StabilityCurve] = []
-        self.failures: list[str] = []
+        self.span = np.array([high - low for low, high in self.plane.values()])
 
     def scan(self, line: float, points: int) -> None:
         """Follow all curves that pass between the points of a line, on which the second parameter

@@ -3,7 +3,7 @@ along `special`."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import xarray as xr
 
-from disc_model.arrays import Array
+from disc_model.arrays import Array, Mask
 from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep, refuse_failed
 from disc_model.data.variables import (
     COORDINATES,
@@ -258,7 +258,7 @@ class Branch:
                 rows.append(extremes_of_cycle(self.case_of(values[i]), state, period))
             low, high = np.reshape(rows, (-1, 2)).T
             columns = {"range": high - low, "u_min": low, "u_max": high}
-            heights |= _variables(dim, begin, columns)
+            heights |= _variables(dim, begin, columns, np.ones(len(rows), dtype=bool))
         return self.data.assign(heights)
 
     def to_dataset(self) -> xr.Dataset:
@@ -411,61 +411,73 @@ def branch_of(course: Course, exact: Sequence[float] = (), wanted: Sequence[floa
     """The branch of a course. Values of the parameter that scaling has moved by its rounding from
     one of some `exact` or `wanted` ones are these."""
     problem = course.problem
-    special = _special_entries(course)
-    after = np.cumsum([not entry.kind for entry in special])[[bool(e.kind) for e in special]] - 1
-    cycles = [entry for entry in special if not entry.kind]
-    places = [entry for entry in special if entry.kind]
-    every = np.array([multipliers(entry.point.jacobian) for entry in cycles])
-    columns = {
-        **_of_cycles(course, cycles, (*exact, *wanted)),
+    entries = _with_ends(course)
+    kinds = np.array([entry.kind for entry in entries])
+    is_special = kinds != ""
+    points = [entry.point for entry in entries]
+    values = np.array([problem.values(point) for point in points])
+    for value in (*exact, *wanted):
+        near = np.abs(values - value) <= SAME_VALUE * abs(value)
+        values[near & ~is_special[:, None]] = value
+    period = np.array([point.orbit.period for point in points])
+    every = np.array([multipliers(point.jacobian) for point in points])
+    growth = np.array(
+        [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
+    )
+    states = [problem.state(point.z) for point in points]
+    both: dict[str, Any] = dict(zip(problem.names, values.T, strict=True))
+    both |= {
+        "growth_rate": growth,
+        "period": period,
+        "stick_fraction": np.array([point.orbit.stick_time for point in points]) / period,
+    }
+    both |= {name: np.array([getattr(state, name) for state in states]) for name in STATE}
+    of_cycles = {
         "largest_multiplier": np.abs(every).max(axis=1, initial=0.0),
+        "stable": growth < 0,
         "multipliers": every,
-        "separations": [entry.point.orbit.counts.separations for entry in cycles],
-        "releases": [entry.point.orbit.counts.releases for entry in cycles],
-        "diameters": [problem.leading_diameters(entry.point) for entry in cycles],
+        "separations": np.array([point.orbit.counts.separations for point in points]),
+        "releases": np.array([point.orbit.counts.releases for point in points]),
+        "diameters": np.array([problem.leading_diameters(point) for point in points]),
     }
-    columns["stable"] = columns["growth_rate"] < 0
-    found = _of_cycles(course, places, ())
-    neutral = np.abs(found["growth_rate"] * found["period"]) <= NEUTRAL
-    found |= {
-        "kind": [entry.kind for entry in places],
-        "label": [LABELS[entry.kind] for entry in places],
-        "multiplier": np.array([entry.multiplier for entry in places], dtype=complex),
-        "after": np.maximum(after, 0),
-        "changes_stability": neutral & np.isin([entry.kind for entry in places], CHANGES),
+    neutral = np.abs(growth * period) <= NEUTRAL
+    of_special = {
+        "kind": kinds,
+        "label": np.array([LABELS.get(kind, "") for kind in kinds]),
+        "multiplier": np.array([entry.multiplier for entry in entries], dtype=complex),
+        "after": np.maximum(np.cumsum(~is_special) - 1, 0),
+        "changes_stability": neutral & np.isin(kinds, CHANGES),
     }
-    attrs = {
-        "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
-        "parameters": problem.base.canonical_json,
-        "free_parameters": ", ".join(problem.names),
-        "versions": versions_text(),
-    }
+    data = xr.Dataset(
+        _variables("point", "", both | of_cycles, ~is_special)
+        | _variables("special", "special_", both | of_special, is_special),
+        attrs={
+            "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
+            "parameters": problem.base.canonical_json,
+            "free_parameters": ", ".join(problem.names),
+            "versions": versions_text(),
+        },
+    )
+    along = values[~is_special, 0]
     slack = ROUNDING * problem.scales[0]
-    values = columns[problem.names[0]]
-    missed = [value for value in wanted if np.abs(values - value).min() > slack]
+    missed = [value for value in wanted if np.abs(along - value).min() > slack]
     if missed:
-        attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in missed)
-    variables = _variables("point", "", columns) | _variables("special", "special_", found)
-    numbers = {
-        dim: (dim, np.arange(len(rows))) for dim, rows in (("point", cycles), ("special", places))
-    }
-    data = xr.Dataset(variables, numbers, attrs)
-    for dim in numbers:
-        data[dim].attrs = OF_RESULTS["Branch"][dim].attributes
+        data.attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in missed)
+    for dim in ("point", "special"):
+        number = np.arange(data.sizes[dim])
+        data[dim] = xr.Variable(dim, number, OF_RESULTS["Branch"][dim].attributes)
     return Branch(data.set_coords([*problem.names, *(f"special_{name}" for name in problem.names)]))
 
 
-def _special_entries(course: Course) -> list[Entry]:
-    """The points and special points of a course, its ends among the latter."""
+def _with_ends(course: Course) -> list[Entry]:
+    """The points and special points of a course, its ends among the latter; one that closes, stops or
+    begins at a special point has that instead."""
     entries = list(course.entries)
     first, last = entries[0], entries[-1]
-    if course.last != CLOSED:
-        if not first.kind:
-            entries.insert(1, _end_of(course.first, first))
-        if course.last != STOPPED:
-            entries.append(_end_of(course.last, last))
-        if course.first == STOPPED:
-            del entries[1]
+    if course.last not in (CLOSED, STOPPED):
+        entries.append(_end_of(course.last, last))
+    if not (first.kind or course.last == CLOSED or course.first == STOPPED):
+        entries.insert(1, _end_of(course.first, first))
     return entries
 
 
@@ -475,36 +487,17 @@ def _end_of(end: str, entry: Entry) -> Entry:
     return Entry(entry.point, kind, leading(entry.point))
 
 
-def _of_cycles(course: Course, entries: Sequence[Entry], exact: Iterable[float]) -> dict[str, Any]:
-    """What is known of cycles, by name."""
-    problem = course.problem
-    points = [entry.point for entry in entries]
-    values = np.array([problem.values(point) for point in points]).reshape(-1, len(problem.names))
-    for value in exact:
-        values[np.abs(values - value) <= SAME_VALUE * abs(value)] = value
-    period = np.array([point.orbit.period for point in points])
-    stick_time = np.array([point.orbit.stick_time for point in points])
-    rates = [growth_rate(leading(point), point.orbit.period) for point in points]
-    columns: dict[str, Any] = dict(zip(problem.names, values.T, strict=True))
-    columns |= {
-        "growth_rate": np.array(rates),
-        "period": period,
-        "stick_fraction": stick_time / period,
-    }
-    states = [problem.state(point.z) for point in points]
-    return columns | {name: [getattr(state, name) for state in states] for name in STATE}
-
-
-def _variables(dim: str, begin: str, columns: Mapping[str, Any]) -> dict[str, xr.Variable]:
-    """Columns along a dimension as variables, whose names have a beginning; a second dimension is that of
-    the multipliers or modes."""
+def _variables(
+    dim: str, begin: str, columns: Mapping[str, Array], rows: Mask
+) -> dict[str, xr.Variable]:
+    """Some rows of columns along a dimension as variables, whose names have a beginning; a second dimension
+    is that of the multipliers or modes."""
     known = OF_RESULTS["Branch"]
     variables = {}
     for name, column in columns.items():
-        values = np.asarray(column)
         second = "mode" if name in COORDINATES else "multiplier"
         attrs = known[name].attributes if name in known else attributes_of_number(name)
-        variables[begin + name] = xr.Variable((dim, second)[: values.ndim], values, attrs)
+        variables[begin + name] = xr.Variable((dim, second)[: column.ndim], column[rows], attrs)
     return variables
 
 

@@ -394,12 +394,13 @@ class BranchTracer:
         return self._near(before, after, guess, _plane_between(before, after))
 
     def at_value(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
-        """The first point of the curve between two neighbours with a given scaled value of the
-        parameter; None if there is none, or it cannot be computed."""
-        shares = _shares(before, after, value)
-        if not shares:
-            return None
-        guess = interpolate(before, after, shares[0])
+        """The point of the curve between two neighbours with a given scaled value of the parameter,
+        which lies between theirs; None if it cannot be computed."""
+
+        def excess(share: float) -> float:
+            return float(interpolate(before, after, share).z[-1]) - value
+
+        guess = interpolate(before, after, float(brentq(excess, 0.0, 1.0)))
         guess.z[-1] = value
         row = parameter_row(len(guess.z), after.value - before.value)
         try:
@@ -513,19 +514,6 @@ def _unseen(passed: list[Passing]) -> list[Passing]:
     others = sorted(each.width for each in hidden if not each.forced)
     widest = others[MOST_TONGUES - 1] if len(others) > MOST_TONGUES else np.inf
     return [each for each in hidden if each.forced or each.width <= widest]
-
-
-def _shares(before: CurvePoint, after: CurvePoint, value: float) -> list[float]:
-    """The shares of the way between two neighbours at which the cubic between them has a value of
-    the parameter, ascending, in (0, 1]."""
-    length = float(np.linalg.norm(after.z - before.z))
-    change = after.value - before.value
-    start = length * before.slope
-    end = length * after.slope
-    cubic = [start + end - 2 * change, 3 * change - 2 * start - end, start, before.value - value]
-    roots = np.roots(cubic)
-    real = roots.real[np.abs(roots.imag) < 1e-9]
-    return sorted(float(root) for root in real if 0 < root <= 1)
 
 
 # ---- Special points: a test function changes sign between two points, and its root is located
@@ -786,7 +774,8 @@ class Search:
             doubling = Entry(start, PERIOD_DOUBLING, 1.0 + 0j)
             return Course(self.problem, [doubling, *entries], PERIOD_DOUBLING, last)
         if direction:
-            return Course(self.problem, *_started(self._one_way(start.turned(direction))))
+            entries, last = self._one_way(start.turned(direction))
+            return Course(self.problem, entries, "", last)
         back, first = self._one_way(start.reversed())
         if first == CLOSED:
             return Course(self.problem, back, "", first)
@@ -806,9 +795,9 @@ class Search:
         entries = way.entries
         if end == HOPF:
             last = entries[-1].point.z
-            beside = [np.linalg.norm(each.point.z - last) < BESIDE_HOPF for each in entries]
+            far = [np.linalg.norm(each.point.z - last) > BESIDE_HOPF for each in entries]
             entries = [
-                each for each, near in zip(entries, beside, strict=True) if not (each.kind and near)
+                each for each, is_far in zip(entries, far, strict=True) if is_far or not each.kind
             ]
         return entries, end or MOST_POINTS
 
@@ -856,11 +845,6 @@ class Search:
             if after.kind and any(abs(last.value - x) <= _margin(x) for x in scaled):
                 entries.append(Entry(last))
         return Course(self.problem, entries, course.first, course.last)
-
-
-def _started(way: tuple[list[Entry], str]) -> tuple[list[Entry], str, str]:
-    """A way from a start, whose first point is no end."""
-    return way[0], "", way[1]
 
 
 class _Way:
