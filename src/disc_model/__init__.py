@@ -52,9 +52,8 @@ _NAMES = {
     "studies.quantities.sliding": "sliding_modes",
     "studies.run": "run_study",
     "studies.sweep": "sweep",
-    "stability.continuation": "Branch StepControl continue_cycle",
+    "stability.continuation": "Branch StepControl continue_cycle neutral_curves",
     "stability.critical": "critical",
-    "stability.curves": "neutral_curves",
     "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
@@ -90,9 +89,13 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.starts import initial_state
     from disc_model.simulation.states import State, deflection
-    from disc_model.stability.continuation import Branch, StepControl, continue_cycle
+    from disc_model.stability.continuation import (
+        Branch,
+        StepControl,
+        continue_cycle,
+        neutral_curves,
+    )
     from disc_model.stability.critical import critical
-    from disc_model.stability.curves import neutral_curves
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from disc_model.arrays import ComplexArray
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import known_of
 from disc_model.data.variables import (
@@ -167,7 +166,11 @@ def with_real_parts(data: xr.Dataset) -> xr.Dataset:
     return data.drop_vars(whole).assign(parts)
 
 
-def complex_values(data: xr.Dataset, name: str) -> ComplexArray:
-    """The values of which `with_real_parts` has made two variables."""
-    values = data[f"{name}_real"].values + 1j * data[f"{name}_imag"].values
-    return np.asarray(values, complex)
+def with_complex_values(data: xr.Dataset) -> xr.Dataset:
+    """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
+    names = [
+        str(name).removesuffix("_real") for name in data.data_vars if str(name).endswith("_real")
+    ]
+    whole = {name: data[f"{name}_real"] + 1j * data[f"{name}_imag"] for name in names}
+    parts = [f"{name}_{part}" for name in names for part in ("real", "imag")]
+    return data.drop_vars(parts).assign(whole)

@@ -77,7 +77,12 @@ def sweep(
     raise_faults(foreign_case(case))
     table = isinstance(zip, Mapping | pd.DataFrame | None)
     require(
-        (callable(function), "function", function, "must be a function, such as disc_model.floquet"),
+        (
+            callable(function),
+            "function",
+            function,
+            "must be a function, such as disc_model.floquet",
+        ),
         (isinstance(over, Mapping | None), "over", over, "must be lists of values by name"),
         (table, "zip", zip, "must be columns by name, or a pandas.DataFrame"),
         (callable(map), "map", map, "must be a function, such as map of an executor"),

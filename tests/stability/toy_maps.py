@@ -19,9 +19,8 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 
-from disc_model.parameters import Parameters
+from disc_model import Parameters, State
 from disc_model.stability import cycle
-from disc_model.stability.continuation import problem
 from disc_model.stability.return_map import Counts, Orbit, Passage
 
 PERIOD = 0.015
@@ -83,10 +82,6 @@ class ToyMap:
         """End, derivative by x, and derivatives by parameters, by their names."""
         raise NotImplementedError
 
-    @property
-    def compression(self):
-        return np.eye(self.size)
-
     def counts(self, x):
         return COUNTS
 
@@ -124,10 +119,14 @@ class ToyMap:
         return Passage(RETURNED, 0.0, self.static)
 
     def state(self, x):
-        return np.array(x)
+        known = {"time": 0.0, "psi": 0.0, "f": 0.0, "u": 0.0, "u_velocity": 0.0}
+        rest = np.zeros(len(x))
+        return State(
+            **known, phase="stick", direction=1, a=np.array(x), b=rest, alpha=rest, beta=rest
+        )
 
     def point(self, state):
-        return np.array(state)
+        return np.array(state.a)
 
 
 class FoldMap(ToyMap):
@@ -169,23 +168,6 @@ class RoundMap(ToyMap):
         end = x + 0.2 * (1 - (x - 2) ** 2 - far**2)
         jacobian = np.array([[1 - 0.4 * (x[0] - 2)]])
         return end, jacobian, {"Omega": np.array([-0.1 * far])}
-
-
-class CubicMap(ToyMap):
-    """x -> x + 0.2 (Omega - 12 - (x - 1)^3 + TINY (x - 1)): a pair of folds at x = 1 +- w with w =
-    sqrt(TINY / 3), which are 4 w^3 apart."""
-
-    TINY: ClassVar = 3e-4
-    size = 1
-    scale = np.ones(1)
-    diameters = np.zeros(1, np.int64)
-    static = np.array([2.0])
-
-    def step(self, x):
-        away = x - 1
-        end = x + 0.2 * (self.parameters.Omega - 12 - away**3 + self.TINY * away)
-        jacobian = np.array([[1 - 0.2 * (3 * away[0] ** 2 - self.TINY)]])
-        return end, jacobian, {"Omega": np.array([0.2])}
 
 
 class ResonantMap(ToyMap):
@@ -256,34 +238,16 @@ class BrokenMap(ToyMap):
         return end, np.array([[0.5]]), {"Omega": np.array([0.125])}
 
 
-class CornerMap(ToyMap):
-    """x -> 0.5 x + 0.125 (Omega - 12), with a further 0.2 (x - 1) and one more event for x > 1: the
-    map is continuous, with a corner that the cycles pass at 16 rad/s, where they become steeper."""
-
-    size = 1
-    scale = np.ones(1)
-    diameters = np.zeros(1, np.int64)
-    static = np.zeros(1)
-
-    def step(self, x):
-        more = 0.0
-        if x[0] > 1:
-            more = 0.2
-        end = 0.5 * x + 0.125 * (self.parameters.Omega - 12) + more * (x - 1)
-        return end, np.array([[0.5 + more]]), {"Omega": np.array([0.125])}
-
-    def counts(self, x):
-        return COUNTS._replace(reversals=int(x[0] > 1))
-
-
 def _pair(value):
     return np.array([value.real, value.imag])
 
 
 def use(monkeypatch: pytest.MonkeyPatch, toy: type[ToyMap]) -> None:
     """Let cycles be those of a toy."""
-    for module in (problem, cycle):
-        monkeypatch.setattr(module, "ReturnMap", toy)
+    for module in ("cycle", "continuation.cycles"):
+        monkeypatch.setattr(f"disc_model.stability.{module}.ReturnMap", toy)
+    heights = "disc_model.stability.continuation.branch.extremes_of_cycle"
+    monkeypatch.setattr(heights, lambda *_: (-1e-6, 1e-6))  # these are no motions of a slider
 
 
 @pytest.fixture
