@@ -23,20 +23,20 @@ _PLANE = {
     "Omega": {"start": 5, "stop": 50, "count": 13},
     "N": {"start": 50, "stop": 600, "count": 13},
 }
-_SEPARATED = {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}
+_SEPARATED = {"start": {"prerun": {"parameters": {"N": 385, "Omega": 15.1}, "time": 70}}}
 _SCATTER = {"distribution": "uniform", "low": 0.95, "high": 1.05, "relative": True}
 SAMPLES: dict[str, Definition] = {
-    "sliding": {
-        "options": {"parameter": "c_p", "scan": {"start": 0, "stop": 1, "count": 17}},
+    "sliding_modes": {
+        "options": {"name": "c_p", "bounds": [0, 1], "step": 0.0625},
         "base": {"Omega": 15},
         "axes": {"N": [200, 385]},
     },
-    "campbell": {"axes": {"Omega": {"start": 5, "stop": 25, "step": 0.5}, "N": [385]}},
+    "campbell": {"options": {"bounds": [5, 25], "step": 0.5}, "axes": {"N": [385]}},
     "floquet": {"axes": _PLANE},
     "regions": {"options": {"horizon": 500}, "axes": _PLANE},
     "outcome": {"options": {"horizon": 500}, "axes": _PLANE},
     "critical_speed": {
-        "options": {"horizons": [500, 1000], "scan": {"start": 5, "stop": 24, "step": 1}},
+        "options": {"horizon": [500, 1000], "bounds": [5, 24], "step": 1},
         "axes": {"N": [150, 200, 385]},
     },
     "sensitivity": {
@@ -53,28 +53,23 @@ SAMPLES: dict[str, Definition] = {
         "base": {"N": 385},
         "axes": {"Omega": [8, 12, 16, 20]},
     },
-    "lyapunov": {
+    "lyapunov_exponents": {
         "options": {**_SEPARATED, "transient": 15, "duration": 30},
         "base": {"N": 385},
         "axes": {"Omega": [8, 12, 16, 20]},
     },
     "locking": {
-        "options": {"prerun": {"parameters": {"Omega": 20}, "time": 560}},
+        "options": {"start": {"prerun": {"parameters": {"Omega": 20}, "time": 560}}},
         "base": {"N": 200},
         "axes": {"Omega": {"start": 19.8, "stop": 20.2, "count": 5}},
     },
     "range_law": {"axes": {"N": [200, 385], "Omega": [20, 30]}},
     "hysteresis": {
-        "options": {
-            "scan": {"start": 12, "stop": 16, "step": 0.5},
-            "dwell": 60,
-            "max_dwell": 480,
-            "tol": 1e-8,
-        },
+        "options": {"bounds": [12, 16], "step": 0.5, "dwell": 60, "max_dwell": 480, "tol": 1e-8},
         "axes": {"N": [250]},
     },
     "ramps": {
-        "options": {"low": 8, "high": 23, "rates": {"start": 0.04, "stop": 0.4, "count": 3}},
+        "options": {"bounds": [8, 23], "rates": {"start": 0.04, "stop": 0.4, "count": 3}},
         "axes": {"N": [385]},
     },
     "basins": {
@@ -83,15 +78,15 @@ SAMPLES: dict[str, Definition] = {
         "axes": {"Omega": [12, 15]},
     },
     "branches": {
-        "options": {"scan": {"start": 9, "stop": 17, "step": 1}, "sweep_from": 11.5, "dwell": 40},
+        "options": {"bounds": [9, 17], "step": 1, "sweep_from": 11.5, "dwell": 40},
         "axes": {"N": [385]},
     },
-    "stability_curves": {
+    "neutral_curves": {
         "options": {
             "x": "Omega",
             "y": "N",
-            "x_range": [10, 25],
-            "y_lines": {"start": 275, "stop": 475, "count": 3},
+            "bounds": [10, 25],
+            "lines": {"start": 275, "stop": 475, "count": 3},
         },
         "axes": {"normalization": ["as_published"]},
     },

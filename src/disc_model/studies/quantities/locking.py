@@ -31,7 +31,7 @@ RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millise
         ),
     ),
 )
-def locking(  # noqa: PLR0913
+def locking(
     case: Parameters,
     *,
     transient: Seconds = 60.0,

@@ -80,7 +80,7 @@ Distributions = Annotated[
         (lambda o: o.samples & (o.samples - 1) == 0, "samples={0.samples} must be a power of two"),
     )
 )
-def sensitivity(  # noqa: PLR0913
+def sensitivity(
     case: Parameters,
     *,
     distributions: Distributions,
