@@ -1,45 +1,83 @@
-"""Print the page of all options of quantities, from the models that check them: `make schema`."""
+"""Print the page of all options of quantities, from the functions that check them: `make schema`."""
 
-from collections.abc import Sequence
+import re
+from collections.abc import Iterable, Mapping
+from typing import Any
 
-from disc_model.studies.options import Option, options_of
-from disc_model.studies.registry import quantity_names, quantity_of
+from pydantic_core import PydanticUndefined
+
+from disc_model.studies.quantity import HOMES, Quantity, quantity_of
+from disc_model.units import Unit
 
 HEAD = """\
 # Options of quantities
 
-All keys under `options` of a study file, by [quantity](study_quantities.md). *Required* ones have no default. Numbers
-may have [units](study_reference.md#axes). A range such as `{start: 5, stop: 50, count: 10}` has `step` or `count`.
-[Starts](study_reference.md#starts) explains `prerun` and `perturbation`, [sensitivity](study_quantities.md#sensitivity)
-`distributions`. In Python, `dm.run_study` takes them as here; functions of a case, such as `dm.outcome`, have
-[arguments](api.md) of their own.
+All keys under `options` of a study file, by [quantity](study_quantities.md), and arguments of the function of this name
+in Python, which takes a case first. *Required* ones have no default. Numbers may have
+[units](study_reference.md#axes). `lines` and `rates` are lists of numbers and of ranges such as
+`{start: 5, stop: 50, count: 10}`, or one range, which has `step` or `count`.
+[Starts](study_reference.md#starts) explains `start`,
+[sensitivity](study_quantities.md#sensitivity) `distributions`.
 """
-HEADS = ("option", "given as", "default", "meaning")
+HEADS = ("option", "type", "unit", "default", "meaning")
+KINDS = {
+    "float": "number",
+    "int": "whole number",
+    "bool": "true or false",
+    "str": "name",
+    "tuple": "numbers",
+    "dict": "mapping",
+    "Start": "mapping",
+}
 
 
 def page_text() -> str:
     """The page: a table of the options of each quantity, as Markdown."""
     sections = []
-    for name in quantity_names():
-        rows = [_cells(option) for option in options_of(quantity_of(name))]
-        lines = [HEADS, ["---"] * len(HEADS), *rows]
-        sections.append(f"\n## {name}\n\n{''.join(map(_line, lines))}")
+    for name in HOMES:
+        lines = [HEADS, ["---"] * len(HEADS), *_rows(quantity_of(name))]
+        table = "".join(f"| {' | '.join(cells)} |\n" for cells in lines)
+        sections.append(f"\n## {name}\n\n{table}")
     return HEAD + "".join(sections)
 
 
-def _line(cells: Sequence[str]) -> str:
-    """A line of a table."""
-    return f"| {' | '.join(cells)} |\n"
+def _rows(quantity: Quantity) -> Iterable[list[str]]:
+    """The cells of each option, required ones first."""
+    meanings = _meanings(quantity.function.__doc__ or "")
+    fields = quantity.options.model_fields.items()
+    for name, field in sorted(fields, key=lambda item: not item[1].is_required()):
+        parts = [*field.metadata, field.annotation]
+        default = _text(field.default) if field.default is not PydanticUndefined else "*required*"
+        kind = KINDS.get(str(getattr(field.annotation, "__name__", "")), "")
+        yield [f"`{name}`", kind, _unit(parts), default, meanings[name]]
 
 
-def _cells(option: Option) -> list[str]:
-    """The cells of an option."""
-    form = option.form
-    if option.unit:
-        form += f" in {option.unit.replace('that of', 'the unit of')}"
-    default = f"`{option.default}`" if option.default else ""
-    default = "*required*" if option.default == "required" else default
-    return [f"`{option.name}`", form, default, option.meaning]
+def _meanings(docstring: str) -> Mapping[str, str]:
+    """What each option is, by its entry in the section of parameters."""
+    section = docstring.partition("Parameters\n")[2].partition("\n\n")[0]
+    entries = re.findall(r"^ {4}(\w+) : (.*(?:\n {8}.*)*)", section, re.MULTILINE)
+    return {name: " ".join(text.split()) for name, text in entries}
+
+
+def _unit(parts: list[Any]) -> str:
+    """The unit of a number, or of the numbers in a list."""
+    for part in parts:
+        if isinstance(part, Unit):
+            if part.of:
+                return f"that of `{part.of}`"
+            return part.name if isinstance(part.name, str) else "that of the parameter"
+        parts += getattr(part, "__args__", ())
+        parts += getattr(part, "__metadata__", ())
+    return ""
+
+
+def _text(value: Any) -> str:
+    """A default as a study file has it, "" for none and for the static start."""
+    if isinstance(value, bool):
+        return f"`{value}`".lower()
+    if isinstance(value, tuple):
+        return f"`{[*value]}`"
+    return f"`{value}`" if isinstance(value, int | float | str) else ""
 
 
 if __name__ == "__main__":

@@ -385,14 +385,13 @@ def test_a_sweep_has_an_onset_and_an_end_or_says_why_not(
 
 @pytest.mark.compiled
 def test_a_sweep_of_the_preload_goes_on_from_load_to_load() -> None:
-    stays = {"dwell": 10, "max_dwell": 10, "evaluation_time": 1, "tol": 1e-8}
+    stays = {"dwell": 10, "max_dwell": 40, "evaluation_time": 1, "tol": 1e-8}
     sweep = dm.hysteresis(P, (300, 420), name="N", step=40, **stays)
     assert sweep["sweep_N"].values.tolist() == [300, 340, 380, 420]
     assert sweep["sweep_N"].attrs["units"] == sweep["onset"].attrs["units"] == "N"
     assert sweep["separation_rate"].sel(direction="up").values[0] == 0
     assert (sweep["separation_rate"].sel(direction="down").values[:3] > 100).all()
     assert "still lost on the way down at the lower bound, N = 300 N" in message_of(sweep)
-    assert "has not settled and may yet separate: raise max_dwell" in message_of(sweep)
 
 
 # ---- Basins
