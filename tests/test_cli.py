@@ -9,7 +9,7 @@ import pytest
 import disc_model
 from disc_model import Parameters, cli, simulate
 from disc_model.cli import option_name
-from disc_model.stability.sliding_modes import sliding_modes
+from disc_model.stability.sliding import sliding_modes
 from tests.processes import run
 
 BASE = ("--N", "385", "--Omega", "15.1")

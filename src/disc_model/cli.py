@@ -225,7 +225,7 @@ def sliding(p: Parameters, _: Strict) -> None:
     """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates,
     damping."""
     from disc_model.stability.sliding import steady_sliding
-    from disc_model.stability.sliding_modes import sliding_modes
+    from disc_model.stability.sliding import sliding_modes
 
     state = steady_sliding(p)
     print_rows([model_line(p), *state.summary()])

@@ -19,7 +19,7 @@ from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.errors import DiscModelError, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
+from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import is_whole
 
@@ -356,7 +356,7 @@ def no_cycle(
     return FloquetResult(p, tol, status, f"{status}: {reason}", kind=kind)
 
 
-def cycle_of(map_: SectionMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
+def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
     """The result for a cycle of a kind that Newton's method has found to the tolerance."""
     values = multipliers(orbit.jacobian)
     leading = complex(values[0])

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.attractors import Arrival
     from disc_model.stability.cycle import FloquetResult
-    from disc_model.stability.outcome import Attractor, OutcomeResult
+    from disc_model.stability.follower import Attractor, OutcomeResult
     from disc_model.stability.segments import Segment
 else:  # names for annotations
     Arrival = Attractor = Dataset = FloquetResult = OutcomeResult = Result = Segment = State = Any

@@ -18,10 +18,14 @@ from disc_model.analysis.spectra import modes_at_rest
 from disc_model.arrays import Array
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.stability.cycle import FloquetResult
-from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
-from disc_model.stability.outcome import OutcomeResult, find_outcome
+from disc_model.stability.follower import (
+    SAME_POINT,
+    NearCycle,
+    OutcomeResult,
+    cycle_of_static_start,
+    find_outcome,
+)
 from disc_model.stability.return_map import newton
-from disc_model.stability.thresholds import SAME_POINT
 from disc_model.studies.quantity import NUMERICAL, Made, Row, failed
 
 Index = tuple[int, int]

@@ -28,7 +28,7 @@ from disc_model.stability.continuation.data import (
 )
 from disc_model.stability.continuation.special_kinds import CHANGES
 from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
-from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
+from disc_model.stability.return_map import ReturnMap, leading_direction
 from disc_model.stability.segments import extremes_of_cycle
 from disc_model.units import in_si
 
@@ -80,7 +80,7 @@ class Branch:
     case: Parameters = field(repr=False)
     special: tuple[SpecialPoint, ...] = ()
     not_reached: Array = field(default_factory=lambda: np.zeros(0))
-    _make_map: MapFactory = ReturnMap
+    _make_map: type[ReturnMap] = ReturnMap
     variables: ClassVar = VARIABLES
 
     @property

@@ -13,8 +13,8 @@ from disc_model.data.variables import COORDINATES, OF_RESULTS, attributes_of_num
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import MapFactory, ReturnMap
-from disc_model.stability.slipping_map import SlippingMap
+from disc_model.stability.return_map import ReturnMap
+from disc_model.stability.slipping import SlippingMap
 
 VARIABLES = {
     name: OF_RESULTS["Branch"][name]
@@ -70,7 +70,7 @@ class StoredBranch:
         return [State(time=0.0, **dict(zip(columns, row, strict=True))) for row in rows]
 
     @property
-    def make_map(self) -> MapFactory:
+    def make_map(self) -> type[ReturnMap]:
         """What makes the map of whose section the states are."""
         slips = "slip" in self.data["phase"].values[:1]
         return SlippingMap if slips else ReturnMap

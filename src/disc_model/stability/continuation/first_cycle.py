@@ -6,8 +6,7 @@ from disc_model.simulation.states import State
 from disc_model.stability.continuation.problem import CycleProblem, another_start
 from disc_model.stability.cycle import SLIPPING, FloquetResult, find_cycle
 from disc_model.stability.return_map import Counts
-from disc_model.stability.slipping_cycle import find_slipping_cycle
-from disc_model.stability.slipping_map import SlippingMap
+from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
 
 
 def first_cycle(

@@ -24,10 +24,8 @@ from disc_model.stability.return_map import (
     PARAMETERS,
     Array,
     Counts,
-    MapFactory,
     Orbit,
     ReturnMap,
-    SectionMap,
     newton_step,
 )
 
@@ -109,14 +107,14 @@ class CycleProblem:
         scale: float | None,
         tol: float,
         order: Counts | None = None,
-        make_map: MapFactory | None = None,
+        make_map: type[ReturnMap] | None = None,
     ) -> None:
         self.base = base
         self.names = names
         self.tol = tol
         self.exact = EXACT if has_own_vibration(base) else math.inf
         self.order = order
-        self.make_map: MapFactory = make_map or ReturnMap
+        self.make_map: type[ReturnMap] = make_map or ReturnMap
         self.reference = self.make_map(base, tol)
         self.n = self.reference.size
         self.size = self.reference.deflection
@@ -127,7 +125,7 @@ class CycleProblem:
         self._plate: CompliantPlate | None = None
         if CompliantPlate.is_needed(base, names):
             self._plate = CompliantPlate(base, names[0])
-        self._map: SectionMap | None = None  # the map of the parameters last used
+        self._map: ReturnMap | None = None  # the map of the parameters last used
         self._values: tuple[float, ...] = ()
 
     def case(self, z: Array) -> Parameters:
@@ -143,7 +141,7 @@ class CycleProblem:
         values = point.z[self.n :] * self.scales
         return ", ".join(map(value_with_unit, self.names, values.tolist()))
 
-    def map_at(self, z: Array) -> SectionMap:
+    def map_at(self, z: Array) -> ReturnMap:
         """The return map of the case at a point."""
         values = tuple(z[self.n :].tolist())
         if self._map is None or values != self._values:
@@ -151,7 +149,7 @@ class CycleProblem:
             self._values = values
         return self._map
 
-    def _make_map(self, z: Array) -> SectionMap:
+    def _make_map(self, z: Array) -> ReturnMap:
         try:
             p = self.case(z)
             missing = min(p.Omega, p.N, p.k_p) <= 0
@@ -170,7 +168,7 @@ class CycleProblem:
         """The point of the section, in the coordinates of the case `base`."""
         return self._from_unknowns @ (z[: self.n] * self.size)
 
-    def _turn(self, section_map: SectionMap) -> Array:
+    def _turn(self, section_map: ReturnMap) -> Array:
         """Factors from the coordinates of a map to those of the reference."""
         return self.reference.scale / section_map.scale
 

@@ -13,7 +13,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.continuation.data import StoredBranch, stored_extremes
 from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
-from disc_model.stability.return_map import MapFactory, ReturnMap
+from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.segments import Extremes, extremes_of_cycle
 
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at such a point
@@ -47,7 +47,7 @@ class SpecialPoint(Summarised):
     after: int
     case: Parameters
     modal: Array = field(repr=False)
-    make_map: MapFactory = ReturnMap
+    make_map: type[ReturnMap] = ReturnMap
 
     @property
     def label(self) -> str:

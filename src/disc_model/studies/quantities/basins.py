@@ -140,9 +140,7 @@ class AttractorBasins(Start, Quantity):
         a point gives does not depend on the points before it."""
         from disc_model.stability.attractors import Basins
 
-        if self._found is None or self._found.p != p:
-            self._found = Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
-        return self._found.copy()
+        return Basins(p, self.horizon, near=self.attractor_tol, tol=self.tol)
 
     def _critical_energy(
         self, results: Sequence[Sequence[OutcomeResult]], follow: Follow

@@ -10,7 +10,7 @@ from disc_model.data.variables import OF_QUANTITIES, Outcome
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
-from disc_model.stability.thresholds import FIRST_LEG
+from disc_model.stability.follower import FIRST_LEG
 from disc_model.studies.quantity import (
     MOST,
     SETTLED_TO_BY,

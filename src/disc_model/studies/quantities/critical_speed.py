@@ -92,7 +92,7 @@ class CriticalSpeed(Quantity):
     def _follow(self, p: Parameters, scanned: Sequence[int]) -> dict[int, OutcomeResult]:
         """Follow the motion from the static start, up to the longest horizon, at the speeds of the
         scan and wherever else crossings are sought; by places on the lattice."""
-        from disc_model.stability.outcome import find_outcome
+        from disc_model.stability.follower import find_outcome
 
         motions: dict[int, OutcomeResult] = {}
         times = self.horizons if self.extrapolate else ()

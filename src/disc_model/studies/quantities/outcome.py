@@ -91,7 +91,7 @@ def _late(
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
     from disc_model.stability.segments import final_segment
 
     p = point.parameters

@@ -32,7 +32,7 @@ class Regions(Quantity):
 
     def state_at(self, point: Point) -> State:
         from disc_model.simulation.api import simulate
-        from disc_model.stability.outcome import find_outcome
+        from disc_model.stability.follower import find_outcome
 
         p = point.parameters
         result = find_outcome(p, self.horizon, tol=self.tol)

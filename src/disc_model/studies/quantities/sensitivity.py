@@ -206,7 +206,7 @@ def evaluate(p: Parameters, tol: float) -> tuple[Row, str]:
 
 
 def _followed(p: Parameters, options: Sensitivity) -> tuple[Row, str]:
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
 
     times = (options.horizon,) if options.extrapolate else ()
     result = find_outcome(p, options.horizon, tol=options.motion_tol, compared_with=times)

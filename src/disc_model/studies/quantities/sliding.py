@@ -37,7 +37,7 @@ class Sliding(Quantity):
         return p.replace(**{self.parameter: value})
 
     def compute_point(self, point: Point) -> tuple[dict[str, Any], str]:
-        from disc_model.stability.sliding_modes import follow_modes
+        from disc_model.stability.sliding import follow_modes
 
         p = point.parameters
         values = self.scan.values
