@@ -29,7 +29,6 @@ from scipy.optimize import brentq
 from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
-from disc_model.disc.membrane import quartic_form
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.stretched import membrane_forces
 from disc_model.display import Summarised, drawings, number_text
@@ -247,7 +246,7 @@ def _equilibrium(case: Parameters) -> SteadySliding:
     modes = mode_arrays(case)
     model = engine_case(case).model
     compliance = contact_compliance(case)
-    states, alone = equilibria(case)
+    states = equilibria(case)
     carried = [each for each in states if each.V > 0 or case.contact == "bilateral"]
     if not carried:
         if not case.N > 0:
@@ -278,7 +277,7 @@ def _equilibrium(case: Parameters) -> SteadySliding:
         return _absent(case, SlidingStatus.NO_SPRING)
     rows = rows_at(psi if case.k_p > 0 else 0.0)
     _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
-    status = SlidingStatus.OK if alone else SlidingStatus.FURTHER
+    status = SlidingStatus.FURTHER if model.has_stretching else SlidingStatus.OK
     if len(carried) > 1:
         status = SlidingStatus.SEVERAL
     found = np.sort([each.rate for each in carried])
@@ -328,15 +327,14 @@ Solve = Callable[[float, Balanced | None], Balanced]
 """The equilibrium at a rate, near another one; its numbers are nan if there is none."""
 
 
-def equilibria(p: Parameters) -> tuple[list[Balanced], bool]:
-    """All equilibria that are found, and whether a further one is excluded."""
+def equilibria(p: Parameters) -> list[Balanced]:
+    """All equilibria that are found, up to twice the drive's rate."""
     response = _Response(p)
     plate = _StretchedPlate(response) if response.model.has_stretching else None
     solve: Solve = plate.solve if plate else response.solve
     start = plate.loaded() if plate else response.solve(p.Omega)
     if not response.t.any():
-        alone = plate is None or plate.is_alone(p.Omega)
-        return ([start] if math.isfinite(start.V) else []), alone
+        return [start] if math.isfinite(start.V) else []
 
     # both ways from the drive's rate, as a plate that stretches is followed
     grid = RATES * p.Omega if plate else _grid_of(response)
@@ -345,7 +343,7 @@ def equilibria(p: Parameters) -> tuple[list[Balanced], bool]:
     found = [*_zeros(solve, response, down), *_zeros(solve, response, up)]
     if response.excess(start) == 0:
         found.append(start)
-    return found, plate is None
+    return found
 
 
 def _along(solve: Solve, start: Balanced, rates: Array) -> Iterator[Balanced]:
@@ -511,27 +509,6 @@ class _StretchedPlate:
         by_a = gap * a + lag * b - along - disc.psi[:, None] * V
         by_b = gap * b - lag * a - across + disc.t[:, None] * H
         return np.vstack([by_a, by_b[self.pairs]]), (a, b, V)
-
-    def is_alone(self, rate: float) -> bool:
-        """Whether this is proved to be the only equilibrium at a rate on a surface that does not
-        move: within the distance of all equilibria from zero, the stiffness of plate and spring is
-        larger than what a membrane under pressure can take from it."""
-        disc = self.linear
-        k = disc.p.k
-        psi = np.append(disc.psi, np.zeros(int(self.pairs.sum())))
-        held = disc.w2 - (disc.l * rate) ** 2
-        grip = 1.0 / (1.0 + k * disc.compliance)
-        stiffness = np.diag(np.append(held, held[self.pairs])) + k * grip * np.outer(psi, psi)
-        values, vectors = np.linalg.eigh(stiffness)
-        if not values[0] > 0:
-            return False
-        scale = vectors / np.sqrt(values)
-        reach = grip * self.load * np.linalg.norm(psi @ scale)
-        T = quartic_form(disc.p)
-        n = len(T)
-        twice = np.kron(scale, scale)
-        least = np.linalg.eigvalsh(twice.T @ T.reshape(n * n, -1) @ twice)[0]
-        return bool(1 + 3 * least * reach**2 > 0)
 
 
 # ---- The equations of slip
