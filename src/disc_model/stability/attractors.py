@@ -25,7 +25,6 @@ from disc_model.analysis.classify import (
     settling,
     shortest_period,
 )
-from disc_model.arrays import Array
 from disc_model.data.variables import Outcome
 from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine.record import LOSS_OF_CONTACT, STICK_TO_SLIP
@@ -291,7 +290,6 @@ class Basins:
         legs = list[Result]()
         segments = list[Segment]()
         first_separation = math.nan
-        least = math.inf  # distance from the stick-slip cycle at which the motion was tested
         steady = False
         attractor = None
         while attractor is None and state.time < self.horizon:
@@ -312,13 +310,9 @@ class Basins:
 
             # an attractor that the motion approaches
             if self.near:
-                x, distance = self._near_quiet_cycle(segments, state)
-                is_nearer = distance < least  # than ever before
-                least = min(distance, least)
-                if self.cycle is not None and is_nearer and self.cycle.follows_multipliers(x):
+                attractor = self._approached_by_range(segments)
+                if self._near_quiet_cycle(segments[-1], state):
                     attractor = self.known[0]
-                else:
-                    attractor = self._approached_by_range(segments)
 
             # or one on which it is, when it becomes steady, and at the horizon
             over = state.time >= self.horizon
@@ -358,20 +352,18 @@ class Basins:
             apart.append(abs(a - b) / max(a, b, floor))
         return float(max(apart))
 
-    def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
-        """A point of a motion on the section, and its distance from the stick-slip cycle; infinite
-        unless it is near."""
-        last = segments[-1]
+    def _near_quiet_cycle(self, last: Segment, state: State) -> bool:
+        """Whether a motion follows the stick-slip cycle, as its multipliers predict."""
         near = self.cycle
-        if near is not None and not last.separation_rate > 0 and last.range <= segments[0].range:
-            release = self.map.next_release(state)
-            points = [release.x] if release.reached else []
-            for x in points:
-                points += self.map.returns(x, near.cycle.releases - 1) if x is release.x else []
-                distance = float(np.linalg.norm(x - near.x))
-                if distance <= NEAR * self.map.deflection:
-                    return x, distance
-        return self.map.static, math.inf
+        if near is None or last.separation_rate > 0:
+            return False
+        release = self.map.next_release(state)
+        if not release.reached:
+            return False
+        for x in (release.x, *self.map.returns(release.x, near.cycle.releases - 1)):
+            if np.linalg.norm(x - near.x) <= NEAR * self.map.deflection:
+                return near.follows_multipliers(x)
+        return False
 
     def _approached_by_range(self, segments: Sequence[Segment]) -> Attractor | None:
         """The attractor, other than the stick-slip cycle, whose range of the height those of the last
@@ -387,25 +379,20 @@ class Basins:
         if distance > self.near or (rivals and rivals[0] <= 2 * self.near):
             return None
 
-        # it must be approached from leg to leg, ever more slowly
+        # it must be approached from leg to leg
         nearest = others[last.index(distance)]
         distances = [_relative_difference(value, nearest.segment.range) for value in ranges]
-        if any(b >= a and b > VARIATION for a, b in pairwise(distances)):
-            return None
-        slows = _rest_of_drift(ranges) <= (2 * distance + VARIATION) * ranges[-1]
-        return nearest if slows else None
+        parts = any(b >= a and b > VARIATION for a, b in pairwise(distances))
+        return None if parts else nearest
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
-        """Whether the last segments differ so little, and drift so slowly, that a motion may have
-        settled."""
+        """Whether the last segments differ so little that a motion may have settled."""
         *others, last = segments[-SETTLING:]
         if len(others) < SETTLING - 1:
             return False
-        if max(self._difference(segment, last) for segment in others) > VARIATION:
-            return False
-        ranges = [max(segment.range, self.smallest) for segment in (*others, last)]
-        stays = abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1]
-        return stays or _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
+        drift = abs(last.range - others[0].range) / max(last.range, self.smallest)
+        largest = max(self._difference(segment, last) for segment in others)
+        return largest <= VARIATION and drift <= STEADY
 
     def _settled_on(
         self, legs: Sequence[Result], last: Segment, *, steady: bool, over: bool
@@ -501,16 +488,3 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
 def _relative_difference(first: float, second: float) -> float:
     """Difference of two ranges over the larger one."""
     return abs(first - second) / max(first, second, sys.float_info.min)
-
-
-def _rest_of_drift(values: Sequence[float]) -> float:
-    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do
-    not decrease."""
-    changes = np.diff(values[-4:])
-    before = abs(changes[-2])
-    last = abs(changes[-1])
-    if not (np.all(changes > 0) or np.all(changes < 0)):
-        return 0.0
-    if not last < before:
-        return math.inf
-    return float(last**2 / (before - last))

@@ -7,7 +7,7 @@ because stick resets f to 0.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -253,7 +253,10 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
-_LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENTS[0]} returns from the static start")
+_LOST = (
+    CycleStatus.SEPARATES,
+    f"contact is lost within {TRANSIENTS[0]} returns from the static start",
+)
 _WITHOUT_RETURN = {
     "time_over": (CycleStatus.NO_STICK_SLIP, "the slider slips on for {:.3g} s without sticking"),
     "lost_contact": _LOST,
