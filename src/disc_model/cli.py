@@ -224,8 +224,7 @@ def floquet(p: Parameters, _: Strict) -> None:
 def sliding(p: Parameters, _: Strict) -> None:
     """Print the modes of steady sliding (complex eigenvalues): frequencies, growth rates,
     damping."""
-    from disc_model.stability.sliding import steady_sliding
-    from disc_model.stability.sliding import sliding_modes
+    from disc_model.stability.sliding import sliding_modes, steady_sliding
 
     state = steady_sliding(p)
     print_rows([model_line(p), *state.summary()])

@@ -14,7 +14,7 @@ from disc_model.analysis.classify import Settled, Settling
 from disc_model.data.variables import WORDS
 from disc_model.errors import Status
 from disc_model.stability import attractors
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import OutcomeResult
 from disc_model.stability.segments import Segment
 from disc_model.studies import run
 from disc_model.studies.merge import merge_batches
@@ -113,7 +113,7 @@ def fake_motions(monkeypatch: pytest.MonkeyPatch) -> None:
         )
         return SimpleNamespace(final_state=state, status=Status.OK, message=""), found
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
     for name, fake in (
         ("arrival", arrival),
         ("simulate", carried_on),

@@ -13,8 +13,8 @@ from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.figures.looks import LOOKS
 from disc_model.parameters import Parameters
 from disc_model.stability.cycle import find_cycle
-from disc_model.stability.linear_motion import NearCycle
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import NearCycle
+from disc_model.stability.follower import OutcomeResult
 from disc_model.studies import refinement
 from disc_model.studies.quantities.regions import Regions
 from disc_model.studies.refinement import Tile, TileOptions

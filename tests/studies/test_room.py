@@ -7,7 +7,7 @@ import pytest
 
 import disc_model as dm
 from disc_model.parameters import Parameters
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import OutcomeResult
 from disc_model.studies.quantities.basins import AttractorBasins
 from disc_model.studies.quantities.branches import Branches, _Found
 from disc_model.studies.quantities.campbell import Campbell
@@ -27,7 +27,7 @@ def alternating(monkeypatch: pytest.MonkeyPatch) -> None:
             first = 1.0
         return OutcomeResult(first_separation=first)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
 
 
 CUT = "4 were found along crossing_number, which has room for 3: raise max_crossings"

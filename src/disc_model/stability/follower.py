@@ -353,23 +353,26 @@ def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
     approaches it; None if neither is shown."""
     if shares(leg).stick == 1 and never_pulls(p):
         return Outcome.AT_REST
-    state = leg.final_state
+    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
+
+
+def approaches_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
+    predict."""
     if state.phase != "slip" or not _sliding(p).stable:
-        return None
-    if _follows_eigenvalues(p, state, TEST_TIMES[-1], ARRIVED, NEAR):
-        return Outcome.STEADY_SLIDING
-    return None
+        return False
+    return _follows_eigenvalues(p, state, TEST_TIMES[-1], ARRIVED, NEAR)
 
 
-def _departs_from_sliding(p: Parameters, leg: Result) -> bool:
+def departs_from_sliding(p: Parameters, state: State) -> bool:
     """Whether a slipping motion departs from unstable steady sliding as the eigenvalues there
     predict, for some seconds or until it has grown by a factor of e."""
-    if not slips_on(leg) or not _sliding(p).growing.size:
+    if state.phase != "slip" or not _sliding(p).growing.size:
         return False
     first, last = TEST_TIMES[-1]
     shorter = min(1.0, 1 / _sliding(p).growth_rate / last)
     times = (shorter * first, shorter * last)
-    return _follows_eigenvalues(p, leg.final_state, times, 0.0, math.inf)
+    return _follows_eigenvalues(p, state, times, 0.0, math.inf)
 
 
 def _follows_eigenvalues(
@@ -598,7 +601,8 @@ class _Search:
                 result.outcome = equilibrium
                 result.near = None
                 return result
-            departs = departs or (examined and _departs_from_sliding(self.p, run))
+            if examined and not departs and slips_on(run):
+                departs = departs_from_sliding(self.p, run.final_state)
             cycle = self._cycle_at(result, run, examined)
 
     def _on_cycle(self, result: OutcomeResult, near: NearCycle) -> OutcomeResult:

@@ -10,7 +10,7 @@ from disc_model.data.variables import WORDS, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
-from disc_model.stability.outcome import Attractor, OutcomeResult
+from disc_model.stability.follower import Attractor, OutcomeResult
 from disc_model.studies.quantities import basins
 from disc_model.studies.quantities.basins import AttractorBasins
 from disc_model.studies.quantity import Point

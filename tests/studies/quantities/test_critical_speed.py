@@ -11,7 +11,7 @@ import xarray as xr
 from disc_model.data.variables import Outcome, flag_names
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import OutcomeResult
 from disc_model.studies.quantities.critical_speed import (
     CriticalSpeed,
     _crossings,
@@ -52,7 +52,7 @@ def test_a_speed_that_failed_hides_those_above_it(
             first = 10.0
         return OutcomeResult(first_separation=first)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
     found = compute(options, [Point(Parameters(N=200, Omega=1))])
     np.testing.assert_array_equal(found.arrays["critical_speed"], [[lowest]])
@@ -103,7 +103,7 @@ def test_all_simulations_are_counted_with_their_time(monkeypatch: pytest.MonkeyP
         followed.append(p.Omega)
         return OutcomeResult(simulated=10.0 + len(followed))
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
     found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
     assert followed == [12, 12.5, 13, 13.5, 14, 14.5, 15]
@@ -122,7 +122,7 @@ def test_simulations_of_the_bisection_are_counted_with_their_time(
             first = 10.0
         return OutcomeResult(simulated=2.0, first_separation=first)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
     found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
     count = int(found["simulations"][0])
@@ -142,7 +142,7 @@ def test_a_separation_after_an_extrapolation_counts_and_has_no_time(
         rough = p.Omega < 14
         return OutcomeResult(Outcome.SEPARATION, first_separation=100.0, extrapolated=rough)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", motion)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", motion)
     options = CriticalSpeed.model_validate({"horizons": [900], "scan": SCAN, "precision": 0.1})
     found = compute(options, [Point(Parameters(N=200, Omega=1))]).arrays
     assert found["critical_speed"].tolist() == [[13.0]]

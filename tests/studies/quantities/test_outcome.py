@@ -8,7 +8,7 @@ import pytest
 
 from disc_model.data.variables import WORDS, Outcome, flag_names
 from disc_model.parameters import Parameters
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import OutcomeResult
 from disc_model.studies.quantities.outcome import HorizonOutcome
 from disc_model.studies.quantity import Point
 from tests.stability.test_attractor import stretch
@@ -64,7 +64,7 @@ def test_the_rate_of_the_residual_is_that_of_its_natural_logarithm(
         known = {"changes": changes, "times": times, "segment": segment}
         return OutcomeResult(Outcome.GROWING, horizon, time=horizon, **known)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", find_outcome)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", find_outcome)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
     assert words == ["growing"]
     assert arrays["return_map_residual_rate"][0] == pytest.approx(0.02, rel=1e-9)
@@ -91,7 +91,7 @@ def test_a_motion_that_is_left_before_the_horizon_says_when(
     def find_outcome(p: Parameters, horizon: float, **_: object) -> OutcomeResult:
         return OutcomeResult(Outcome.STICK_SLIP, horizon, time=time, segment=segment, distance=0.02)
 
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", find_outcome)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", find_outcome)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
     assert words == ["stick_slip"]
     assert np.isfinite(arrays["left_at"][0]) == is_left
@@ -110,7 +110,7 @@ def test_a_separation_after_an_extrapolation_has_no_time(
     known = OutcomeResult(
         Outcome.OTHER_CYCLE, first_separation=40.0, segment=segment, extrapolated=extrapolated
     )
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: known)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: known)
     arrays, words = outcomes([Parameters(N=300, Omega=20)], horizon=200)
     assert words == ["other_cycle"]
     np.testing.assert_array_equal(arrays["first_separation"], [timed])

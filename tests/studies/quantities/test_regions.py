@@ -13,7 +13,7 @@ from disc_model.errors import ParameterError
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.states import static_start
-from disc_model.stability.outcome import OutcomeResult
+from disc_model.stability.follower import OutcomeResult
 from disc_model.studies import grid, refinement
 from disc_model.studies.quantities.regions import Regions
 from disc_model.studies.quantity import Point
@@ -256,6 +256,6 @@ def test_the_motion_of_a_separation_begins_five_seconds_after_it(
     p = Parameters(N=200, Omega=20, n_diameters=1)
     state = static_start(p).replace(time=3.0)
     reached = OutcomeResult(Outcome.SEPARATION, state=state, first_separation=3.0)
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: reached)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: reached)
     begin = Regions(horizon=500.0).state_at(Point(p))
     assert begin.time == pytest.approx(8.0)
