@@ -177,7 +177,7 @@ def shares_of(run: Result) -> dict[str, float]:
     time = sum(counted[f"time_{phase}"] for phase in ("stick", "slip", "separation"))
     shares = {f"{phase}_fraction": counted[f"time_{phase}"] / time for phase in ("stick", "slip")}
     shares["separation_fraction"] = counted["time_separation"] / time
-    shares["separation_rate"] = counted["separations"] / time
+    shares["separation_rate"] = counted["n_separations"] / time
     return shares
 
 

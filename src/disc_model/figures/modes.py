@@ -7,7 +7,6 @@ import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy.signal import find_peaks
 
 from disc_model.figures.draw import (
     LINEAR_RATE,
@@ -214,6 +213,8 @@ def draw_campbell(
 def _peaks(rate: xr.DataArray) -> Any:
     """Places of the peaks of a growth rate above 0.1/s, which falls on both sides of each; there is
     none beside a speed without a rate."""
+    from scipy.signal import find_peaks
+
     heights = np.arcsinh(rate / LINEAR_RATE)
     return find_peaks(heights, height=np.arcsinh(1), prominence=PROMINENT)[0]
 

@@ -25,7 +25,6 @@ from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SK
 from disc_model.figures.schema import Cases, Either, Sampled, Samples, case_figure
 from disc_model.figures.shown import label, value_text, words
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import deflection
 from disc_model.units import Positive, Unit
 
 Hertz = Annotated[Positive, Unit("Hz")]
@@ -367,6 +366,8 @@ def animate(case: Parameters, states: Sequence[Any], samples: xr.Dataset) -> Fun
     states : of the pictures, in time
     samples : shown window that covers them
     """
+    from disc_model.simulation.states import deflection
+
     r = np.linspace(*radial_range(case), 25)
     w = 1e3 * deflection(case, states, r, np.linspace(0, 2 * np.pi, 181))
     end = float(abs(w).max()) or 1.0

@@ -8,7 +8,6 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
-from scipy.ndimage import binary_dilation, binary_opening
 
 from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.data.variables import presentation_of, stated_in, typeset
@@ -319,6 +318,8 @@ def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
 
 def around(area: xr.DataArray) -> xr.DataArray:
     """An area of a map with the cells beside it, without parts that are one cell wide."""
+    from scipy.ndimage import binary_dilation, binary_opening
+
     wide = binary_opening(np.pad(area, 1, mode="edge"), np.ones((2, 2)))[1:-1, 1:-1]
     return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
 

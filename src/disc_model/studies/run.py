@@ -41,7 +41,9 @@ def call_of(layout: Layout) -> Call:
     quantity = quantity_of(layout["quantity"])
     options = dict(quantity.options.model_validate(layout["options"]))
     if layout.get("axes"):
-        options["axes"] = {name: [*map(_number, x)] for name, x in layout["axes"].items()}
+        # in the order of the parameters, which JSON does not keep
+        names = sorted(layout["axes"], key=VARIED.index)
+        options["axes"] = {name: [*map(_number, layout["axes"][name])] for name in names}
     discs = {name: Disc.model_validate(disc) for name, disc in layout["discs"].items()}
     base = {name: x for name, x in layout["base"].items() if x is not None}
     return Call(quantity.function, partial(_case, base), options, discs)
