@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import xarray as xr
 
+from disc_model.data.variables import OF_RESULTS
 from disc_model.errors import require
 
 ATTRIBUTES = ("ended", "parameters", "free_parameters", "not_reached")
@@ -45,4 +46,13 @@ def branch_of_sweep(data: xr.Dataset) -> xr.Dataset:
     for dim, name in PRESENT.items():
         own = own.dropna(dim, how="all", subset=[name])
     own = own.assign({name: own[name].astype(kind) for name, kind in TYPES.items()})
-    return own.assign_attrs({name: row[name].item() for name in ATTRIBUTES if name in row})
+    for name in TYPES:  # of which a sweep says how it stands for truth
+        if name in OF_RESULTS["Branch"]:
+            own[name].attrs = dict(OF_RESULTS["Branch"][name].attributes)
+    for dim in ("point", "special"):
+        places = (dim, range(own.sizes[dim]), OF_RESULTS["Branch"][dim].attributes)
+        own = own.assign_coords({dim: places})
+    free = str(row["free_parameters"].item()).split(", ")
+    own = own.set_coords([*free, *(f"special_{name}" for name in free)])
+    own.attrs = {name: row[name].item() for name in ATTRIBUTES if name in row}
+    return own.assign_attrs(versions=data.attrs["versions"])
