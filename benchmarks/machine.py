@@ -6,6 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 import pandas as pd
+
 from disc_model.provenance import versions
 
 

@@ -1,32 +1,6 @@
 # One job per figure, from the files of its cases or grids: a change of another case does not draw it again.
 
 
-def figure_of(wildcards):
-    return FIGURES[wildcards.study, wildcards.figure]
-
-
-def files_of(wildcards):
-    """Files from which a figure is drawn, by the names of its cases, or by the roles of its grids."""
-    figure = figure_of(wildcards)
-    file = grid_file if isinstance(figure.plot, Plot) else case_file
-    return {role: file(name) for role, name in figure.inputs.items()}
-
-
-def plan_of(wildcards):
-    """What a job needs to draw a figure, in JSON, which is ASCII: commands can hold it in any locale."""
-    figure = figure_of(wildcards)
-    part = figure.plot.kind.rpartition(".")[0]
-    own = sorted((WORKFLOW / part).glob("figures*.py")) if part else []
-    plan = {
-        "plot": figure.plot.model_dump(mode="json"),
-        "files": files_of(wildcards),
-        "titles": dict(figure.titles),
-        "caption": figure.caption,
-        "code": figures_hash() + "".join(content_key(file.read_text()) for file in own),
-    }
-    return json.dumps(plan)
-
-
 rule draw_figure:
     input:
         lambda w: [*files_of(w).values()],

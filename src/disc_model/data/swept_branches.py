@@ -47,8 +47,11 @@ def branch_of_sweep(data: xr.Dataset) -> xr.Dataset:
         own = own.dropna(dim, how="all", subset=[name])
     own = own.assign({name: own[name].astype(kind) for name, kind in TYPES.items()})
     for name in TYPES:  # of which a sweep says how it stands for truth
-        if name in OF_RESULTS["Branch"]:
-            own[name].attrs = dict(OF_RESULTS["Branch"][name].attributes)
+        known = OF_RESULTS["Branch"].get(name) or OF_RESULTS["Branch"].get(
+            name.removeprefix("special_")
+        )
+        if known is not None:
+            own[name].attrs = dict(known.attributes)
     for dim in ("point", "special"):
         places = (dim, range(own.sizes[dim]), OF_RESULTS["Branch"][dim].attributes)
         own = own.assign_coords({dim: places})
