@@ -23,7 +23,7 @@ from disc_model.engine import state as motion
 from disc_model.engine.loop import FlightLimits
 from disc_model.engine.model import build_state
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import State, write_state
+from disc_model.simulation.states import State, read_state, write_state
 from disc_model.stability.cycle import SLIPPING, FloquetResult, cycle_of, no_cycle
 from disc_model.stability.return_map import (
     RETURNED,
@@ -138,6 +138,11 @@ class SlippingMap(ReturnMap):
         if motion.phase_of(self._state) != motion.SLIP:
             return Passage(STOPS, start.time, self._coordinates())
         return self._follow_to_passage()
+
+    def state(self, x: Array) -> State:
+        """The point `x` of the section as a `State` in slip, at time 0."""
+        self._put(x)
+        return read_state(self._case, self._state)
 
     def point_of(self, rows: Array) -> Array:
         """Coordinates on the section of a state, or of a change of one, in the rows of
