@@ -19,7 +19,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/disc tests/docs tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format numbers bench bench-pages lock clean
+.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -55,7 +55,7 @@ survival: env
 	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
 	cp results/paper/survival.md docs/model_sensitivity.md
 
-# Comparisons with measurements: tables and pictures of docs/measurements.md.
+# Comparisons with measurements: tables of docs/measurements.md.
 measurements: env
 	$(BIN)/python -m docs.measurements.report
 
@@ -128,7 +128,6 @@ lint: env
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
-	$(BIN)/mypy --explicit-package-bases docs/collect_numbers.py docs/write_benchmark_pages.py
 	$(BIN)/lint-imports
 	$(BIN)/snakefmt --check Snakefile workflow benchmarks
 	$(BIN)/snakemake --lint
@@ -142,17 +141,13 @@ $(VENV)/.bench: requirements-bench.lock $(STAMP)
 	$(INSTALL) --require-hashes -r requirements-bench.lock
 	touch $@
 
-# Speed against accuracy, where methods fail, truncation: measured here and now, on one core at a time.
+# Speed against accuracy, where methods fail, what answers cost: measured here and now, on one core at a time.
 bench: $(VENV)/.bench
 	$(BIN)/snakemake -j1 bench
 
-# The numbers that README, docs and captions take from results (docs/statements.yaml), after `make reproduce`.
-numbers: env
-	$(BIN)/python -m docs.collect_numbers
-
-# What README and docs say about speed, and their pictures of it, from that run: all from one, with its machine's name.
+# What README and docs say about speed, from that run.
 bench-pages: env
-	$(BIN)/python -m docs.write_benchmark_pages
+	$(BIN)/python -m benchmarks.pages results/bench/work_precision.csv README.md docs/benchmark.md
 
 # One version of each package for every system and every Python that the project supports.
 LOCK := $(BIN)/uv pip compile --quiet --upgrade --universal --fork-strategy fewest --python-version 3.11 \

@@ -1,17 +1,16 @@
 """Where methods fail: maps over step or tolerance and number of modes, against the engine."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
-import xarray as xr
+import pandas as pd
 
-from benchmarks import scenes, study
+from benchmarks import scenes
 from benchmarks.methods import METHODS, Method
 from benchmarks.methods.integrators import Problem
 from benchmarks.methods.whole_runs import STABILITY_LIMIT
-from benchmarks.scenes import Answer, Verdict
-from benchmarks.study import Row
+from benchmarks.scenes import Answer
 from disc_model.disc.plate import mode_arrays
 from disc_model.mode_choice import real_modes
 from disc_model.parameters import Parameters
@@ -20,6 +19,8 @@ SPANS: Mapping[str, float] = {"stick_slip": 1.0, "separating": 0.1}
 """Length of a map's motion by scene, s."""
 STEPS: Sequence[float] = tuple(np.geomspace(2e-5, 2e-3, 61)[::-1].tolist())
 """Fixed steps of a map, s."""
+DIAMETERS = (1, 2, 4, 6, 8)
+"""Highest numbers of nodal diameters of a map."""
 REFERENCE_TOL = 1e-14
 """Tolerance of the engine by which methods are judged."""
 
@@ -27,10 +28,10 @@ REFERENCE_TOL = 1e-14
 def failure_map(
     method: str,
     scene: str = "separating",
-    diameters: Sequence[int] = (1, 2, 4, 6, 8),
+    diameters: Sequence[int] = DIAMETERS,
     values: Sequence[float] | None = None,
-) -> xr.Dataset:
-    """Judge a method on a short span of a scene along (diameters, value).
+) -> pd.DataFrame:
+    """Judge a method on a short span of a scene, at settings and numbers of modes.
 
     Parameters
     ----------
@@ -41,40 +42,39 @@ def failure_map(
 
     Returns
     -------
-    xarray.Dataset
-        Verdicts, and facts that explain them.
+    table : a row for each point: the verdict, and what explains it, which are the step up to which
+        RK4 is stable (``step_limit``, s) and the shortest phase (s), which a step must not skip
     """
     judged = METHODS[method].economical()
-    cases = {count: _case(scene, count) for count in diameters}
-
-    def measure(diameters: int, value: float) -> Iterator[Row]:
-        problem, right = cases[diameters]
-        result = judged.solve(problem, value, judged.map_budget)
-        errors = scenes.errors(problem, right, result)
-        yield {
-            "verdict": errors.verdict,
-            "event_error": errors.event_time,
-            "longest_step": result.longest_step,
+    rows = []
+    for count in diameters:
+        problem, right = _case(scene, count)
+        gaps = np.diff(right.times.astype(float))
+        top = float(mode_arrays(problem.parameters).omega.max())
+        of_case = {
+            "method": method,
+            "scene": scene,
+            "modes": real_modes(count, 0),
+            "step_limit": STABILITY_LIMIT / top,
+            "shortest_phase": float(gaps[gaps > 0].min()),
         }
-
-    def facts(diameters: int) -> Iterator[Row]:
-        problem, right = cases[diameters]
-        yield {"modes": real_modes(diameters, 0), **_limits(problem.parameters, right)}
-
-    if values is None:
-        values = map_settings(judged)
-    dataset = study.run(
-        "failure_map",
-        {"diameters": diameters, "value": values},
-        measure,
-        flags={"verdict": Verdict},
-        scene=scene,
-        budget=judged.map_budget,
-        span=SPANS[scene],
-    )
-    return with_facts(judged, dataset, facts, "failure_map_facts")
+        for value in values or map_settings(judged):
+            result = judged.solve(problem, value, judged.map_budget)
+            errors = scenes.errors(problem, right, result)
+            rows.append(
+                {
+                    **of_case,
+                    "setting": value,
+                    "verdict": errors.verdict.name.lower(),
+                    "event_error": errors.event_time,
+                    "longest_step": result.longest_step,
+                    "events": len(result.kinds),
+                }
+            )
+    return pd.DataFrame(rows)
 
 
+@lru_cache
 def _case(scene: str, diameters: int) -> tuple[Problem, Answer]:
     """Return a short span of a scene with a number of modes, and the engine's answer."""
     p = Parameters(N=385.0, Omega=15.1, n_diameters=diameters)
@@ -85,43 +85,6 @@ def _case(scene: str, diameters: int) -> tuple[Problem, Answer]:
     return problem, Answer(times, right.kinds, right.final, REFERENCE_TOL)
 
 
-def _limits(p: Parameters, right: Answer) -> dict[str, Any]:
-    """Return the settings at which methods may fail on a case.
-
-    Parameters
-    ----------
-    p : the case
-    right : its answer, whose events a step must not skip
-    """
-    top = float(mode_arrays(p).omega.max())
-    gaps = np.diff(right.times.astype(float))
-    return {
-        "omega_max": top,
-        "step_limit": STABILITY_LIMIT / top,
-        "shortest_phase": float(gaps[gaps > 0].min()),
-        "stiff_epsilon": p.mu_s * p.N / (p.m * p.r_0 * top),
-    }
-
-
 def map_settings(method: Method) -> Sequence[float]:
     """Return the settings of a method in maps."""
     return STEPS if method.setting == "step" else method.map_values
-
-
-def with_facts(
-    method: Method, dataset: xr.Dataset, facts: Callable[..., Iterator[Row]], table: str
-) -> xr.Dataset:
-    """Return the map of a method with facts of each row, and what its axes are.
-
-    Parameters
-    ----------
-    method : the method
-    dataset : its map
-    facts : yields the facts of a number of nodal diameters
-    table : name of their variables
-    """
-    rows = {"diameters": dataset["diameters"].values.tolist()}
-    dataset = dataset.assign(study.run(table, rows, facts).data_vars)
-    dataset["diameters"].attrs = {"units": "1", "long_name": "highest nodal diameter"}
-    dataset["value"].attrs = {"long_name": f"setting: {method.setting}"}
-    return dataset.assign_attrs(method=method.name, label=method.label, setting=method.setting)

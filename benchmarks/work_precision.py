@@ -1,29 +1,25 @@
 """Speed against accuracy: every method on every scene, at settings from coarse to fine."""
 
 import math
-import time as clock
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 import pandas as pd
-import xarray as xr
 
-from benchmarks import scenes, study
+from benchmarks import scenes
+from benchmarks.machine import stamped
 from benchmarks.methods import METHODS, SCENES
-from benchmarks.methods.integrators import MethodResult, Problem, RunStatus
-from benchmarks.study import TABLES, Row
-from disc_model.data.dataset import json_attribute
-from disc_model.simulation.api import simulate
+from benchmarks.methods.integrators import RunStatus
 
 DEFAULT = 1e-10
 """The series engine's default tolerance, and the event-time error in s that others are asked for."""
-BUDGET = 12.0
-"""Time for a point, s."""
-RIGID_BUDGET = 4.0
-"""Time for a point on the rigid disc, which methods in Python cannot finish, s."""
+BUDGET = {"rigid": 4.0}
+"""Time for a point on scenes that methods in Python cannot finish, s;"""
+USUAL_BUDGET = 12.0
+"""and on the others."""
 LONG = 0.5
 """Longest time of a point that is measured again, s."""
 QUICK = 0.1 * LONG
@@ -34,207 +30,118 @@ FURTHER = 4.0
 """How far quick points go on for the cost of a further second, in spans of the scene."""
 FLOOR = 1e-15
 """Errors below this count as equal in costs, zero among them, s."""
-WHOLE_CALLS = 21
-"""Number of calls of which `_whole_call` takes the median."""
-COLUMNS: dict[str, str] = TABLES["work_precision_table"]
-"""Variables by the column of the table that shows them."""
+POINT = ["scene", "method", "setting"]
+"""Columns that name a point."""
 Settings = Mapping[str, Mapping[str, Sequence[float]]]
 """Settings from coarse to fine, by scene and method."""
 
 
-def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> xr.Dataset:
-    """Measure all points along (scene, solver, point).
-
-    A method that gives up at a setting is not tried at finer ones.
+def work_precision(settings: Settings | None = None, *, rounds: int = 11) -> pd.DataFrame:
+    """Measure all points; a method that gives up at a setting is not tried at finer ones.
 
     Parameters
     ----------
     settings : by scene and method; those of ``rivals.toml`` if None
-    rounds : greatest number of measurements of a point, of which the median is reported
+    rounds : greatest number of measurements of a point; a disturbance then affects all alike
+
+    Returns
+    -------
+    table : a row for each point, with medians of its measurements:
+        ``cost`` and ``further`` are seconds of processor time per simulated second, the latter
+        beyond the scene's end; ``event_error`` is the largest error of an event time in s, nan if
+        events are missing or invented; ``python`` is the share of the time spent in Python between
+        compiled phases
     """
-    if settings is None:
-        settings = _declared_settings()
-    described: dict[str, Any] = {}
-    for name in settings:
-        described[f"scene_{name}"] = json_attribute(_description(name))
-    dataset = study.run(
-        "work_precision",
-        _points(settings),
-        _Measurement().measure,
-        ["scene", "solver", "point"],
-        rounds=rounds,
-        flags={"verdict": scenes.Verdict},
-        title="Speed against accuracy",
-        Conventions="CF-1.11",
-        **described,
-    )
-    solvers = [name for name in METHODS if name in dataset["solver"]]
-    labels = [METHODS[name].label for name in solvers]
-    dataset = dataset.drop_vars("point").sel(solver=solvers)
-    return dataset.assign(label=("solver", labels, {"long_name": "name in words"}))
-
-
-def _declared_settings() -> Settings:
-    """Return the settings of ``rivals.toml``."""
-    settings: dict[str, dict[str, Sequence[float]]] = {}
-    for scene in SCENES:
-        settings[scene] = {}
-        for name, method in METHODS.items():
-            if scene in method.settings:
-                settings[scene][name] = method.settings[scene]
-    return settings
-
-
-def _points(settings: Settings) -> list[Row]:
-    """Return the points of methods that are installed."""
-    points: list[Row] = []
-    for scene, by_method in settings.items():
-        for solver, values in by_method.items():
-            if METHODS[solver].absent():
+    times: dict[tuple[str, str, float], list[float]] = defaultdict(list)
+    hopeless = set()
+    rows = []
+    for _ in range(rounds):
+        for scene, method, value in _points(settings or declared_settings()):
+            known = times[scene, method, value]
+            if _is_done(known) or (scene, method) in hopeless:
                 continue
-            for point, value in enumerate(values):
-                points.append({"scene": scene, "solver": solver, "point": point, "value": value})
-    return points
+            row, outcome = _measured(scene, method, value, first=not known)
+            rows.append(row)
+            known.append(row["seconds"])
+            if outcome is RunStatus.TOO_SLOW:
+                hopeless.add((scene, method))
+
+    groups = pd.DataFrame(rows).groupby(POINT, sort=False)
+    medians = groups.median(numeric_only=True)
+    points = medians.assign(verdict=groups["verdict"].first(), repeats=groups.size())
+    points["further"] = points["further"].fillna(points["cost"])
+    return stamped(points.reset_index())
 
 
-def _description(scene: str) -> dict[str, Any]:
-    """Return what the dataset states of a scene."""
-    case = scenes.problem(scene)
-    right = scenes.answer(scene)
+def declared_settings() -> Settings:
+    """Return the settings of ``rivals.toml``."""
     return {
-        "parameters": case.parameters.canonical_json,
-        "span": case.span,
-        "reference_error": right.error,
-        "events": len(right.kinds),
-        "separations": right.kinds.count("separation"),
+        scene: {
+            name: method.settings[scene]
+            for name, method in METHODS.items()
+            if scene in method.settings
+        }
+        for scene in SCENES
     }
 
 
-class _Point(NamedTuple):
-    """A method on a scene at a setting."""
-
-    scene: str
-    solver: str
-    value: float
-
-    @property
-    def budget(self) -> float:
-        return RIGID_BUDGET if self.scene == "rigid" else BUDGET
-
-    def solve(self, problem: Problem) -> MethodResult:
-        """Return the method's result on a problem."""
-        return METHODS[self.solver].solve(problem, self.value, self.budget)
+def _points(settings: Settings) -> Iterator[tuple[str, str, float]]:
+    """Yield scene, method and setting of the points of methods that are installed."""
+    for scene, by_method in settings.items():
+        for method, values in by_method.items():
+            if not METHODS[method].absent():
+                yield from ((scene, method, value) for value in values)
 
 
-class _Measurement:
-    """What is known of points from earlier rounds.
-
-    Attributes
-    ----------
-    times : of the measurements of a point, s
-    hopeless : scenes and methods that gave up
-    """
-
-    def __init__(self) -> None:
-        self.times: dict[_Point, list[float]] = defaultdict(list)
-        self.hopeless: set[tuple[str, str]] = set()
-
-    def measure(self, scene: str, solver: str, point: int, value: float) -> Iterator[Row]:
-        """Yield the results of a point, if it is to be measured once more.
-
-        Parameters
-        ----------
-        scene, solver, value : the point
-        point : number of the setting, which names the point only
-        """
-        asked = _Point(scene, solver, value)
-        times = self.times[asked]
-        if self._is_done(asked):
-            return
-        problem = scenes.problem(scene)
-        result = asked.solve(problem)
-        if not times and result.seconds < LONG:  # the first call compiles and warms caches
-            result = asked.solve(problem)
-        if result.outcome is RunStatus.TOO_SLOW:
-            self.hopeless.add((scene, solver))
-        times.append(result.seconds)
-
-        errors = scenes.errors(problem, scenes.answer(scene), result)
-        further = math.nan
-        if scene in scenes.JUDGED and result.outcome is RunStatus.FINISHED and _is_quick(times):
-            further = _cost_of_a_further_second(asked, problem, result)
-        whole_call = math.nan
-        if asked == (scenes.JUDGED[0], "series", DEFAULT):
-            whole_call = _whole_call()
-        yield {
-            "seconds": result.seconds,
-            "cost": result.seconds / problem.span,
-            "marginal_cost": further,
-            "glue": result.glue / max(result.seconds, 1e-9),
-            "event_error": errors.event_time,
-            "state_error": errors.state,
-            "verdict": errors.verdict,
-            "work": result.work,
-            "events": len(result.kinds),
-            "separations": result.kinds.count("separation"),
-            "whole_call": whole_call,
-        }
-
-    def _is_done(self, asked: _Point) -> bool:
-        """Return whether a point needs no further measurement."""
-        times = self.times[asked]
-        if not times:
-            return (asked.scene, asked.solver) in self.hopeless
-        if _is_quick(times):
-            return False
-        return float(np.median(times)) >= LONG or len(times) >= FEW
+def _is_done(times: Sequence[float]) -> bool:
+    """Return whether a point needs no further measurement, by the times of the earlier ones in s."""
+    if not times:
+        return False
+    typical = float(np.median(times))
+    return typical >= LONG or (typical >= QUICK and len(times) >= FEW)
 
 
-def _is_quick(times: Sequence[float]) -> bool:
-    """Return whether a point is measured in all rounds, by its times in s."""
-    return float(np.median(times)) < QUICK
-
-
-def _cost_of_a_further_second(asked: _Point, problem: Problem, result: MethodResult) -> float:
-    """Return the time of a simulated second beyond a scene's end, s; nan if it is not reached.
+def _measured(scene: str, name: str, value: float, *, first: bool) -> tuple[dict[str, Any], str]:
+    """Return the results of a point, and how its run ended.
 
     Parameters
     ----------
-    asked, problem : the point and its problem
-    result : of the method up to the scene's end
+    scene, name, value : the point
+    first : whether it is the first measurement, which may compile
     """
-    further = FURTHER * problem.span
-    longer = asked.solve(replace(problem, t_end=problem.t_end + further))
-    if longer.outcome is not RunStatus.FINISHED:
-        return math.nan
-    return (longer.seconds - result.seconds) / further
+    method = METHODS[name]
+    budget = BUDGET.get(scene, USUAL_BUDGET)
+    problem = scenes.problem(scene)
+    result = method.solve(problem, value, budget)
+    if first and result.seconds < LONG:  # the first call compiles and warms caches
+        result = method.solve(problem, value, budget)
+
+    errors = scenes.errors(problem, scenes.answer(scene), result)
+    further = math.nan
+    finished = result.outcome is RunStatus.FINISHED
+    if scene in scenes.JUDGED and finished and result.seconds < QUICK:
+        span = FURTHER * problem.span
+        longer = method.solve(replace(problem, t_end=problem.t_end + span), value, budget)
+        if longer.outcome is RunStatus.FINISHED:
+            further = (longer.seconds - result.seconds) / span
+    return {
+        "scene": scene,
+        "method": name,
+        "setting": value,
+        "verdict": errors.verdict.name.lower(),
+        "seconds": result.seconds,
+        "cost": result.seconds / problem.span,
+        "further": further,
+        "event_error": errors.event_time,
+        "state_error": errors.state,
+        "python": result.glue / max(result.seconds, 1e-9),
+        "work": result.work,
+        "events": len(result.kinds),
+        "separations": result.kinds.count("separation"),
+    }, result.outcome
 
 
-def _whole_call() -> float:
-    """Return the processor time of one whole call of `simulate` for ``stick_slip``, s.
-
-    It is the median of several calls at the default.
-    """
-    problem = scenes.problem("stick_slip")
-    seconds = []
-    for _ in range(WHOLE_CALLS):
-        began = clock.thread_time()
-        simulate(problem.parameters, problem.t_end)
-        seconds.append(clock.thread_time() - began)
-    return float(np.median(seconds))
-
-
-# ---- The measured points as a table, and costs at equal error
-
-
-def measured_points(dataset: xr.Dataset) -> pd.DataFrame:
-    """Return one row for each measured point.
-
-    The column ``further`` is the cost of a further second, or of a second of a long run.
-    """
-    frame = dataset.to_dataframe(dim_order=["scene", "solver", "point"]).reset_index()
-    frame = frame[frame["verdict"] != scenes.Verdict.NOT_RUN].reset_index(drop=True)
-    return frame.assign(further=frame["marginal_cost"].fillna(frame["cost"]))
+# ---- Costs at equal error
 
 
 def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
@@ -258,37 +165,40 @@ def cost_at(line: pd.DataFrame, wanted: float, cost: str = "further") -> float:
     if known.empty:
         return math.nan
     errors = np.maximum(known["event_error"].to_numpy(), FLOOR)
-    costs = known[cost].to_numpy()
     cheaper = np.concatenate([[np.inf], errors[:-1]])
     best = errors < np.minimum.accumulate(cheaper)
     errors = errors[best]
-    costs = costs[best]
-
+    costs = known[cost].to_numpy()[best]
     wanted = max(wanted, FLOOR)
     if not errors[-1] <= wanted:
         return math.nan
-    accuracy = -np.log(errors)
-    return float(np.exp(np.interp(-math.log(wanted), accuracy, np.log(costs))))
+    return float(np.exp(np.interp(-math.log(wanted), -np.log(errors), np.log(costs))))
 
 
-def table(dataset: xr.Dataset) -> pd.DataFrame:
-    """Return one row for each measured point.
+def costs_of_methods(points: pd.DataFrame) -> pd.DataFrame:
+    """Return costs by method, cheapest first, nan where a method reaches no such accuracy.
 
-    The column ``times_series`` is its cost over that of the series engine at this error, by
-    `cost_at`.
+    Of the scenes `scenes.JUDGED` these are multiples of the series engine's cost of a further second
+    at its default, where events are correct to `DEFAULT` s, or to its own error if that is larger.
+    Of ``rigid`` it is the time of a simulated second at an error of `scenes.CONVERGED`, ms.
     """
-    points = measured_points(dataset)
-    series = points[points["solver"] == "series"]
-    settings = []
-    verdicts = []
-    of_series = []
-    for point in points.to_dict("records"):
-        settings.append(f"{METHODS[point['solver']].setting}={point['value']:.3g}")
-        verdicts.append(scenes.Verdict(point["verdict"]).name.lower())
-        line = series[series["scene"] == point["scene"]]
-        of_series.append(cost_at(line, point["event_error"], "cost"))
-    derived = points.assign(
-        setting=settings, verdict=verdicts, times_series=points["cost"] / of_series
-    )
-    counts = dict.fromkeys(("events", "separations", "repeats"), int)
-    return derived.astype(counts)[[*COLUMNS.values()]].set_axis([*COLUMNS], axis=1)
+    columns = {}
+    for scene in scenes.JUDGED:
+        part = points[points["scene"] == scene]
+        own = at_default(part).iloc[0]
+        wanted = max(DEFAULT, own["event_error"])
+        costs = {name: cost_at(line, wanted) for name, line in part.groupby("method")}
+        costs["series"] = own["further"]
+        columns[scene] = pd.Series(costs) / own["further"]
+    on_rigid_disc = {
+        name: 1e3 * cost_at(line, scenes.CONVERGED, "cost")
+        for name, line in points[points["scene"] == "rigid"].groupby("method")
+    }
+    table = pd.DataFrame({**columns, "rigid": pd.Series(on_rigid_disc, dtype=float)})
+    order = table[[*columns]].min(axis=1).fillna(math.inf)
+    return table.loc[order.sort_values(kind="stable").index].dropna(how="all")
+
+
+def at_default(points: pd.DataFrame) -> pd.DataFrame:
+    """Return the points of the series engine at its default tolerance."""
+    return points[(points["method"] == "series") & (points["setting"] == DEFAULT)]

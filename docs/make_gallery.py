@@ -13,8 +13,14 @@ RESULTS = Path("results")
 DOCS = Path("docs")
 GALLERY = DOCS / "gallery"
 
-SHOWN = {"composite": "paper", "branches": "branches", "map_N": "map_N", "range_law": "range_law"}
-"""Figures with their studies; `write_benchmark_pages` adds one of the benchmark."""
+SHOWN = {
+    "composite": "paper",
+    "branches": "branches",
+    "map_N": "map_N",
+    "range_law": "range_law",
+    "overview": "bench",
+}
+"""Figures with their studies, and one of the benchmark."""
 WIDTH = 900
 """Pixels of a figure as wide as a page; narrower ones are as much smaller."""
 PAGE = 2055

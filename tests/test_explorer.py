@@ -16,7 +16,7 @@ from disc_model.explorer import page, study_contents
 from disc_model.figures.looks import LOOKS
 from disc_model.figures.shown import shown
 from disc_model.studies.motions import SAMPLES
-from disc_model.studies.registry import quantity_names
+from disc_model.studies.quantity import HOMES
 from tests import needs
 from tests.studies.conftest import computed
 from tests.studies.test_quantities import grid
@@ -223,7 +223,7 @@ def test_motions_say_what_they_are_and_those_that_failed_are_left_out() -> None:
 
 @pytest.mark.slow
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", quantity_names())
+@pytest.mark.parametrize("name", HOMES)
 def test_every_variable_of_a_quantity_is_on_the_page(name: str) -> None:
     study = computed(**grid(name))
     contents = unpacked(study_contents(name, study, None, STATED))

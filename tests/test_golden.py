@@ -41,8 +41,10 @@ def test_cycles(row: dict[str, Any]) -> None:
 
 @pytest.mark.compiled
 @pytest.mark.parametrize("row", rows(BRANCHES, "branch", {0}))
-def test_special_points(row: dict[str, Any]) -> None:
-    found = special_points_of(row)
+@pytest.mark.parametrize("longest", [0.1, 0.05])
+def test_special_points(row: dict[str, Any], longest: float) -> None:
+    """Each is found at half the step, too: its test function changes sign there."""
+    found = special_points_of(row, longest=longest)
     stored = SPECIAL[SPECIAL["branch"] == row["branch"]].to_dict("records")
     assert [point["kind"] for point in found] == [point["kind"] for point in stored]
     for point, right in zip(found, stored, strict=True):

@@ -11,8 +11,6 @@ import pytest
 import xarray as xr
 
 import disc_model as dm
-from disc_model.data import dataset
-from disc_model.studies.registry import quantity_names
 
 P = dm.Parameters(N=200, Omega=20, n_diameters=1)
 WRONG: dict[str, Any] = {
@@ -55,7 +53,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (
         dm.choose_modes,
         {"case": P, "quantity": "sliding_growth"},
-        {"case": "dict", "tolerance": "None", "highest_frequency": "None", "progress": "True"},
+        {"case": "dict", "tolerance": "None"},
     ),
     (
         dm.simulate,
@@ -173,11 +171,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
     (RUN.to_csv, {}, {"path": "text"}),
     (dm.save, {"data": GRID, "path": "x.nc"}, {}),
     (dm.words, {"data": GRID}, {}),
-    *(
-        (function, {}, {"path": "text"})
-        for function in (RUN.final_state.save, dm.State.load, dm.load, dm.Result.load)
-    ),
-    (dataset.save, {"tree": RUN.to_tree(), "path": "x"}, {"path": "text", "compressed": "True"}),
+    *((function, {}, {"path": "text"}) for function in (dm.load, dm.Result.load)),
 ]
 ARGUMENTS = [
     pytest.param(function, others, name, right.get(name, ""), id=f"{function.__qualname__}-{name}")
@@ -216,13 +210,3 @@ def test_results_are_equal_if_their_numbers_are(compute: Callable[[dm.Parameters
     assert hash(first) == hash(compute(case))
     assert first != compute(case.replace(E=1.01 * case.E))
     assert first != 3
-
-
-def test_quantities_that_are_no_functions_lead_to_studies() -> None:
-    """A notebook had no `bifurcation` or `campbell`, and did not say where these are."""
-    assert {*dm._OF_STUDIES} == {*quantity_names()} - {*dm.__all__}
-    for name in dm._OF_STUDIES:
-        with pytest.raises(AttributeError, match=f"run_study.*{name}"):
-            getattr(dm, name)
-    for name in ("bifurcation", "campbell", "run_study"):
-        assert name in str(dm.__doc__)

@@ -45,7 +45,7 @@ class Method(BaseModel):
     label: str
     function: str
     arguments: tuple[str, ...] = ()
-    setting: Literal["tol", "step", "epsilon"] = "tol"
+    setting: Literal["tol", "step"] = "tol"
     settings: dict[Scene, tuple[float, ...]]
     map_values: tuple[float, ...] = DECADES
     map_budget: float = 1.0

@@ -6,7 +6,6 @@ separation only. All is in one file because of numba's cache, which sees no othe
 """
 
 # mypy: disable-error-code="no-untyped-def"
-import math
 from typing import Any, NamedTuple
 
 import numba
@@ -309,44 +308,6 @@ def jacobian(modes, c, phase, direction, y, J):
         z[j] = y[j]
         for i in range(len(y)):
             J[i, j] = dz[i].imag * 1e30
-
-
-# ---- The regularised model
-
-STRIBECK = 30.0
-"""f/eps at which static friction has fallen to kinetic."""
-
-
-@_kernel
-def smooth_friction(c, law, f):
-    """Return the coefficient of friction with the sign of f.
-
-    ``law`` is (eps, dmu, K, C), with dmu for a maximum of mu_s.
-    """
-    x = f / law[0]
-    exponent = min((x / STRIBECK) ** 2, 700.0)
-    return math.tanh(x) * (c[_MUK] + law[1] * math.exp(-exponent))
-
-
-@_kernel
-def smooth_force(modes, c, law, y):
-    """Return the penalty force; there is contact where it is positive."""
-    n = modes.shape[1]
-    w, velocity = disc_point(modes, y)
-    return law[2] * (w - y[4 * n + 2]) + law[3] * (velocity - y[4 * n + 3])
-
-
-@_kernel
-def smooth_rate(modes, c, law, y, dy):
-    """Fill ``dy`` with dy/dt: the equations of separation, and a force where it is positive."""
-    n = modes.shape[1]
-    rate(modes, c, SEPARATION, 0, y, dy)
-    P = smooth_force(modes, c, law, y)
-    if P > 0.0:
-        for i in range(n):
-            dy[2 * n + i] -= modes[_PSI, i] * P
-        dy[4 * n + 3] += P / c[_M]
-        dy[4 * n + 1] -= smooth_friction(c, law, y[4 * n + 1]) * P / (c[_M] * c[_R0])
 
 
 # ---- Events

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import math
 import time as clock
-from dataclasses import replace
 
 import numpy as np
 
 from benchmarks.methods import kernels
 from benchmarks.methods.integrators import Meter, MethodResult, Problem, RunStatus
-from benchmarks.methods.kernels import Physics
 from disc_model.data.variables import EVENT_KINDS, PHASES
 from disc_model.errors import Status
 from disc_model.simulation.api import Execution, simulate
@@ -81,36 +79,6 @@ def solve_by_series(problem: Problem, value: float, budget: float) -> MethodResu
         message=result.message,
         heights=heights,
     )
-
-
-def solve_with_fewest(problem: Problem, value: float, budget: float) -> MethodResult:
-    """Integrate with the engine, without modes of the disc if they change the answer too little.
-
-    They change it by about k sum psi^2/omega^2, the disc's deflection over that of the slider's
-    spring, which is compared with the tolerance.
-
-    Parameters
-    ----------
-    problem : what is integrated
-    value : tolerance
-    budget : seconds
-    """
-    p = problem.parameters
-    start = problem.start
-    physics = Physics(p)
-    change = p.k * float(np.sum(physics.shape**2 / physics.stiffness))
-    if change > value or start.phase == "separation":
-        return solve_by_series(problem, value, budget)
-
-    none = np.empty(0)
-    rigid_start = start.replace(u=0.0, u_velocity=0.0, a=none, b=none, alpha=none, beta=none)
-    rigid = replace(problem, parameters=p.replace(n_diameters=-1), start=rigid_start)
-    result = solve_by_series(rigid, value, budget)
-    end = result.final
-    final = start.replace(
-        time=end.time, phase=end.phase, direction=end.direction, psi=end.psi, f=end.f
-    )
-    return replace(result, final=final)
 
 
 # ---- The paper's fixed-step Runge-Kutta

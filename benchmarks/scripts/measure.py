@@ -1,16 +1,13 @@
-"""Measure a part of the benchmark: module and function of its study, such as scaling.scaling, and
-their arguments."""
+"""Measure a part of the benchmark, and write it as CSV: a study of `STUDIES` and its arguments."""
 
-from importlib import import_module
-
-import xarray as xr
-
-from disc_model.data.dataset import save
+from benchmarks.answers import answers
+from benchmarks.failure_maps import failure_map
+from benchmarks.work_precision import work_precision
 from disc_model.errors import script
+
+STUDIES = {"work_precision": work_precision, "answers": answers, "failure_maps": failure_map}
 
 
 @script
-def main(study: str, output: str, *of: str) -> None:
-    module, _, name = study.partition(".")
-    measure = getattr(import_module(f"benchmarks.{module}"), name)
-    save(xr.DataTree(measure(*of)), output)
+def main(output: str, study: str, *of: str) -> None:
+    STUDIES[study](*of).to_csv(output, index=False)

@@ -1,22 +1,18 @@
-"""Write the tables of docs/measurements.md and draw its picture: `make measurements`."""
+"""Write the tables of docs/measurements.md: `make measurements`."""
 
 import re
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
 import numpy as np
-from docs.measurements import load, robustness, stick_slip, wheel
+from docs.measurements import load, stick_slip, wheel
 from docs.measurements.comparison import Comparison
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
+from docs.measurements.signals import LEAST_FALLS
 
 from disc_model.errors import script
-from disc_model.figures.draw import styled
-from disc_model.figures.looks import BLACK, RED
 
 DOCS = Path(__file__).parents[1]
 PAGE = DOCS / "measurements.md"
-PICTURE = DOCS.parent / "results" / "measured_slips.png"
 
 
 def table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -73,33 +69,18 @@ def slips() -> str:
 
 
 def thresholds() -> str:
-    """Return A1 and A2 with verdicts by intervals: a row for each run, and in each cell a ratio for
-    each least fall."""
-    columns = robustness.ratios()
-    rows: dict[str, dict[str, str]] = {}
-    for ratios in zip(*columns.values(), strict=True):
-        quantity, run = ratios[0].what.split(", ", 1)
-        cells = []
-        for each in ratios:
-            mark = {"yes": "", "no": " ✗", "undecided": " ?"}[each.verdict]
-            cells.append(f"{each.value:.2f}{mark}")
-        rows.setdefault(run, {})[quantity] = ", ".join(cells)
-    quantities = ("duration", "period", "fall")
-    lines = []
-    for run, cell_of in rows.items():
-        lines.append([run, *(cell_of.get(quantity, "fitted") for quantity in quantities)])
-    return table(("run", *quantities), lines)
-
-
-def spread() -> str:
-    """Return A3, and the ratios of the calibrating run's own spread."""
+    """Return A1 and A2: a row for each run, and in each cell a ratio for each least fall."""
+    cells: dict[str, dict[str, list[str]]] = {}
+    for least_fall in LEAST_FALLS:
+        for quantity, found in stick_slip.medians(least_fall).items():
+            for each in found:
+                of_run = cells.setdefault(each.what, {})
+                of_run.setdefault(quantity, []).append(crossed(f"{each.ratio:.2f}", each.agrees))
     rows = []
-    for each, carried in zip(stick_slip.spreads(), stick_slip.carried_spreads(), strict=True):
-        ratios = []
-        for comparison in (each, carried):
-            ratios.append(crossed(f"{comparison.ratio:.2f}", comparison.agrees))
-        rows.append([each.what, digits(each.measured), digits(each.predicted), *ratios])
-    return table(("run", "measured", "predicted", "ratio", "ratio, carried over"), rows)
+    for run, of_run in cells.items():
+        ratios = [", ".join(of_run.get(name, ["fitted"])) for name in stick_slip.QUANTITIES]
+        rows.append([run, *ratios])
+    return table(("run", *stick_slip.QUANTITIES), rows)
 
 
 def shapes() -> str:
@@ -158,7 +139,6 @@ def loads() -> str:
 SECTIONS: dict[str, Callable[[], str]] = {
     "slips": slips,
     "thresholds": thresholds,
-    "spread": spread,
     "shapes": shapes,
     "frequencies": frequencies,
     "damping": damping,
@@ -172,62 +152,11 @@ def marked(name: str) -> re.Pattern[str]:
     return re.compile(rf"(?<=<!-- measured {name} -->\n\n).*?(?=\n\n<!-- end -->)", re.S)
 
 
-# ---- Picture
-
-
-def draw_slips() -> Figure:
-    """Draw measured and predicted medians of the runs, with quartiles of the measured slips."""
-    mu_s, mu_k = stick_slip.friction()
-    measured = {"color": BLACK, "marker": "o", "ms": 3.5, "linewidth": 0.8}
-    computed = {"color": RED, "marker": "D", "ms": 4, "mfc": "none", "linestyle": "none"}
-    with styled():
-        figure = Figure(figsize=(6.9, 3.1), layout="constrained")
-        axes = figure.subplots(1, 3)
-        above = {"textcoords": "offset points", "ha": "center", "fontsize": 6, "color": RED}
-        labels = ("Duration of a slip (ms)", "Period (ms)", "Fall of the force over the weight")
-        ticks = ((5, 10, 20, 30), (20, 50, 100, 500, 2000), (0.03, 0.05, 0.1, 0.2))
-        for place, run in enumerate(stick_slip.runs()):
-            seen, model = stick_slip.measured(run), stick_slip.predicted(run, mu_s, mu_k)
-            values = (
-                1e3 * seen["duration_s"],
-                1e3 * np.diff(seen["start_s"]),
-                seen["before"] - seen["after"],
-            )
-            expected = (
-                1e3 * stick_slip.duration(model),
-                1e3 * stick_slip.period(model),
-                stick_slip.fall(model),
-            )
-            if run == stick_slip.CALIBRATION:
-                expected = (expected[0], np.nan, np.nan)  # friction is fitted to these slips
-            for axis, value, number in zip(axes, values, expected, strict=True):
-                low, middle, high = np.percentile(value, [25, 50, 75])
-                axis.plot([place] * 3, [low, middle, high], markevery=[1], **measured)
-                axis.plot(place, number, **computed)
-                if np.isnan(number):
-                    axis.annotate("fitted", (place, high), (0, 3), **above)
-        names = [f"{stiffness}, {speed}" for stiffness, speed in stick_slip.runs()]
-        for axis, label, marks in zip(axes, labels, ticks, strict=True):
-            axis.set(ylabel=label, yscale="log", xticks=range(len(names)))
-            axis.set_yticks(marks, [f"{mark:g}" for mark in marks])
-            axis.minorticks_off()
-            axis.margins(x=0.07)
-            axis.set_xticklabels(names, fontsize=6, rotation=90)  # of up to ten characters each
-            axis.set_xlabel("Stiffness (N/m), speed (µm/s)")
-        named = [
-            Line2D([], [], label="measured: median and quartiles", **measured),
-            Line2D([], [], label="predicted", **computed),
-        ]
-        figure.legend(handles=named, loc="outside lower right", ncols=2)
-    return figure
-
-
 @script
 def main() -> None:
-    """Write the tables and draw the picture."""
+    """Write the tables."""
     text = PAGE.read_text(encoding="utf-8")
     for name, build in SECTIONS.items():
         content = build()
         text = marked(name).sub(lambda _, content=content: content, text)
     PAGE.write_text(text, encoding="utf-8")
-    draw_slips().savefig(PICTURE, dpi=130)

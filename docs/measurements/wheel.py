@@ -3,7 +3,6 @@
 import math
 from typing import NamedTuple
 
-import numpy as np
 import pandas as pd
 from docs.measurements.comparison import Comparison, read, within
 
@@ -19,8 +18,6 @@ BRONZE = {2: 299.125, 3: 712.0, 4: 1320.0}
 """Natural frequencies of the bronze disc, Hz, by nodal diameters. They are copied by hand from
 EXPERIMENT_HZ in src/eigenfrequencies/validation/testcase/laval.py of
 github.com/RentschlerTobias/eigenfrequencies at 595baeb39f2f316c6ddeaa100ec00704d39e7a4a."""
-BRONZE_ONE = 192.8
-"""Frequency of a mode of the bronze disc with one nodal diameter, Hz, from the same place."""
 PLATES = {
     "wheel": {"E": 210e9, "nu": 0.3, "rho": 7850.0, "b": 0.3, "a": 0.003, "r_0": 0.25},
     "bronze disc": {"E": 75.854e9, "nu": 0.34, "rho": 8910.0, "b": 0.1, "a": 0.001, "r_0": 0.09},
@@ -29,10 +26,6 @@ PLATES = {
 more nodal diameters by less than a millionth. The ratios of frequencies depend on nu alone, which is
 stated for the bronze disc and assumed for the wheel; E, rho and b of the wheel, which are not known,
 and its thickness only set their scale."""
-STUDENTS = {2: 0.00751, 3: 0.00554, 4: 0.01756, 5: 0.00371}
-"""Damping ratios of the wheel by nodal diameters that a report of students found from the same test:
-Table 3 of Assignment_1/Report_1_Advanced_Dynamics.pdf in github.com/NicolaVisentin/Advanced_Dynamics
-at 62eeff1. They are not used in D."""
 POISSON = (0.25, 0.35)
 """Other Poisson's ratios for which the wheel is computed, which was not planned."""
 
@@ -45,16 +38,12 @@ class Shape(NamedTuple):
     mode : numbers of nodal diameters in words
     real : of the real parts of the amplitudes read at the peak
     complex : of the complex amplitudes read there
-    alone : of the complex residues of one fitted mode, which were not planned
-    fitted : of the complex sums of residues of two fitted modes, which were not planned
     other : least error of the real parts with another number of diameters
     """
 
     mode: str
     real: float
     complex: float
-    alone: float
-    fitted: float
     other: float
 
 
@@ -70,48 +59,18 @@ def peaks(amplitudes: str) -> pd.DataFrame:
     return table[planned & (table["amplitudes"] == amplitudes)].set_index("diameters")
 
 
-def omitted(amplitudes: str = "read") -> pd.DataFrame:
-    """Return what was found of the peaks that the plan left out.
-
-    Parameters
-    ----------
-    amplitudes : "read" at the peak, or "1 fitted"
-    """
-    table = read("wheel.csv")
-    return table[~table["peak"].str.isdigit() & (table["amplitudes"] == amplitudes)]
-
-
 def shapes() -> list[Shape]:
     """Return B: root mean square differences of measured shapes on the rim from the model's."""
-    alone = peaks("1 fitted")["error_complex"]
-    fitted = peaks("2 fitted").groupby(level=0)["error_complex"].first()
     found = []
     for diameters, row in peaks("read").iterrows():
         errors = Shape(
             mode=f"{diameters} nodal diameters",
             real=row["error_real"],
             complex=row["error_complex"],
-            alone=alone[diameters],
-            fitted=fitted[diameters],
             other=row["error_other"],
         )
         found.append(errors)
     return found
-
-
-def shape(diameters: int, angles: np.ndarray) -> np.ndarray:
-    """Return the model's deflection at angles from the hammer, 1 under it."""
-    disc = dm.Disc(
-        diameters=[diameters],
-        omega=[1000.0],
-        amplitude=[1.0],
-        radii=[0.1, 0.2],
-        shapes=[[1.0, 1.0]],
-    )
-    p = dm.Parameters(N=1, Omega=0, disc=disc, r_0=0.1)
-    start = dm.simulate(p, 1e-6).final_state
-    values = dm.deflection(p, start, 0.1, angles).to_numpy().ravel()
-    return np.asarray(values / values[0])
 
 
 def bodies() -> dict[str, dict[int, float]]:
@@ -138,12 +97,6 @@ def frequencies(nu: float = PLATES["wheel"]["nu"]) -> list[Comparison]:
             what = f"{body}, {diameters} nodal diameters"
             found.append(Comparison(what, value, expected, "Hz", agrees))
     return found
-
-
-def thickness(body: str) -> float:
-    """Return the thickness (mm) of the uniform plate that stands for a body in C."""
-    measured = bodies()[body]
-    return 1e3 * plate(body, measured[2], 2, PLATES[body]["nu"]).h
 
 
 def squares() -> list[float]:
@@ -180,16 +133,9 @@ def fitted(
     return start.replace(**result.params.valuesdict())
 
 
-def damping(ratios: dict[int, float] | None = None) -> list[Comparison]:
-    """Return D: damping ratios of the wheel by each of the two laws, set by the lowest mode.
-
-    Parameters
-    ----------
-    ratios : damping ratios by nodal diameters, for others than those found here
-    """
+def damping() -> list[Comparison]:
+    """Return D: damping ratios of the wheel by each of the two laws, set by the lowest mode."""
     table = peaks("read")[["frequency_Hz", "damping_ratio"]]
-    if ratios is not None:
-        table["damping_ratio"] = pd.Series(ratios)
     lowest = table.loc[2]
     start = plate("wheel", lowest["frequency_Hz"], 5, PLATES["wheel"]["nu"]).replace(D_star=1.0)
     damped = fitted(start, "D_star", "damping_ratio_2_0", lowest["damping_ratio"], 1e-5)

@@ -20,7 +20,7 @@ __version__ = "0.3.0"
 
 _NAMES = {
     "data.coded": "words",
-    "data.exchange": "load save",
+    "data.dataset": "load save",
     "analysis.contact_loss": "pinned_range",
     "disc.flexibility": "residual_flexibility",
     "disc.modes": "plate_modes coupled_natural_frequencies",
@@ -52,9 +52,8 @@ _NAMES = {
     "studies.quantities.sliding": "sliding_modes",
     "studies.run": "run_study",
     "studies.sweep": "sweep",
-    "stability.continuation": "Branch StepControl continue_cycle",
+    "stability.continuation": "Branch StepControl continue_cycle neutral_curves",
     "stability.critical": "critical",
-    "stability.curves": "neutral_curves",
     "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
@@ -66,7 +65,7 @@ __all__ = [*_HOMES, "__version__"]
 if TYPE_CHECKING:
     from disc_model.analysis.contact_loss import pinned_range
     from disc_model.data.coded import words
-    from disc_model.data.exchange import load, save
+    from disc_model.data.dataset import load, save
     from disc_model.disc.flexibility import residual_flexibility
     from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
     from disc_model.errors import (
@@ -90,9 +89,13 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.starts import initial_state
     from disc_model.simulation.states import State, deflection
-    from disc_model.stability.continuation import Branch, StepControl, continue_cycle
+    from disc_model.stability.continuation import (
+        Branch,
+        StepControl,
+        continue_cycle,
+        neutral_curves,
+    )
     from disc_model.stability.critical import critical
-    from disc_model.stability.curves import neutral_curves
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding

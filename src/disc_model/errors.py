@@ -127,7 +127,7 @@ def as_text(value: Any) -> str:
     """The text of a value in messages: shortened, in one line, and a float without noise of
     rounding."""
     if isinstance(value, float):
-        return f"{value:.15g}"
+        return repr(float(f"{value:.15g}")).removesuffix(".0")
     text = " ".join(_SHORT.repr(value).split("\n"))
     if len(text) > LONGEST_VALUE:
         return text[: LONGEST_VALUE - 3] + "..."

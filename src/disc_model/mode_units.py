@@ -18,48 +18,18 @@ OF_COLUMNS = {"omega": "rad/s", "amplitude": "kg^-1/2", "tangential": "kg^-1/2"}
 
 _OF_A_MODE = re.compile(r"(.*)_\d+_\d+")
 _WITH_UNIT = re.compile(rf"\s*({NUMBER})\s*(\S.*)?")
-_ROOT = re.compile(r"(?:1/|/|m/)sqrt\(?([A-Za-z]+)\)?|([A-Za-z]+)\^\(?-(?:1/2|0?\.5)\)?")
-
-
-# ---- Factors of units
+_PER_ROOT_MASS = {"kg^-1/2": 1.0, "kg^-0.5": 1.0, "kg**-0.5": 1.0, "1/sqrt(kg)": 1.0, "1/√kg": 1.0}
 
 
 def _factor_to_si(quantity: str, unit: str) -> float:
-    """Factor from a unit to the SI unit of a quantity of modes; nan for a unit of another kind."""
+    """Factor from a unit to the SI unit of a quantity of modes; 0 for a unit of another kind."""
+    if quantity == "omega" and "hz" in unit.lower():
+        return size_of_unit(unit, "Hz") * math.tau
     if quantity == "omega":
-        return _rate(unit)
+        return size_of_unit(unit, "rad/s")
     if quantity in ("amplitude", "tangential"):
-        return _per_root_mass(unit)
-    return _share(unit)
-
-
-def _rate(unit: str) -> float:
-    """Factor to rad/s; nan for other units."""
-    if "hz" in unit.lower():
-        return _converted(unit, "Hz") * math.tau
-    return _converted(unit, "rad/s")
-
-
-def _per_root_mass(unit: str) -> float:
-    """Factor to kg^-1/2 from texts such as kg^-0.5, 1/sqrt(kg) and t^-1/2; nan for other units."""
-    text = unit.replace(" ", "").replace("**", "^").replace("√", "sqrt")
-    match = _ROOT.fullmatch(text)
-    if match is None:
-        return math.nan
-    mass = match[1] or match[2]
-    if mass == "kg":
-        return 1.0
-    return _converted(mass, "kg") ** -0.5
-
-
-def _share(unit: str) -> float:
-    """Factor to a ratio; nan for other units."""
-    return {"1": 1.0, "%": 0.01}.get(unit, math.nan)
-
-
-def _converted(unit: str, target: str) -> float:
-    """One of a unit in another one; nan if it is not of its kind."""
-    return size_of_unit(unit, target) or math.nan
+        return _PER_ROOT_MASS.get(unit.replace(" ", ""), 0.0)
+    return {"1": 1.0, "%": 0.01}.get(unit, 0.0)
 
 
 # ---- Numbers
@@ -86,7 +56,7 @@ def mode_number(quantity: str, value: Any) -> Any:
         return float(match[1])
     unit = match[2].strip()
     factor = _factor_to_si(quantity, unit)
-    if math.isnan(factor):
+    if not factor:
         units = UNITS.get(quantity, "none or %")
         raise ValueError(f"the unit of {quantity} must be {units}, not {unit}")
     return float(f"{float(match[1]) * factor:.15g}")
@@ -108,11 +78,9 @@ def mode_numbers(values: dict[str, Any]) -> dict[str, float]:
     faults: list[Fault] = []
     found = {}
     for name, value in values.items():
-        read = mode_number_in_si(name, value, faults)
         try:
-            found[name] = number(read)
+            found[name] = number(mode_number(column_of(name), value))
         except ValueError as error:
-            if not faults or faults[-1].path != (name,):
-                faults.append(Fault.of((name,), value, str(error)))
+            faults.append(Fault.of((name,), value, str(error)))
     raise_faults(faults)
     return found

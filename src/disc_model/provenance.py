@@ -73,6 +73,11 @@ def hash_of(parts: Iterable[str | Path]) -> str:
     return digest.hexdigest()[:16]
 
 
+def code_hash(path: Path) -> str:
+    """The hash of the bytes of a file."""
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
 def cache_folder() -> Path:
     """The folder of what is made once on a machine, kernels too: numba's if it has one, or the
     user's for caches."""

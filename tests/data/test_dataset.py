@@ -1,189 +1,272 @@
-"""Results as datasets and files: names, units, flags, round trips, equal bytes; whole, or
-noticed."""
+"""Datasets and results in files: what comes back, what other programs find, and what is refused."""
 
-import json
 import os
 import resource
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 
-from disc_model import Disc, Parameters, Poincare, Window
-from disc_model.data.dataset import UnreadableFile, WriteError, load, load_cases, load_result, save
-from disc_model.data.variables import STATUSES, flag_names
+import disc_model as dm
+from disc_model.data.dataset import (
+    MissingFile,
+    UnreadableFile,
+    WriteError,
+    load_cases,
+    load_result,
+    load_tree,
+)
+from disc_model.data.variables import STATUSES
+from disc_model.errors import ParameterError
 from disc_model.simulation.case import CaseSpec
 from disc_model.simulation.named_case import run_case
-from disc_model.studies.merge import merge_cases
+from tests.refusals import refusal
 
-P = Parameters(N=385, Omega=15.1)
-T_END = 0.5
+P = dm.Parameters(N=200, Omega=50, n_diameters=1)
+RUN = dm.simulate(P, 0.02, {"all": dm.Window(rate=2000)})
+DISC = dm.Disc(diameters=[2], omega=[900], amplitude=[1])
+FLAGS = {"flag_values": np.arange(2, dtype=np.int8), "flag_meanings": "stick slip"}
+PLANE = ("N", "Omega")
+ALL_KINDS = xr.Dataset(
+    {
+        "growth": (PLANE, [[1.5, np.nan, -np.inf], [0.0, 1e-300, 3.0]], {"units": "s-1"}),
+        "status": (PLANE, [["ok", "", "two words "], ["Ωµ", "line\nline", "|"]]),
+        "stable": ("N", [True, False]),
+        "count": ("Omega", [1, 2, 2**53 + 1]),
+        "phase": ("Omega", np.array([0, 1, 0], np.int8), FLAGS),
+        "short": ("Omega", np.array([0.1, 0.2, 0.3], np.float32)),
+        "one": ((), 2.5, {"units": "m", "scale": 3, "weights": np.array([0.5, 0.25])}),
+        "word": ((), "stick_slip"),
+        "nothing": ((), ""),
+        "none": ("empty", np.zeros(0)),
+    },
+    {"N": [100.0, 200.0], "Omega": ("Omega", [1.0, 2.0, 3.0], {"units": "rad s-1"})},
+    {"function": "floquet", "number": 2.0},
+)
 
 
-def spec_of(p: Parameters = P, events: tuple[float, float] | None = (0.1, T_END)) -> CaseSpec:
-    windows = (
-        ("history", Window(start=0, stop=0.4995, rate=1000, envelope=50)),
-        ("zoom", Window(start=0.1, stop=0.2, rate=2000, theta=0.5)),
-    )
-    return CaseSpec(
-        parameters=p, t_end=T_END, windows=windows, poincare=Poincare(theta=2.0), events=events
-    )
+def sweep() -> xr.Dataset:
+    """Multipliers, which are complex, and a point without any."""
+    return dm.sweep(dm.floquet, P, zip={"N": [150, 200], "mu_k": [0.2, 0.41]})
 
 
-@pytest.fixture(scope="module")
-def tree() -> xr.DataTree:
-    return run_case(spec_of())
+# ---- What comes back
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: ALL_KINDS, sweep, RUN.to_tree], ids=["all", "sweep", "run"]
+)
+def test_data_come_back_as_they_were(make: Any, tmp_path: Path) -> None:
+    data = make()
+    longest = tmp_path / f"{'x' * 252}.nc"
+    dm.save(data, longest)
+    found = dm.load(longest)
+    xr.testing.assert_identical(found, data)
+    kinds = {name: x.dtype.kind for name, x in data.variables.items()}
+    assert {name: x.dtype.kind for name, x in found.variables.items()} == kinds
+    dm.save(data, tmp_path / "b.nc")
+    assert longest.read_bytes() == (tmp_path / "b.nc").read_bytes()
+
+
+@pytest.mark.parametrize(("name", "read"), [("x.nc", dm.load), ("x.csv", pd.read_csv)])
+def test_discs_are_text(name: str, read: Any, tmp_path: Path) -> None:
+    case = dm.Parameters(N=100, Omega=20)
+    swept = dm.sweep(dm.steady_sliding, case, disc=[None, DISC])
+    dm.save(swept[["growth_rate"]], tmp_path / name)
+    plate, other = np.asarray(read(tmp_path / name)["disc"])
+    assert plate == "plate"
+    assert dm.Disc.model_validate_json(other) == DISC
+
+
+def test_complex_numbers_are_two_variables() -> None:
+    """The imaginary part was 0 where there was no cycle."""
+    data = sweep()
+    expected = dm.floquet(P.replace(N=150, mu_k=0.2)).multipliers
+    np.testing.assert_array_equal(data["multipliers_real"][0], expected.real)
+    np.testing.assert_array_equal(data["multipliers_imag"][0], expected.imag)
+    assert data["multipliers_imag"][1].isnull().all()
+    assert data["multipliers_imag"].attrs["long_name"] == "multiplier of the cycle"
+
+
+def test_a_branch_of_a_sweep_is_that_of_a_direct_call(tmp_path: Path) -> None:
+    """It was refused: padded with nan, its attributes those of the sweep, its counts real numbers."""
+    case = dm.Parameters(N=385, Omega=15)
+    options: Any = {"name": "Omega", "bounds": (14.8, 15.2)}
+    dm.save(dm.sweep(dm.continue_cycle, case, N=[300, 385, -1], **options), tmp_path / "x.nc")
+    swept: Any = dm.load(tmp_path / "x.nc")
+    for N in (300, 385):
+        again = dm.Branch.from_dataset(swept.sel(N=N))
+        branch = dm.continue_cycle(case.replace(N=N), **options)
+        xr.testing.assert_identical(again.to_dataset(), branch.to_dataset())
+    with refusal("must be one branch of the sweep: select it"):
+        dm.Branch.from_dataset(swept)
+    with refusal("must be a branch, but this point of the sweep failed: ParameterError: N=-1"):
+        dm.Branch.from_dataset(swept.sel(N=-1))
+
+
+EVENTS = RUN.to_tree()["events"].to_dataset()
+
+
+@pytest.mark.parametrize(
+    ("data", "heads", "first"),
+    [
+        (ALL_KINDS[["growth", "phase"]], ["N", "Omega (rad s-1)", "growth (s-1)", "phase"], "stick"),
+        (EVENTS[["P", "kind"]], ["event", "P (N)", "kind", "time (s)"], RUN.events["kind"][0]),
+        (xr.Dataset({"status": "ok"}), ["status"], "ok"),
+        (ALL_KINDS["growth"], ["N", "Omega (rad s-1)", "growth (s-1)"], 1.5),
+    ],
+)  # fmt: skip
+def test_a_table_has_units_in_its_heads_and_words(
+    data: Any, heads: list[str], first: object, tmp_path: Path
+) -> None:
+    dm.save(data, tmp_path / "x.csv")
+    table = pd.read_csv(tmp_path / "x.csv")
+    assert table.columns.tolist() == heads
+    assert first in table.iloc[0].tolist()
+
+
+PHASE = ALL_KINDS["phase"]
+
+
+@pytest.mark.parametrize(
+    ("data", "expected"),
+    [
+        (PHASE, ["stick", "slip", "stick"]),
+        (PHASE.where(ALL_KINDS["Omega"] > 1), ["", "slip", "stick"]),
+        (dm.words(ALL_KINDS)["phase"], ["stick", "slip", "stick"]),
+        (xr.DataArray(np.array(["yes", None], object), attrs=FLAGS), ["yes", ""]),
+        (dm.words(RUN.to_tree())["events/kind"], RUN.events["kind"].tolist()),
+    ],
+)
+def test_words_stand_for_numbers(data: xr.DataArray, expected: list[str]) -> None:
+    found = dm.words(data)
+    assert found.values.tolist() == expected
+    assert not {"units", "flag_values", "flag_meanings"} & found.attrs.keys()
+
+
+# ---- What is refused
+
+BY_CASE = xr.Dataset(coords={"case": ("case", [P])})
+PAIRS = pd.MultiIndex.from_product([["a", "b"], [1, 2]], names=["word", "number"])
+LEVELS = xr.Dataset({"x": ("i", range(4))}, xr.Coordinates.from_pandas_multiindex(PAIRS, "i"))
+ONE = xr.Dataset({"x": ("i", [1])})
+
+
+@pytest.mark.parametrize(
+    ("data", "name", "error", "message"),
+    [
+        (BY_CASE, "x.nc", ParameterError, "must hold numbers and words"),
+        (LEVELS, "x.nc", ParameterError, "must hold numbers and words"),
+        (xr.Dataset({"x": 1j}), "x.nc", ParameterError, "must hold numbers and words"),
+        (ONE.assign_attrs(a=None), "x.nc", ParameterError, "attributes that are text or numbers"),
+        (ONE.assign_attrs(a={}), "x.nc", ParameterError, "attributes that are text or numbers"),
+        (ONE.assign_attrs(a=True), "x.nc", ParameterError, "attributes that are text or numbers"),
+        (ONE["x"].rename(None), "x.nc", ParameterError, "^data: .*unnamed"),
+        (ALL_KINDS["N"], "x.nc", ParameterError, "^data: .*same name as one of its coordinates"),
+        (ALL_KINDS, "x.txt", ParameterError, "^path=.*: must end in .nc or .csv"),
+        (RUN, "x.csv", ParameterError, "^path=.*: must end in .nc"),
+        (RUN.to_tree(), "x.csv", ParameterError, "must be one group to be a table"),
+        ([1, 2], "x.nc", ParameterError, "^data=.*must be an xarray.Dataset or xarray.DataTree"),
+        (ALL_KINDS, ".", ParameterError, "^path=.*: must be the name of a file"),
+        (ALL_KINDS, "no/x.nc", WriteError, r"no/x\.nc: must be in a folder that exists"),
+        (ALL_KINDS, "x" * 253 + ".nc", WriteError, "cannot be written: .*too long"),
+        (RUN, "a\0b.nc", WriteError, "cannot be written: "),
+    ],
+)
+def test_what_cannot_be_written_is_one_clear_error(
+    data: Any, name: str, error: type[Exception], message: str, tmp_path: Path
+) -> None:
+    with pytest.raises(error, match=message):
+        dm.save(data, tmp_path / name)
+    assert not [*tmp_path.iterdir()]
+
+
+def test_a_file_that_cannot_be_written_stays_as_it_was(tmp_path: Path) -> None:
+    path = tmp_path / "case.nc"
+    dm.save(ALL_KINDS, path)
+    before = path.read_bytes()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    larger = xr.Dataset({"x": ("t", np.random.default_rng(1).random(50_000))})
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100_000, limits[1]))
+    try:
+        with pytest.raises(WriteError, match=r"^[^\n]*case\.nc: cannot be written: [^\n]*$"):
+            dm.save(larger, path)
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
+    assert path.read_bytes() == before
+    assert os.listdir(tmp_path) == ["case.nc"]
+
+
+@pytest.mark.parametrize(
+    "read", [dm.load, dm.Result.load, load_result, lambda path: load_cases([path])]
+)
+def test_what_cannot_be_read_is_one_clear_error(read: Any, tmp_path: Path) -> None:
+    path = tmp_path / "a.nc"
+    with pytest.raises(MissingFile, match=r"a\.nc: there is no such file"):
+        read(path)
+    RUN.save(path)
+    whole = path.read_bytes()
+    for left in (0, 1, 100, len(whole) // 2):
+        path.write_bytes(whole[:left])
+        with pytest.raises(UnreadableFile, match=r"a\.nc: cannot be read: [^\n]*(\nDelete it|$)"):
+            read(path)
+    with refusal("^path=.*: must be the name of a file"):
+        read(tmp_path)
+
+
+# ---- Files of named cases
+
+
+CASE = dm.Parameters(N=200, Omega=50)
+
+
+def tree_of(p: dm.Parameters, **spec: Any) -> xr.DataTree:
+    return run_case(CaseSpec(parameters=p, **{"t_end": 0.05, **spec}))
 
 
 @pytest.mark.compiled
-def test_every_variable_has_a_unit_and_a_name(tree: xr.DataTree) -> None:
+def test_equal_cases_give_equal_bytes(tmp_path: Path) -> None:
+    windows = (
+        ("history", dm.Window(start=0, stop=0.04, rate=1000, envelope=10)),
+        ("P", dm.Window(start=0.01, stop=0.02, rate=2000, theta=0.5)),
+    )
+    spec = {"windows": windows, "poincare": dm.Poincare(theta=2.0), "events": (0.01, 0.05)}
+    for file in ("a.nc", "b.nc"):
+        dm.save(tree_of(CASE, **spec), tmp_path / file)
+    assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
+    tree = load_tree(tmp_path / "a.nc")
+    assert {*tree.children} == {"events", "history", "P", "poincare"}
     for node in tree.subtree:
         for name, variable in node.to_dataset(inherit=False).variables.items():
             assert variable.attrs["units"], name
             assert variable.attrs["long_name"], name
+            assert not variable.ndim or variable.encoding["fletcher32"], name
 
 
-@pytest.mark.compiled
-def test_a_file_without_compression_holds_the_same(tree: xr.DataTree, tmp_path: Path) -> None:
-    small = tmp_path / "small.nc"
-    large = tmp_path / "large.nc"
-    save(tree, small)
-    save(tree, large, compressed=False)
-    assert load(large).identical(load(small))
-    for path in (small, large):
-        forces = load(path)["zoom/P"]
-        assert forces.encoding["fletcher32"]
-        assert forces.encoding["zlib"] == (path == small)
+NAN = float("nan")
 
 
-@pytest.mark.compiled
-def test_equal_runs_give_equal_bytes(tmp_path: Path) -> None:
-    for name in ("a.nc", "b.nc"):
-        case = run_case(spec_of())
-        save(case, tmp_path / name)
-        save(
-            merge_cases({"A": case, "B": case}, {"A": {"title": "é"}}), tmp_path / f"merged_{name}"
-        )
-    b_path = tmp_path / "b.nc"
-    a_path = tmp_path / "a.nc"
-    assert a_path.read_bytes() == b_path.read_bytes()
-    merged_b_path = tmp_path / "merged_b.nc"
-    merged_a_path = tmp_path / "merged_a.nc"
-    assert merged_a_path.read_bytes() == merged_b_path.read_bytes()
-
-
-@pytest.mark.compiled
-def test_merged_file_is_a_table_with_a_group_per_case(tree: xr.DataTree, tmp_path: Path) -> None:
-    other = run_case(spec_of(P.replace(N=200)))
-    other.attrs["git_commit"] = "another"
-    labels = {"A": {"title": "first", "reference": "Fig. 1"}, "B": {"title": "zweite, größer"}}
-    file = tmp_path / "cases.nc"
-    save(merge_cases({"A": tree, "B": other}, labels), file)
-    table = xr.open_dataset(file)
-    assert list(table["case"].values) == ["A", "B"]
-    assert list(table["N"].values) == [385, 200]
-    assert list(table["title"].values) == ["first", "zweite, größer"]
-    assert list(table["reference"].values) == ["Fig. 1", ""]
-    assert list(flag_names(table["status"])) == ["ok", "ok"]
-    assert table["first_separation"].attrs["units"] == "s"
-    assert {"source_hash", "git_commit", "versions", "Conventions"} <= set(table.attrs)
-    assert table.attrs["source_hash"] == tree.attrs["source_hash"]
-    assert json.loads(table.attrs["git_commit"]) == sorted([tree.attrs["git_commit"], "another"])
-    table.close()
-    merged = load(file)
-    for name in ("history", "zoom", "poincare"):
-        xr.testing.assert_identical(
-            merged[f"A/{name}"].to_dataset(inherit=False), tree[name].to_dataset(inherit=False)
-        )
-    assert merged["A"].attrs["parameters"] == tree.attrs["parameters"]
-
-
-def test_a_failed_case_is_a_status_in_the_table(tree: xr.DataTree, tmp_path: Path) -> None:
-    """Its scalars ask for the compliance of which it failed; a disc given by its modes could not be
-    saved."""
-    disc = Disc(diameters=[0], omega=[9000], amplitude=[2], static_compliance=1e-9)
-    failed = run_case(
-        CaseSpec(parameters=P.replace(disc=disc, contact_compliance="residual"), t_end=1.0)
-    )
-    assert STATUSES[int(failed["status"])] == failed.attrs["status"]
-    assert failed.attrs["status"] == "failed"
-    for name in ("first_separation", "contact_compliance"):
-        assert np.isnan(failed[name])
-    file = tmp_path / "cases.nc"
-    save(merge_cases({"A": tree, "B": failed}, {}), file)
-    table = load(file)
-    assert list(flag_names(table["status"])) == ["ok", "failed"]
-    assert "static compliance" in str(table["message"].values[1])
-    assert list(table["N"].values) == [385, 385]
-    assert [Disc.model_validate_json(text) if text else None for text in table["disc"].values] == [
-        None,
-        disc,
-    ]
-
-
-def test_parameters_that_do_not_count_have_no_number_in_a_file(tmp_path: Path) -> None:
-    """D_star was 1e-5 beside the damping ratio that replaces it, and an absent ratio a text."""
-    damped = P.replace(
-        damping_ratio=1e-3, normalization="orthonormal", contact_force="normal", contact="bilateral"
-    )
-    disc = P.replace(disc=Disc(diameters=[0], omega=[9000], amplitude=[2]))
-    found = {}
-    for name, p in {"paper": P, "damped": damped, "given": disc}.items():
-        spec = CaseSpec(parameters=p, t_end=0.01)
-        save(run_case(spec), tmp_path / f"{name}.nc")
-        found[name] = load(tmp_path / f"{name}.nc")
-    assert found["paper"]["D_star"] == 1e-5
-    assert np.isnan(found["paper"]["damping_ratio"])
-    assert np.isnan(found["damped"]["D_star"])
-    assert found["damped"]["damping_ratio"] == 1e-3
-    assert np.isnan([found["given"][name] for name in ("D_star", "E", "a", "b", "h", "nu")]).all()
-    assert found["given"]["m"] == P.m
-    for name, word in (
-        ("normalization", "orthonormal"), ("contact_force", "normal"), ("contact", "bilateral"),
-    ):  # fmt: skip
-        assert found["damped"][name].dtype == np.int8
-        assert flag_names(found["damped"][name]) == word
-    table = merge_cases(found, {}).to_dataset()
-    np.testing.assert_array_equal(table["damping_ratio"], [np.nan, 1e-3, np.nan])
-
-
-HISTORY = np.sin(np.arange(3000.0))
-TREE = xr.DataTree.from_dict(
-    {"/history": xr.Dataset(dict.fromkeys(("P", "history"), ("time", HISTORY)))}
+@pytest.mark.parametrize(
+    ("changes", "expected"),
+    [
+        ({}, {"D_star": 1e-5, "damping_ratio": NAN, "disc": "", "contact": 0}),
+        ({"damping_ratio": 1e-3, "contact": "bilateral"}, {"D_star": NAN, "contact": 1}),
+        ({"disc": DISC}, {"D_star": NAN, "E": NAN, "m": CASE.m, "n_diameters": 2}),
+    ],
 )
+def test_parameters_that_do_not_count_have_no_number(changes: Any, expected: Any) -> None:
+    """D_star was 1e-5 beside the damping ratio that replaces it, and an absent ratio a text."""
+    found = tree_of(CASE.replace(**changes))
+    for name, value in expected.items():
+        np.testing.assert_equal(found[name].item(), value)
 
 
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    file = tmp_path / "case.nc"
-    save(TREE, file)
-    return file
-
-
-def test_a_variable_with_the_name_of_its_group_is_loaded(path: Path) -> None:
-    loaded = load(path)
-    path.unlink()
-    assert np.array_equal(loaded["history"]["history"], HISTORY)
-
-
-def test_a_file_that_cannot_be_written_stays_as_it_was(path: Path) -> None:
-    before = path.read_bytes()
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    larger = xr.DataTree(xr.Dataset({"x": ("t", np.random.default_rng(1).random(20_000))}))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (50_000, limits[1]))
-    try:
-        with pytest.raises(WriteError, match=r"case\.nc: cannot be written: "):
-            save(larger, path)
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-    assert path.read_bytes() == before
-    assert os.listdir(path.parent) == ["case.nc"]
-
-
-def test_a_damaged_result_says_what_to_do(tmp_path: Path) -> None:
-    damaged = tmp_path / "a.nc"
-    damaged.write_bytes(b"no netCDF file")
-    for read in (load_result, lambda path: load_cases([path])):
-        with pytest.raises(UnreadableFile, match=r"a\.nc: cannot be read[^\n]*\nDelete it"):
-            read(damaged)
+def test_a_failed_case_is_a_status() -> None:
+    """Its scalars ask for the compliance of which it failed."""
+    failed = tree_of(CASE.replace(disc=DISC, contact_compliance="residual"))
+    assert STATUSES[int(failed["status"])] == failed.attrs["status"] == "failed"
+    assert "disc.static_compliance" in failed.attrs["message"]
+    assert np.isnan([failed["first_separation"], failed["contact_compliance"]]).all()

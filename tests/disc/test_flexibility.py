@@ -105,42 +105,6 @@ def test_harmonics_against_collocation(l: int, inner: float, load: float, nu: fl
     assert own == pytest.approx(collocated(l, inner, load, nu), rel=1e-9)
 
 
-def functions(s: float) -> list:
-    """What the closed forms are made of: the column of derivatives at r, and the function."""
-    powers = [2.0, 4.0, -2.0, -1.0]
-    n = np.array([2.0, 4.0, -2.0, -1.0])
-    even = [lambda r: 1.0 + 0 * r, np.log, lambda r: r**2, lambda r: r**2 * np.log(r)]
-    odd = [lambda r: r, lambda r: 1 / r, lambda r: r**3, lambda r: r * np.log(r)]
-    return [
-        *(
-            (lambda r, i=i: module._power(n, r)[:, i] * r ** n[i], lambda r, x=x: r**x)
-            for i, x in enumerate(powers)
-        ),
-        *((lambda r, i=i: module._logarithmic(0, r)[:, i], f) for i, f in enumerate(even)),
-        *((lambda r, i=i: module._logarithmic(1, r)[:, i], f) for i, f in enumerate(odd)),
-        (
-            lambda r: module._particular(0, s),
-            lambda r: ((r**2 + s**2) * np.log(r / s) - r**2 + s**2) / 4,
-        ),
-        (
-            lambda r: module._particular(1, s),
-            lambda r: r**3 / (16 * s) - s * r * np.log(r / s) / 4 - s**3 / (16 * r),
-        ),
-    ]
-
-
-@pytest.mark.parametrize(
-    ("i", "r"), [*((i, r) for i in range(12) for r in (0.4, 1.0)), (12, 1.0), (13, 1.0)]
-)
-def test_functions_and_their_derivatives(i: int, r: float) -> None:
-    """All that docstrings say, although the edges do not ask for it all: tilts, higher derivatives
-    at the inner one."""
-    own, function = functions(s=0.7)[i]
-    wanted = chebyshev.Chebyshev.interpolate(function, 16, domain=[r - 0.15, r + 0.15])
-    # third derivatives of degree 16: about 16^6 / 0.15^3 roundings
-    np.testing.assert_allclose(own(r), [wanted.deriv(k)(r) for k in range(4)], rtol=1e-5, atol=1e-5)
-
-
 @pytest.mark.parametrize("arc", [1e-4, 0.03, 0.4, 5.0])
 def test_the_remainder_bounds_what_more_harmonics_change_under_a_pad(
     arc: float, monkeypatch: pytest.MonkeyPatch

@@ -158,24 +158,6 @@ def test_orthonormal_modes_are_positive_at_the_free_edge(inner: float, nu: float
     assert np.all(at_edge > 0.25 * largest)
 
 
-@pytest.mark.parametrize("p", [P, ORTHONORMAL], ids=["published", "orthonormal"])
-def test_modes_do_not_take_the_sign_of_a_null_vector(
-    p: Parameters, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """It is another on another processor."""
-    expected = mode_arrays(p).psi
-    svd = np.linalg.svd
-
-    def turned(matrix: np.ndarray) -> tuple[np.ndarray, ...]:
-        u, s, v = svd(matrix)
-        return u, s, -v
-
-    monkeypatch.setattr(np.linalg, "svd", turned)
-    for cached in (plate_module._shapes, plate_module._modes):
-        monkeypatch.setattr(plate_module, cached.__name__, cached.__wrapped__)
-    assert mode_arrays(p).psi.tobytes() == expected.tobytes()
-
-
 def test_orthonormal_shapes_satisfy_eq_17() -> None:
     p = ORTHONORMAL.replace(n_diameters=3, n_circles=2)
     x, w = np.polynomial.legendre.leggauss(40)
@@ -191,18 +173,6 @@ def test_a_wrong_root_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(plate_module, "_roots", lambda *given: roots(*given[:3], given[3] + 1)[1:])
     with pytest.raises(ModeError, match="missed or doubled"):
         plate_modes(P.replace(nu=0.2123))  # of no other test: nothing is remembered of it
-
-
-def test_overflow_of_the_published_normalisation_is_an_error() -> None:
-    shapes = plate_module._shapes(0.3, 0.3, 2, 0)
-    coefficients = shapes.coefficients.copy()
-    coefficients[0, 1] = 0.0
-    broken = plate_module._Shapes(
-        0.3, shapes.l, shapes.lam, coefficients, shapes.exponents, shapes.norm
-    )
-    with pytest.raises(ModeError, match=r"1 nodal diameters.*orthonormal"):
-        broken.at(0.9, orthonormal=False)
-    assert np.all(np.isfinite(broken.at(0.9, orthonormal=True)))
 
 
 @pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")

@@ -1,23 +1,13 @@
 """Discs given by a table of their modes."""
 
-import json
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
-import xarray as xr
-import yaml
 
 import disc_model as dm
-from disc_model import mode_choice
 from disc_model.disc.plate import mode_arrays, mode_shapes
-from disc_model.errors import DiscModelError
 from disc_model.simulation.states import engine_case
-from disc_model.studies.grid import GridStudy
-from disc_model.studies.merge import merge_batches
-from disc_model.studies.run import run_batch
-from disc_model.studies.study import load_study
 from tests.disc.table import disc_of
 from tests.refusals import refusal
 from tests.test_cli import Command
@@ -36,22 +26,6 @@ def written(path: Path, p: dm.Parameters) -> dm.Parameters:
     }
     read = dm.Disc.from_csv(path).replace(static_compliance=disc.static_compliance)
     return dm.Parameters(**left, contact_compliance=p.contact_compliance, disc=read)
-
-
-def grid_in(folder: Path, text: str) -> GridStudy:
-    """The grid of a study file beside its tables."""
-    (folder / "study.yaml").write_text(text)
-    grid = load_study(folder / "study.yaml").grid
-    assert grid is not None
-    return grid
-
-
-def computed(folder: Path, text: str) -> xr.Dataset:
-    """A study of a disc from its file, as the workflow computes it."""
-    grid = grid_in(folder, text)
-    return merge_batches(
-        [run_batch(batch) for batch in grid.batches.values()], grid.grid, grid.attrs
-    )
 
 
 @pytest.mark.parametrize(
@@ -126,49 +100,22 @@ def test_faults_of_columns_are_named() -> None:
 
 
 def test_discs_are_an_axis(tmp_path: Path) -> None:
-    """By the names of their tables, or by names of the file; the dataset holds the tables."""
+    """By the names of their tables, or by names of the file."""
     cases = {"a.csv": P.replace(Omega=15), "b.csv": P.replace(Omega=15, h=0.0021)}
     for name, p in cases.items():
         disc_of(p).to_csv(tmp_path / name)
-    text = "study: own\nquantity: floquet\nbase: {Omega: 15, N: 385}\n"
-    study = computed(tmp_path, text + "axes: {disc: [a.csv, b.csv]}\n")
+    head = "study: own\nquantity: floquet\nbase: {Omega: 15, N: 385}\n"
+    file = tmp_path / "study.yaml"
+    file.write_text(head + "axes: {disc: [a.csv, b.csv]}\n")
+    study = dm.run_study(file)
     for name, p in cases.items():
-        assert study["growth_rate"].sel(disc=name) == pytest.approx(
-            dm.floquet(p).growth_rate, abs=1e-9
-        )
-    assert (
-        json.loads(study.attrs["discs"])["b.csv"]["omega"]
-        == mode_arrays(cases["b.csv"]).omega.tolist()
-    )
-    zipped = computed(
-        tmp_path,
-        text + "discs: {thin: a.csv, thick: b.csv}\nzip: {disc: [thick, thin], r_0: [0.1, 0.11]}\n",
-    )
+        rate = dm.floquet(p).growth_rate
+        assert study["growth_rate"].sel(disc=name) == pytest.approx(rate, abs=1e-9)
+    discs = "discs: {thin: a.csv, thick: b.csv}\n"
+    file.write_text(head + discs + "zip: {disc: [thick, thin], r_0: [0.1, 0.11]}\n")
+    zipped = dm.run_study(file)
     assert zipped["disc"].values.tolist() == ["thick", "thin"]
     assert zipped["growth_rate"].values[0] == study["growth_rate"].sel(disc="b.csv")
-
-
-STUDIES = yaml.safe_load(Path(__file__).with_name("disc_studies.yaml").read_text())
-
-
-@pytest.mark.parametrize("normalization", ["as_published", "orthonormal"])
-@pytest.mark.parametrize(
-    "quantity",
-    [
-        "floquet",
-        *(pytest.param(name, marks=pytest.mark.slow) for name in STUDIES if name != "floquet"),
-    ],
-)
-def test_a_study_of_a_plate_by_its_modes_is_that_of_the_plate(
-    quantity: str, normalization: str, tmp_path: Path
-) -> None:
-    """Rates to 1e-9/s, and all else; only the damping, a ratio in the table, is rounded anew."""
-    path = tmp_path / "disc.csv"
-    disc_of(P.replace(normalization=normalization)).to_csv(path)
-    study = {"study": "own", "quantity": quantity, **STUDIES[quantity]}
-    discs = {"normalization": normalization}, {"disc": "disc.csv"}
-    plate, table = (computed(tmp_path, yaml.safe_dump(study | {"base": disc})) for disc in discs)
-    xr.testing.assert_allclose(table, plate, rtol=1e-9, atol=1e-9)
 
 
 def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -178,41 +125,6 @@ def test_the_command_line_reads_tables(tmp_path: Path, capsys: pytest.CaptureFix
     shown = command.out("modes", f"disc={path}")
     for omega in dm.Disc.from_csv(path).omega:
         assert f"{omega:.6g}" in shown
-
-
-@pytest.mark.parametrize(
-    ("growth", "modes", "error"),
-    [
-        (lambda n: 1 + 0.1 / n**2, 3, (0.1 / 9 - 0.1 / 64) / (1 + 0.1 / 64)),
-        (lambda n: 1.0 if n > 1 else np.nan, 2, 0.0),
-    ],
-)
-def test_the_first_modes_of_a_table_are_chosen_by_the_motion(
-    growth: Callable[[int], float], modes: int, error: float, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Compared with twice as many and with the whole table."""
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: growth(len(p.disc.omega)))
-    disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    choice = dm.choose_modes({"N": 385, "Omega": 15.1, "disc": disc}, quantity="growth")
-    assert choice.parameters.disc == disc.first(modes)
-    assert choice.modes == 2 * modes - 1
-    assert choice.rich == (8,)
-    assert choice.error == pytest.approx(error)
-
-
-def test_a_whole_table_is_not_said_to_have_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    """It was compared with itself where fewer modes did not do, and its error given as 0."""
-    monkeypatch.setitem(mode_choice.MEASURES, "growth", lambda p: float(len(p.disc.omega)))
-    disc = dm.Disc(diameters=range(8), omega=np.arange(1.0, 9), amplitude=np.ones(8))
-    case = dm.Parameters(N=385, Omega=15.1, disc=disc)
-    with pytest.raises(
-        DiscModelError, match=r"among 5 and 8 modes of the table, .* give a table with more modes"
-    ):
-        dm.choose_modes(case, quantity="growth")
-    with pytest.raises(DiscModelError, match="no fewer than all 2 modes of the table"):
-        dm.choose_modes(case.replace(disc=disc.first(2)), 1e-4)
-    with pytest.raises(DiscModelError, match="only one mode of the table moves at the slider"):
-        dm.choose_modes(case.replace(disc=disc.first(1)), quantity="growth")
 
 
 BRAKES = Path(__file__).parents[2] / "config" / "discs"

@@ -64,12 +64,3 @@ def test_a_disc_without_a_plate_has_no_wavelength() -> None:
     disc = dm.Disc(diameters=[40], omega=[9e5], amplitude=[1.0])
     assert shortest_wave(Parameters(N=385, Omega=15, disc=disc, r_0=0.1)) is None
     assert shortest_wave(Parameters(N=385, Omega=15, n_diameters=-1)) is None
-
-
-def test_a_choice_of_modes_states_its_shortest_waves() -> None:
-    rest = {"damping_ratio": 5e-4, "normalization": "orthonormal", **STEEL}
-    choice = dm.choose_modes({"N": 5000, "Omega": 60, **rest})
-    wave = shortest_wave(choice.parameters)
-    assert wave is not None
-    said = dict(choice.summary())["highest mode"]
-    assert f"waves of {wave.length:.3g} thicknesses" in said

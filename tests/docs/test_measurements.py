@@ -4,15 +4,15 @@ import re
 
 import numpy as np
 import pytest
-from docs.measurements import report, resonances, signals, stick_slip
+from docs.measurements import report, resonances, signals
 
 PAGE = report.PAGE.read_text(encoding="utf-8")
 NUMBER = re.compile(r"\d+(?:\.\d+)?")
-QUICK = [name for name in report.SECTIONS if name != "spread"]
-CALIBRATION = stick_slip.name(stick_slip.CALIBRATION)
 
 
-def check_table(name: str) -> None:
+@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
+@pytest.mark.parametrize("name", report.SECTIONS)
+def test_tables_of_the_page_are_computed(name: str) -> None:
     """The same words, and numbers to two units of their last digits: three are shown."""
     found = report.marked(name).search(PAGE)
     assert found is not None
@@ -22,29 +22,6 @@ def check_table(name: str) -> None:
     numbers = [np.array(NUMBER.findall(text), dtype=float) for text in (shown, computed)]
     # errors of shapes, from 0.028 on, are shown with three decimals
     assert numbers[0] == pytest.approx(numbers[1], rel=0.02, abs=1e-3)
-
-
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-@pytest.mark.parametrize("name", QUICK)
-def test_tables_of_the_page_are_computed(name: str) -> None:
-    check_table(name)
-
-
-def test_cells_that_fitted_numbers_make_are_marked() -> None:
-    """The calibrating run's own row in each table that predicts from its friction."""
-    marks = {"slips": ["fitted"] * 2, "thresholds": ["fitted"] * 2}
-    for name, expected in marks.items():
-        shown = report.marked(name).search(PAGE)
-        assert shown is not None
-        row = next(line for line in shown[0].splitlines() if f"| {CALIBRATION} |" in line)
-        cells = [cell.strip() for cell in row.split("|")]
-        assert [cell for cell in cells if cell in expected] == expected, name
-    shown = report.marked("spread").search(PAGE)
-    assert shown is not None
-    assert CALIBRATION not in shown[0]
-    # by the constants that were found from it, its force before a slip is the measured one
-    identical = stick_slip.friction()[0]
-    assert stick_slip.force_before(stick_slip.CALIBRATION) == pytest.approx(identical, abs=1e-4)
 
 
 # ---- The methods of the comparisons
@@ -70,23 +47,6 @@ def test_slips_of_a_known_force_are_found() -> None:
         missed = 2 * np.arccos(0.9) / np.pi
         duration = 0.02 * (1 - missed)
         assert slip.duration == pytest.approx(duration, abs=2e-3)
-
-
-@pytest.mark.filterwarnings("ignore::disc_model.ImplausibleValue")
-@pytest.mark.parametrize("run", stick_slip.runs(), ids=stick_slip.name)
-def test_the_closed_form_agrees_with_the_simulated_block(run: tuple[int, int]) -> None:
-    static, kinetic = stick_slip.friction()
-    swing = stick_slip.swing(run, static - kinetic)
-    table = stick_slip.predicted(run, static, kinetic)
-    # a sample of 0.5 ms at either end; the median over 2.5 ms cuts extremes of a swing of 23 ms
-    # by omega^2 t^2 / 2 of their amplitude, at most 1.6 %
-    period = stick_slip.period(table)
-    sample = 1 / signals.RATE
-    assert period == pytest.approx(swing.period, abs=sample)
-    assert stick_slip.fall(table) == pytest.approx(swing.fall, rel=0.02)
-    # half of the fall lies above the kinetic friction
-    before = float(np.median(table["before"]))
-    assert before == pytest.approx(stick_slip.force_before(run), abs=0.01 * float(swing.fall))
 
 
 def test_two_close_modes_are_found_from_responses() -> None:

@@ -6,20 +6,21 @@ them by the unit in the label.
 
 import functools
 from collections.abc import Callable, Mapping
+from dataclasses import replace
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
 import xarray as xr
 
-from disc_model import Parameters, Poincare, Window, simulate
-from disc_model.data.variables import attributes
-from disc_model.studies.quantity import Point
-from disc_model.studies.registry import quantity_of
-from disc_model.studies.shares_of_starts import CLASSES
+from disc_model import Parameters, Poincare, Window, run_study, simulate
+from disc_model.data.variables import WORDS, attributes
+from disc_model.studies.compute import stack
+from disc_model.studies.quantity import QUANTITIES, found, quantity_of
 from tests.figures.measured import Shown
-from tests.studies.conftest import computed
-from tests.studies.quantities.test_sensitivity import made_up
+
+CLASSES = (*WORDS["long_term"][1:], WORDS["long_term"][0])
 
 RECORDED = {
     "history": Window(stop=60, rate=200, envelope=100, theta=0.5),
@@ -54,37 +55,64 @@ class Example(NamedTuple):
     said: tuple[str, ...] = ()
 
 
+def computed(**raw: Any) -> xr.Dataset:
+    """A small study, computed."""
+    study = run_study({"study": "small", **raw})
+    assert isinstance(study, xr.Dataset)
+    return study
+
+
 def study_of(
-    quantity: str, axes: Mapping[str, Any], columns: Mapping[str, Any], **raw: Any
+    quantity: str,
+    axes: Mapping[str, Any],
+    columns: Mapping[str, Any],
+    own: Mapping[str, Any] = MappingProxyType({}),
+    **raw: Any,
 ) -> xr.Dataset:
     """A study of a quantity, of which values are given in place of what it computes.
 
     columns : shapes are those of the axes, and of dimensions of the quantity's own; flags are words
+    own : values along these; else they are numbered
     raw : what a study file says beside
     """
+    known = quantity_of(quantity)
     values = {"status": np.full([len(along) for along in axes.values()], "ok"), **columns}
+    arrays = {name: np.asarray(column) for name, column in values.items()}
+    along = dict(own)
+    for column in known.columns.values():
+        along.update((dim, [0]) for dim in column.dims if dim not in along)
+    for name, array in arrays.items():
+        sizes = zip(known.columns[name].dims, array.shape[len(axes) :], strict=True)
+        along.update((dim, range(size)) for dim, size in sizes if dim not in own)
 
-    def place(point: Point, name: str) -> int:
-        """Place of a point along an axis."""
-        if len(axes[name]) == 1:
-            return 0
-        kick = point.start.perturbation.get(name.removeprefix("perturbation_"))
-        value = getattr(point.parameters, name, kick)
-        return [*axes[name]].index(value)
+    def at(*place: int) -> xr.Dataset:
+        cells = {name: array[(*place, ...)].tolist() for name, array in arrays.items()}
+        return found(quantity, cells, **along)
 
-    def row(_: Any, point: Point) -> tuple[dict[str, Any], str]:
-        at = tuple(place(point, name) for name in axes)
-        return {
-            name: np.asarray(column)[(*at, ...)].tolist() for name, column in values.items()
-        }, ""
-
-    def tile(_: Any, plane: Any, sampled: Any) -> Any:
-        return [[row(_, Point(case)) for case in line] for line in plane]
+    def result(case: Parameters, **options: Any) -> xr.Dataset:
+        if known.plane:
+            return plane_of(at, axes, options["axes"])
+        kicks = options["start"].perturbation if "start" in options else {}
+        place = []
+        for name, values in axes.items():
+            value = getattr(case, name, kicks.get(name.removeprefix("perturbation_"), 0))
+            place.append([*values].index(value) if len(values) > 1 else 0)
+        return at(*place)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(quantity_of(quantity), "compute_point", row)
-        patch.setattr(quantity_of(quantity), "compute_tile", tile, raising=False)
+        patch.setitem(QUANTITIES, quantity, replace(known, function=result))
         return computed(quantity=quantity, axes=dict(axes), **{"options": {}, **raw})
+
+
+def plane_of(at: Any, axes: Mapping[str, Any], plane: Mapping[str, Any]) -> xr.Dataset:
+    """The results at the points of a plane, whose dimensions come first among the axes."""
+    first, second = (len(plane[name]) for name in axes if name in plane)
+    rest = [0] * (len(axes) - 2)
+    places = np.array([*np.ndindex(first, second)])
+    rows = [at(*place, *rest) for place in places.tolist()]
+    names = [name for name in axes if name in plane]
+    whole = stack(rows, places, dict(zip(names, (first, second), strict=True)))
+    return whole.assign_coords({name: [*axes[name]] for name in names})
 
 
 # ---- General kinds
@@ -235,9 +263,9 @@ def curves() -> xr.Dataset:
         "y": [[LOADS, LOADS]],
         "adjoins_stable_cycle": np.full((1, 2, 3), "yes"),
     }
-    lines = {"start": 100, "stop": 500, "count": 3}
-    options = {"x_range": [5, 20], "y_lines": lines, "max_curves": 2, "max_points": 2}
-    return study_of("stability_curves", ONE, columns, options=options)
+    lines = [{"start": 100, "stop": 500, "count": 3}]
+    options = {"x": "Omega", "y": "N", "bounds": [5, 20], "lines": lines}
+    return study_of("neutral_curves", ONE, columns, options=options)
 
 
 def region_map() -> Example:
@@ -258,15 +286,15 @@ def region_map() -> Example:
             "separation",
             "no cycle found",
             "cycle loses stability",
-            "paper's case and outcome",
+            "paper: separation",
         ),
     )
 
 
 def sliding_outcome() -> Example:
     study = computed(
-        quantity="sliding",
-        options={"parameter": "c_p", "scan": {"start": 0, "stop": 0.4, "count": 5}},
+        quantity="sliding_modes",
+        options={"name": "c_p", "bounds": [0, 0.4], "step": 0.1},
         base={"Omega": 20, "n_diameters": 1},
         axes={"N": [200, 400]},
     )
@@ -299,9 +327,10 @@ def critical_speed() -> Example:
         "crossing": crossings[:, None, None],
         "crossing_kind": np.full((3, 1, 1, 2), "begins"),
     }
-    scan = {"start": 8, "stop": 16, "step": 1}
+    scan = {"bounds": [8, 16], "step": 1}
     axes = {"N": LOADS, **ONE}
-    options = {"horizons": [900], "scan": scan, "max_crossings": 2}
+    options = {"horizon": [900], **scan}
+    own = {"horizon": [900.0], "scan_Omega": np.arange(8.0, 17)}
     onset = np.array([10.0, 12.0, 14.0])
     offset = np.array([8.5, 9.0, 12.5])
     hysteresis = {
@@ -310,14 +339,15 @@ def critical_speed() -> Example:
         "sweep_settled": np.full((3, 1, 2, 9), "settled"),
         "separation_rate": np.zeros((3, 1, 2, 9)),
     }
-    sweep = study_of("hysteresis", axes, hysteresis, options={"scan": scan, "dwell": 60})
+    both = {"direction": ["up", "down"], "sweep_Omega": np.arange(8.0, 17)}
+    sweep = study_of("hysteresis", axes, hysteresis, both, options={**scan, "dwell": 60})
     return Example(
         {
             "overlays": dict.fromkeys(["hysteresis", "cycle", "curves", "basins"], "s"),
             "paper_points": {"P": [310, 12.6]},
         },
         {
-            "study": study_of("critical_speed", axes, columns, options=options),
+            "study": study_of("critical_speed", axes, columns, own, options=options),
             "hysteresis": sweep,
             "cycle": regions(),
             "curves": curves(),
@@ -350,8 +380,9 @@ def ramps() -> Example:
         "offset_speed": [ENDS],
         "top_separation_rate": [[135.0, 134.0, 133.0]],
     }
-    options = {"low": 8, "high": 20, "rates": rates, "dwell": 60}
-    study = study_of("ramps", ONE, columns, options=options, base={"N": 310})
+    options = {"bounds": [8, 20], "rates": rates, "dwell": 60}
+    own = {"rate": [0.01, 0.1, 1.0]}
+    study = study_of("ramps", ONE, columns, own, options=options, base={"N": 310})
     return Example(
         {"overlays": {"curves": "c"}},
         {"study": study, "curves": curves()},
@@ -361,7 +392,7 @@ def ramps() -> Example:
         ),
         (
             "rising: separation begins",
-            "falling: there is no separation on the way down, or it continues",
+            "falling, 8 to 20 rad/s: there is no separation on the way down, or it continues",
             "stable cycle ends (fold), 15.20",
         ),
     )
@@ -430,7 +461,7 @@ def late_range() -> Example:
             ),
             Shown(1, "y", "Relative speed of the disc's surface", speeds, "", "linear"),
         ),
-        ("N = 120 N", "dashed: separation ignored, 1.1 to 2 times the range"),
+        ("N = 120 N", "ringed: separating", "dashed: separation ignored, 1.1 to 2 times the range"),
     )
 
 
@@ -447,7 +478,8 @@ def range_law() -> Example:
         "vibration_share": shares,
         "force_share": shares,
     }
-    study = study_of("range_law", {"N": LOADS}, columns, base={"Omega": 20})
+    own = {"begin": ["static", "displaced"]}
+    study = study_of("range_law", {"N": LOADS}, columns, own, base={"Omega": 20})
     law = "Range at which contact is lost, R = 2N/|k − mω²|"
     over_law = "Excess of the range over R"
     within = np.clip(excess, -0.25, 0.35)  # what lies beyond the panel stands at its edge
@@ -486,10 +518,10 @@ def bifurcation() -> Example:
     axes = {"Omega": SPEEDS}
     study = study_of("bifurcation", axes, columns, options=options, base={"N": 385})
     other = study_of(
-        "lyapunov",
+        "lyapunov_exponents",
         axes,
         numbers,
-        options={"exponents": 1, "duration": 9, "transient": 9},
+        options={"count": 1, "duration": 9, "transient": 9},
         base={"N": 385},
     )
     places = {"Fig. 13": 13.5}
@@ -511,7 +543,6 @@ def bifurcation() -> Example:
 def branches() -> Example:
     values = np.array([8.0, 11.0, 14.5])
     ranges = np.array([2e-5, 4e-4, 2.5e-2])
-    scan = {"start": 8, "stop": 14, "step": 3}
     columns = {
         "n_branches": [1],
         "separations": [[0]],
@@ -523,8 +554,9 @@ def branches() -> Example:
         "sweep_settled": np.full((1, 2, 3), "settled"),
         "sliding_growth_rate": [[0.1, 0.1, 0.1]],
     }
-    options = {"parameter": "Omega", "scan": scan, "max_branches": 1, "max_points": 2, "dwell": 9}
-    study = study_of("branches", ONE, columns, options=options, base={"N": 385})
+    options = {"bounds": [8, 14], "step": 3, "max_branches": 1, "max_points": 2, "dwell": 9}
+    own = {"direction": ["up", "down"], "sweep_value": [8.0, 11.0, 14.0]}
+    study = study_of("branches", ONE, columns, own, options=options, base={"N": 385})
     return Example(
         {"paper_cases": {"Fig. 11": 13}},
         {"study": study},
@@ -575,7 +607,9 @@ def starts() -> xr.Dataset:
         "critical_energy_sampled": [np.nan, 0.5, 0.01],
     }
     options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60, "max_attractors": 2}
-    return study_of("basins", {"Omega": SPEEDS}, columns, options=options, base={"N": 385})
+    own = {"energy": ENERGIES, "attractor_class": CLASSES, "attractor": [1, 2]}
+    axes = {"Omega": SPEEDS}
+    return study_of("basins", axes, columns, own, options=options, base={"N": 385})
 
 
 CRITICAL = np.array([np.nan, 0.2, 0.005])  # J
@@ -658,6 +692,24 @@ def phase_map() -> Example:
 # ---- Uncertain parameters
 
 
+UNIFORM = {"distribution": "uniform", "low": 0.9, "high": 1.1, "relative": True}
+
+
+def made_up() -> xr.Dataset:
+    """Samples at two points, without the engine: cycles are unstable where the spring is stiff."""
+
+    def evaluate(case: Parameters, tol: float, row: dict[str, Any]) -> str:
+        row["cycle"] = "unstable" if case.k > 5e4 else "stable"
+        row["growth_rate"] = case.k - 5e4
+        return ""
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("disc_model.studies.quantities.sensitivity.evaluate_cycle", evaluate)
+        options = {"distributions": {"k": UNIFORM, "mu_s": UNIFORM}, "samples": 64, "seed": 3}
+        axes = {"N": [200, 385]}
+        return computed(quantity="sensitivity", options=options, axes=axes, base={"Omega": 15})
+
+
 def sensitivity() -> Example:
     """Cycles are unstable where the spring is stiff: in none of its lowest third of values, and in
     all of its highest."""
@@ -673,10 +725,11 @@ def sensitivity() -> Example:
 def campbell() -> Example:
     study = computed(
         quantity="campbell",
-        options={},
+        options={"bounds": [9, 11], "step": 1},
         base={"N": 200, "n_diameters": 1},
-        axes={"Omega": {"start": 9, "stop": 11, "count": 3}},
+        axes=ONE,
     )
+    study = study.isel(normalization=0)
     slips = 2 * study["stick_slip_frequency"]
     frequencies = [*study["sliding_frequency"].values.ravel(), *slips.values]
     return Example(
@@ -687,14 +740,14 @@ def campbell() -> Example:
             Shown(1, "x", SPEED, study["Omega"], "rad/s", "linear"),
             Shown(1, "y", GROWTH, study["growth_rate"], "1/s"),
         ),
-        ("mode of steady sliding", "2 $f_s$"),
+        ("mode that grows", "2 $f_s$"),
     )
 
 
 def sliding_modes() -> Example:
     study = computed(
-        quantity="sliding",
-        options={"parameter": "c_p", "scan": {"start": 0, "stop": 0.4, "count": 5}},
+        quantity="sliding_modes",
+        options={"name": "c_p", "bounds": [0, 0.4], "step": 0.1},
         base={"Omega": 20, "n_diameters": 1, "N": 200},
         axes=ONE,
     )
@@ -706,7 +759,7 @@ def sliding_modes() -> Example:
             Shown(1, "x", DAMPER, study["value"], "N s/m", "linear"),
             Shown(1, "y", "Growth rate of the mode", study["mode_growth_rate"], "1/s"),
         ),
-        ("mode of steady sliding", "growing mode"),
+        ("mode that grows",),
     )
 
 

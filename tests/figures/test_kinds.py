@@ -11,7 +11,7 @@ from disc_model import Poincare, Window
 from disc_model.errors import Fault
 from disc_model.figures.kinds import KINDS, kind_of
 from disc_model.figures.schema import CasePlot, Kind, Plot
-from disc_model.studies.registry import quantity_names
+from disc_model.studies.quantity import HOMES
 from tests.figures.examples import EXAMPLES
 from tests.processes import python
 from tests.refusals import refusal
@@ -49,7 +49,7 @@ def test_keys_of_a_kind_are_the_parameters_of_its_function(name: str) -> None:
 def test_a_kind_shows_quantities_that_there_are(name: str) -> None:
     kind = KINDS[name]
     roles = {role.quantity for role in getattr(kind, "roles", {}).values()}
-    assert {*kind.shows.quantities, *roles} <= {*quantity_names()}
+    assert {*kind.shows.quantities, *roles} <= {*HOMES}
 
 
 @pytest.mark.parametrize(
@@ -162,7 +162,6 @@ FAULTS: list[tuple[dict[str, Any], dict[str, Any], str, str, str]] = [
     ),
     # dimensions that the kind itself needs
     ({"kind": "critical_speed"}, {"Omega": [1, 2], **NORMAL}, "kind", "", "needs the dimension N"),
-    ({"kind": "campbell"}, {"N": [1, 2]}, "kind", "", "needs the dimension Omega"),
     # axes
     ({**MAP, "x": "c"}, PLANE, "x", "'c'", "needs the dimension c"),
     ({**MAP, "y": "Omga"}, PLANE, "y", "'Omga'", "did you mean Omega"),
@@ -176,7 +175,7 @@ FAULTS: list[tuple[dict[str, Any], dict[str, Any], str, str, str]] = [
     ({**CURVE, "by": "N", "names": {"1": "low"}}, PLANE, "names", "'1'", "must be one of"),
     # what remains
     (MAP, CUBE, "at.k", "", "is required, one of [20000.0, 50000.0]; or by: k"),
-    ({"kind": "campbell"}, {**PLANE}, "at.N", "", "is required, one of [100.0, 200.0]"),
+    ({"kind": "campbell"}, {"N": [1, 2]}, "at.N", "", "is required, one of [1, 2]"),
     ({**MAP, "at": {"k": 3e4}}, CUBE, "at.k", "30000", "must be one of [20000.0, 50000.0]"),
     ({**MAP, "at": {"N": 100}}, PLANE, "at.N", "100", "is no dimension that remains"),
     (

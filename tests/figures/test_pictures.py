@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from disc_model.figures.draw import PAGE, edges, lone_cells
 from disc_model.figures.kinds import KINDS, kind_of, render, save
 from disc_model.figures.looks import LOOKS, looks_of
-from disc_model.studies.registry import quantity_names, quantity_of
+from disc_model.studies.quantity import HOMES, quantity_of
 from tests.figures.examples import (
     DAMPERS,
     EXAMPLES,
@@ -157,7 +157,7 @@ def test_a_mode_is_thick_where_it_grows() -> None:
     example = EXAMPLES["sliding_modes"]()
     rates = example.inputs["study"]["mode_growth_rate"].values
     lines = drawn("sliding_modes", example).axes[1].lines
-    thick = [line.get_ydata().ravel() for line in lines if line.get_label() == "growing mode"]
+    thick = [line.get_ydata().ravel() for line in lines if line.get_label() == "mode that grows"]
     found = np.concatenate(thick)
     np.testing.assert_allclose(np.sort(found[np.isfinite(found)]), np.sort(rates[rates > 1e-9]))
 
@@ -170,6 +170,54 @@ def test_points_of_a_section_are_marked_by_the_stage_of_the_run() -> None:
     before = turns["psi"].values[turns["time"].values < first]
     np.testing.assert_allclose(points["before the first separation"], before)
     assert sum(map(len, points.values())) == turns.sizes["time"]
+
+
+def test_points_on_the_way_are_told_from_the_final_motion() -> None:
+    """A run that separates at 10 s, and whose section repeats after ten points from 40 s on; that it
+    has settled was not shown."""
+    tree = simulated(True).copy()
+    time = np.arange(200.0)
+    size = np.where(time < 40, 3 - time / 40, 1)
+    section = {
+        "psi": size * np.cos(0.2 * np.pi * time),
+        "psi_velocity": size * np.sin(0.2 * np.pi * time),
+        "w_point": size * np.cos(0.2 * np.pi * time),
+        "w_point_velocity": size * np.sin(0.2 * np.pi * time),
+        "phase": np.ones(200, np.int8),
+    }
+    kept = tree["poincare"].to_dataset()
+    columns = {name: ("time", values, kept[name].attrs) for name, values in section.items()}
+    tree["poincare"] = xr.DataTree(xr.Dataset(columns, {"time": time}, kept.attrs))
+    tree.dataset = tree.to_dataset().assign(first_separation=10.0, settled_since=np.nan)
+    figure = drawn("poincare", Example({"case": "A"}, {"A": tree}))
+    assert "first separation at 10.00 s, final motion since 40 s" in said(figure)
+    counts = {x.get_label(): np.isfinite(x.get_ydata()).sum() for x in figure.axes[0].lines}
+    assert counts["on the way to the final motion"] == 30
+    assert counts["in contact, final motion"] == 160
+
+
+@pytest.mark.parametrize(
+    ("kind", "words", "height"),
+    [("ramps", "falling, 8 to 20", 0.015), ("basins", "no start is known", 0.985)],
+)
+def test_a_missing_value_stands_at_the_edge_beyond_which_it_is(
+    kind: str, words: str, height: float
+) -> None:
+    """That no start separates was read as a low energy."""
+    found = [line for ax in drawn(kind, EXAMPLES[kind]()).axes for line in ax.lines]
+    [crosses] = [line for line in found if str(line.get_label()).startswith(words)]
+    assert {*np.asarray(crosses.get_ydata())} == {height}
+
+
+def test_divergence_is_told_from_flutter() -> None:
+    example = EXAMPLES["sliding_modes"]()
+    study = example.inputs["study"].copy(deep=True)
+    study["mode_growth_rate"][{"mode": 0}] = [-1, 0.5, 1, 0.5, -1]
+    study["mode_growth_rate"][{"mode": 1}] = [-1, -1, 0.5, -1, -1]
+    study["frequency"][{"mode": 0}] = 0
+    study["diameters"][{"mode": 1}] = 1
+    ax = drawn("sliding_modes", example._replace(inputs={"study": study})).axes[1]
+    assert {"0 Hz", "l = 1"} <= {text.get_text() for text in ax.texts}
 
 
 def test_a_class_of_a_map_is_painted_at_its_points() -> None:
@@ -216,8 +264,8 @@ def test_single_cells_of_a_class_are_hatched_as_finer_than_the_grid() -> None:
 
 def test_classes_of_a_flag_are_told_apart_in_grey_print() -> None:
     """By lightness, or by pattern, and none is called as another."""
-    for name in quantity_names():
-        for variable, column in quantity_of(name).COLUMNS.items():
+    for name in HOMES:
+        for variable, column in quantity_of(name).columns.items():
             words = [str(word) for word in column.flags if word in LOOKS]
             for one, other in combinations(looks_of(words).values(), 2):
                 assert one.label != other.label, variable
@@ -246,8 +294,9 @@ def test_cases_below_each_other_say_what_differs_and_what_they_come_to() -> None
     inputs = {"A": simulated(True), "B": simulated(False)}
     figure = drawn("poincare", Example({"case": "A", "below": ["B"]}, inputs))
     assert len(figure.axes) == 4
-    assert "N = 385 N, Ω = 15.1 rad/s, first separation at 54.42 s, not shown to settle" in said(
-        figure
+    assert (
+        "N = 385 N, Ω = 15.1 rad/s, first separation at 54.42 s, settling not shown here"
+        in said(figure)
     )
     assert "Ω = 15 rad/s, no separation" in said(figure)
 

@@ -116,6 +116,8 @@ def errors(found, stored):
             scale = abs(value)
             if name == "growth_rate":
                 scale = max(scale, 1 / stored["period"])
+            if name == "range":  # whose samples have peaks to 1e-8, of heights above rounding
+                scale = 10 * max(scale, 1e-9)
             same = math.isnan(value) == math.isnan(found[name])
             if not same:
                 return math.inf

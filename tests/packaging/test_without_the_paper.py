@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.processes import run
-from tests.test_cli import STUDY
+from tests.workflow.conftest import BRACES as STUDY
 from tests.workflow.conftest import ROOT
 
 

@@ -16,7 +16,6 @@ from disc_model.simulation.states import (
     surface_rate,
     transfer_state,
 )
-from tests.contact_laws import COMPILES
 from tests.references import stored, taylor
 from tests.references.printed import P as LIVELY
 from tests.references.printed import lively
@@ -187,59 +186,37 @@ def energy(p: Parameters, state: dm.State) -> float:
 
 
 # ------------------------------------------------------------------------------------ states
+RAISED = LIVELY.replace(friction_offset=0.02)
+
+
 def test_a_sticking_slider_moves_with_the_surface() -> None:
-    p = LIVELY.replace(friction_offset=0.02)
-    start = lively("stick", 0, p)
-    assert slip_rate(p, start) == 0.0
-    assert start.f == pytest.approx(surface_rate(p, start))
+    start = lively("stick", 0, RAISED)
+    assert start.f == pytest.approx(surface_rate(RAISED, start))
     assert abs(start.f) > 0.1
-    result = simulate(p, 1e-6, initial_state=start)
-    end = result.final_state
+    end = simulate(RAISED, 1e-6, initial_state=start).final_state
     assert end.phase == "stick"
-    assert slip_rate(p, end) == pytest.approx(0.0, abs=1e-12)
-    with refusal("in stick, the angular speed of the disc's surface"):
-        simulate(p, 1e-6, initial_state=start.replace(f=0.0))
-
-
-def test_a_slip_to_the_other_side_of_the_surface_is_refused() -> None:
-    p = LIVELY.replace(friction_offset=0.02)
-    start = lively("slip", 1, p)
-    slow = start.replace(f=surface_rate(p, start) - 1.0)
-    with refusal("less the surface's"):
-        simulate(p, 1e-6, initial_state=slow)
-
-
-def test_a_push_at_the_slider_counts_from_the_surface() -> None:
-    p = LIVELY.replace(friction_offset=0.02)
-    start = lively("stick", 0, p)
-    pushed = perturb(p, start, f=-1.0)
-    assert pushed.phase == "slip"
-    assert pushed.direction == -1
-    assert slip_rate(p, pushed) == pytest.approx(-1.0)
-    again = perturb(p, pushed, f=1.0)
-    assert slip_rate(p, again) == pytest.approx(0.0, abs=1e-15)
-
-
-def test_a_state_that_sticks_is_taken_to_another_surface_in_stick() -> None:
-    p = LIVELY.replace(friction_offset=0.02)
-    other = p.replace(friction_offset=0.01)
-    moved = transfer_state(other, lively("stick", 0, p))
+    assert slip_rate(RAISED, end) == pytest.approx(0.0, abs=1e-12)
+    # a push counts from the surface
+    pushed = perturb(RAISED, start, f=-1.0)
+    assert (pushed.phase, pushed.direction) == ("slip", -1)
+    assert slip_rate(RAISED, pushed) == pytest.approx(-1.0)
+    # and of another surface it takes the speed
+    other = RAISED.replace(friction_offset=0.01)
+    moved = transfer_state(other, start)
     assert slip_rate(other, moved) == 0.0
-    assert moved.f == pytest.approx(surface_rate(other, moved))
 
 
-@pytest.mark.parametrize("phase", [pytest.param("slip", marks=COMPILES), "separation"])
-def test_a_run_in_two_pieces_is_the_run(phase: str) -> None:
-    p = LIVELY.replace(friction_offset=0.02)
-    start = lively(phase, 1 if phase == "slip" else 0, p)
-    whole = simulate(p, 2e-4, initial_state=start, tol=1e-13)
-    first = simulate(p, 1e-4, initial_state=start, tol=1e-13)
-    second = simulate(p, duration=1e-4, initial_state=first.final_state, tol=1e-13)
-    for name in ("psi", "f", "surface_turn"):
-        end = getattr(second.final_state, name)
-        assert end == pytest.approx(getattr(whole.final_state, name), rel=1e-11)
-    times = [*first.events["time"], *second.events["time"]]
-    np.testing.assert_allclose(times, whole.events["time"], rtol=0, atol=1e-13)
+@pytest.mark.parametrize(
+    ("phase", "direction", "off", "phrase"),
+    [("stick", 0, 1.0, "in stick, the disc's surface's"), ("slip", 1, -1.0, "less the surface's")],
+)
+def test_another_speed_than_the_surface_s_is_refused(
+    phase: str, direction: int, off: float, phrase: str
+) -> None:
+    start = lively(phase, direction, RAISED)
+    with refusal(phrase):
+        wrong = start.replace(f=surface_rate(RAISED, start) + off)
+        simulate(RAISED, 1e-6, initial_state=wrong)
 
 
 # ------------------------------------------------------------------------------------ the disc's shape

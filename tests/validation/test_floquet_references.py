@@ -11,7 +11,7 @@ import yaml
 from disc_model import Parameters, floquet
 from disc_model.analysis.spectra import nearest_resonance
 from disc_model.data.variables import CycleStatus
-from disc_model.stability.continuation import BORDER, continue_border, continue_cycle
+from disc_model.stability.continuation import continue_cycle, neutral_curves
 
 pytestmark = pytest.mark.compiled
 CASES = yaml.safe_load(Path(__file__).with_name("growth.yaml").read_text(encoding="utf-8"))
@@ -59,12 +59,18 @@ def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
-    curve = continue_border("neutral", p, names, bounds, steps=BORDER.replace(max_points=12))
-    assert curve.ended.endswith(("max_points=12 were computed", "has left the bounds"))
-    # beyond a fold on the way back another multiplier grows, and the static start leads elsewhere
-    rates = np.log(np.abs(curve.multipliers)) / curve.period[:, None]
-    assert np.max(np.min(np.abs(rates), axis=1)) < 1e-6
-    assert np.max(np.abs(curve.growth_rate[-12:])) < 1e-6
-    for values in curve.values[-12::4]:
-        here = p.replace(**dict(zip(names, map(float, values), strict=True)))
-        assert floquet(here).growth_rate == pytest.approx(0, abs=1e-6)
+    line = [value[names[1]]]
+    found = neutral_curves(p, bounds, line, points=31, max_points=12)
+    matched = 0
+    for curve in found:
+        rates = np.log(np.abs(curve.multipliers)) / curve.period
+        beside = curve.adjoins_stable_cycle & (curve.kind == "neutral")
+        assert np.abs(rates[beside]).max(initial=0) < 1e-6
+        for values, period in zip(curve.values[beside], curve.period[beside], strict=True):
+            here = floquet(p.replace(**dict(zip(names, values.tolist(), strict=True))))
+            if here.period == pytest.approx(
+                period, rel=1e-7
+            ):  # else the static start leads elsewhere
+                matched += 1
+                assert here.growth_rate == pytest.approx(0, abs=1e-6)
+    assert matched

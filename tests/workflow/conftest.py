@@ -18,6 +18,7 @@ ROOT = Path(__file__).parents[2]
 PARTS = ("Snakefile", "workflow", "profiles", "config", "src")
 
 TEXTS = Path(__file__).with_name("studies")
+BRACES = (TEXTS / "braces.yaml").read_text()
 SMALL = "config/small.yaml"
 MAP = "config/small_map.yaml"
 STUDIES = {f"config/{path.name}": path.read_text() for path in sorted(TEXTS.glob("small*.yaml"))}

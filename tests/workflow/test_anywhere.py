@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 from tests.processes import run
-from tests.test_cli import STUDY
+from tests.workflow.conftest import BRACES as STUDY
 from tests.workflow.conftest import ROOT
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]

@@ -6,11 +6,10 @@ import random
 import signal
 import time
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 
-from tests.workflow.conftest import SMALL, STUDIES, Project, copy_repository
+from tests.workflow.conftest import SMALL, Project
 
 pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from disc_model import Parameters, State, simulate
+from disc_model import Parameters, Result, simulate
 from disc_model.disc.plate import mode_arrays
 from tests import instruction_sets
 from tests.processes import python, run
@@ -93,7 +93,7 @@ for normalization in ("as_published", "orthonormal"):
     own = p.replace(normalization=normalization)
     modes = mode_arrays(own.replace(n_diameters=20, n_circles=4))
     np.savez(f"{sys.argv[1]}/{normalization}.npz", omega=modes.omega, psi=modes.psi)
-    simulate(own, 0.5).final_state.save(f"{sys.argv[1]}/{normalization}.nc")
+    simulate(own, 0.5).save(f"{sys.argv[1]}/{normalization}.nc")
 """
 
 
@@ -117,7 +117,7 @@ def test_modes_and_states_are_those_of_any_linear_algebra(openblas: str, tmp_pat
         for variable, values in np.load(file).items():
             own = getattr(modes, variable)
             np.testing.assert_allclose(values, own, rtol=0, atol=1e-12 * np.abs(own).max())
-        states = simulate(p, 0.5).final_state, State.load(file.with_suffix(".nc"))
+        states = simulate(p, 0.5).final_state, Result.load(file.with_suffix(".nc")).final_state
         here, there = (simulate(p, 1.0, initial_state=state).event_rows[:, 0] for state in states)
         np.testing.assert_allclose(there, here, rtol=0, atol=1e-12)
 

@@ -234,19 +234,6 @@ def taken_in_compliant_contact(p: Parameters, state: State) -> Array:
     return np.array(taken)
 
 
-def at_width(history: Sequence[Powers], width: float) -> Powers:
-    """Return the powers of a growing motion where its range first has a width in m.
-
-    They are interpolated in the square of the width. Raises `Absent` if the motion stays smaller.
-    """
-    for low, high in pairwise(history):
-        if high.width > width:
-            share = (width**2 - low.width**2) / (high.width**2 - low.width**2)
-            interpolated = (1 - share) * np.array(low) + share * np.array(high)
-            return Powers(*interpolated.tolist())
-    raise Absent(f"maintained contact comes to {1e3 * history[-1].width:.3g} mm only")
-
-
 def at_range(
     p: Parameters, until: float, width: float, stages: Sequence[Powers] | None = None
 ) -> tuple[Powers, float]:
@@ -276,8 +263,10 @@ def at_range(
     """
     if stages is None:
         stages = power_history(p, until, width)
-    at_width(stages, width)  # raises if the motion stays smaller
-    beyond = [stage.width > width for stage in stages[1:]].index(True)
+    wider = [stage.width > width for stage in stages[1:]]
+    if not any(wider):
+        raise Absent(f"maintained contact comes to {1e3 * stages[-1].width:.3g} mm only")
+    beyond = wider.index(True)
     begin = until * beyond / STAGES
     theta = angles_round(p)
     state = None

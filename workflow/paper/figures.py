@@ -123,9 +123,10 @@ def mark_thickness(ax: Axes, case: xr.DataTree, w: xr.DataArray) -> None:
     if not thickness < 0.8 * (high - low):
         return
     look: dict[str, Any] = {"color": BLACK, "lw": 2.5, "solid_capstyle": "butt", "clip_on": False}
-    text = f"thickness of the disc, {thickness:g} {w.attrs['units']}"
+    text = f"thickness {thickness:g} {w.attrs['units']}"
     beside = ax.get_yaxis_transform()
-    ax.plot([1.02, 1.02], [low, low + thickness], transform=beside, label=text, **look)
+    ax.plot([1.02, 1.02], [low, low + thickness], transform=beside, **look)
+    ax.text(1.03, low, text, transform=beside, rotation="vertical", fontsize=6)
 
 
 def mark_printed(ax: Axes, time: float | None) -> None:
@@ -398,8 +399,8 @@ def four_stretches(
             mark_first_separation([axes[name]], each)
         axes[names[0]].set_title(text)
     say_as_above(axes[below[0]], axes[low[0]])
-    for level in levels[:4]:
-        mark_interval(axes["run"], level)
+    for level, letter in zip(levels, "bcde", strict=False):
+        mark_interval(axes["run"], level, letter)
     mark_first_separation([axes["run"]], case)
     mark_thickness(axes["run"], case, recorded[0]["w_point"])
     name_lines(axes[low[-1]])
@@ -417,9 +418,11 @@ def say_as_above(ax: Axes, above: Axes) -> None:
     ax.text(0.5, 0.5, "as above", ha="center", transform=ax.transAxes)
 
 
-def mark_interval(ax: Axes, level: xr.DataArray) -> None:
-    """Mark the interval of a spectrum in time on the history of its run."""
+def mark_interval(ax: Axes, level: xr.DataArray, letter: str = "b") -> None:
+    """Mark the interval of a spectrum in time on the history of its run, with the letter of its
+    panel."""
     ends = level["time"].values[[0, -1]]
+    ax.text(ends.mean(), 1, f"({letter})", transform=ax.get_xaxis_transform(), ha="center")
     ax.axvspan(*ends, color=SKY, alpha=0.4, lw=1, zorder=3, label="intervals of the spectra")
 
 
@@ -500,7 +503,7 @@ def mark_highest(ax: Axes, case: xr.DataTree) -> None:
     """Mark the disc's highest natural frequency."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
     natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
-    text = f"the disc's highest natural frequency, {natural:.0f} Hz"
+    text = f"highest natural frequency, {natural:.0f}\u00a0Hz"
     ax.axhline(natural, color=SKY, lw=1.0, ls=(0, (1, 1)), label=text)
 
 

@@ -1,4 +1,4 @@
-"""Views of cases and grid studies, with what rows of the ledger measure in them and its words."""
+"""Views of cases and grid studies, with what rows of the ledger measure in a case, and its words."""
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -16,7 +16,7 @@ from disc_model.data import dataset, variables
 from disc_model.data.dataset import Missing
 from disc_model.display import counted
 from disc_model.parameters import Parameters
-from workflow.paper import growth
+from workflow.paper import growth, signals
 
 SEPARATION = variables.PHASES.index("separation")
 
@@ -24,6 +24,14 @@ STRETCHES = 3
 """Number of the last stretches of a case that are compared."""
 STRETCH = 20.0
 """Length of such a stretch, s."""
+SAMPLING = 1.02
+"""Factor by which the range of a steady contact force may differ; sampling adds far less."""
+PLACE = 1e-4
+"""Share of their range by which points of a section must differ to lie at different places.
+
+A motion that repeats comes back far closer. Neighbours among 500 points of a closed curve are on
+average some fifty times farther apart, so that a curve is not taken for a few places.
+"""
 STEADY = 3e-4
 """Greatest rate in 1/s at which the ranges of contact force and disc of a steady motion change."""
 
@@ -36,6 +44,10 @@ FEWEST_SAMPLES = 100
 """Samples below which a stretch of a window is not looked at."""
 FEWEST_BINS = 4
 """Bins of the history below which no slope is fitted."""
+
+
+Found = dict[str, Any]
+"""What is measured, by name."""
 
 
 class Absent(Missing):
@@ -87,6 +99,13 @@ class CaseView:
         return self["n_separations"] > 0
 
     @property
+    def loss(self) -> float:
+        """Time of the first separation, s; raises `Absent` if there is none."""
+        if not self.separates:
+            raise Absent(f"case {self.name}: no separation in {self['time_reached']:g} s")
+        return self["first_separation"]
+
+    @property
     def is_grid(self) -> bool:
         return "parameters" not in self.node.attrs
 
@@ -108,6 +127,11 @@ class CaseView:
     def growth_rate(self) -> float:
         """Growth rate of small disturbances of the cycle near the static start, 1/s."""
         return growth.growth_of(self.parameters)
+
+    @property
+    def frictionless_growth(self) -> float:
+        """Growth rate of steady sliding without friction, 1/s."""
+        return growth.sliding_growth(self.parameters.replace(mu_s=0.0, mu_k=0.0))
 
     # ---- Words
 
@@ -143,6 +167,16 @@ class CaseView:
         return f"At {self.place}, {self.contact_and_growth}."
 
     @property
+    def steadiness(self) -> str:
+        """The same with ranges of the contact force where contact is kept, if they are stored."""
+        if self.separates or "history" not in self.node:
+            return self.fate
+        return (
+            f"{self.fate} The range of the contact force is {self.early.width:.2f} N between 1 and "
+            f"21 s, and {self.late.width:.2f} N in the last 20 s."
+        )
+
+    @property
     def motion(self) -> str:
         """Class of the in-plane motion within the stored events, in words."""
         intervals = self.intervals()
@@ -153,7 +187,7 @@ class CaseView:
                 f"{motion}: it does not repeat after any number of releases up to {most}, "
                 f"and the 0-1 test for chaos gives {motion.chaos:.2f}"
             )
-        length = float(intervals[: motion.period].sum())
+        length = self.period_length
         events = counted(motion.period, "release")
         separations = round(self.rate_of("separation") * length)
         if separations:
@@ -161,6 +195,16 @@ class CaseView:
         return f"periodic: it repeats after {events}, every {length:.6g} s"
 
     # ---- Ranges
+
+    @property
+    def calm(self) -> bool:
+        """Whether contact is kept, and the contact force has no wider range in the end.
+
+        Where ranges are not stored, it is whether contact is kept.
+        """
+        if self.separates or "history" not in self.node:
+            return not self.separates
+        return not SAMPLING * self.early.width < self.late.width
 
     @property
     def early(self) -> Range:
@@ -223,6 +267,24 @@ class CaseView:
         quarter = (self["time_reached"] - self["first_separation"]) / 4
         return self.last_widths(name, quarter, 2)
 
+    @property
+    def quarters(self) -> list[float]:
+        """Widths of the disc's range over the last two quarters of the time after the first
+        separation, the last one first."""
+        return self.last_quarters("w_point")
+
+    @property
+    def quarter_growth(self) -> float:
+        """Ratio of these widths: that of the last quarter over that of the third."""
+        late, before = self.quarters
+        return late / before
+
+    @property
+    def growth_in_the_end(self) -> float:
+        """Ratio of the disc's range in the last 20 s over that in the 20 s before."""
+        late, before = self.last_widths("w_point", STRETCH, 2)
+        return late / before
+
     def slope(self, name: str, start: float, stop: float) -> float:
         """Return the mean growth rate of a variable's range between two times in s, in 1/s."""
         part = self.history.sel(time=slice(start, stop))
@@ -251,6 +313,10 @@ class CaseView:
         changing = [each for each in late if each.answer is Settled.CHANGING]
         order = [*Settled]
         return min(changing or over_the_run, key=lambda each: order.index(each.answer))
+
+    @property
+    def settled(self) -> bool:
+        return self.settling().answer is Settled.SETTLED
 
     # ---- Events
 
@@ -283,6 +349,39 @@ class CaseView:
                 what = "stick-slip cycles"
             raise Missing(f"case {self.name} keeps fewer than {FEWEST} {what}")
         return intervals
+
+    @property
+    def release_interval(self) -> float:
+        """Mean of the intervals between releases, s."""
+        return float(self.intervals().mean())
+
+    @property
+    def release_spread(self) -> float:
+        """Standard deviation of these intervals over their mean."""
+        return float(self.intervals().std() / self.release_interval)
+
+    @property
+    def period_length(self) -> float:
+        """Time after which the intervals between releases repeat, s; 0 if they do not."""
+        return float(self.intervals()[: self.late_motion.period].sum())
+
+    @property
+    def kind(self) -> str:
+        """Class of the in-plane motion, a word of `Outcome`."""
+        return str(self.late_motion.kind)
+
+    @property
+    def upward(self) -> float:
+        """Share of the separations at which the slider moves upward."""
+        velocity = self.switches("separation")["u_velocity"].values
+        if not velocity.size:
+            raise Missing(f"case {self.name} keeps no separation")
+        return float(np.mean(velocity > 0))
+
+    @property
+    def separated_part(self) -> float:
+        """Length of the longest separation over the mean time from one to the next."""
+        return self.longest_separation * self.rate_of("separation")
 
     def rate_of(self, kind: str) -> float:
         """Return the rate of one kind of event within the stored events, 1/s."""
@@ -338,6 +437,20 @@ class CaseView:
         """Return the samples of a window, or of the section ``poincare``."""
         return self._stored(dataset.samples, window)
 
+    def places(self, last: float, share: float = PLACE) -> int:
+        """Return at how many places the last points of the disc's section lie.
+
+        Parameters
+        ----------
+        last : number of points
+        share : of their range, by which different places differ along an axis
+        """
+        section = self.samples("poincare").isel(time=slice(-int(last), None))
+        columns = [section[name].values for name in ("w_point", "w_point_velocity")]
+        points = np.column_stack(columns)
+        extents = np.ptp(points, axis=0)
+        return signals.distinct_points(points, extents * share / signals.SAME)
+
     def signal(self, window: str, start: float, stop: float, name: str = "w_point") -> "Signal":
         """Return a variable between two times in s, from the samples of a window."""
         samples = self.samples(window).sel(time=slice(start, stop))
@@ -388,7 +501,7 @@ class Signal(NamedTuple):
 
         Fuzz fills it, and lines do not.
         """
-        return spectra.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
+        return signals.coverage(self.time, self.values, LOW, 300.0, floor=1e-4)
 
     def power_above(self, frequency: float) -> float:
         """Return the ratio of the power above a frequency in Hz to that above `LOW`.
@@ -396,7 +509,7 @@ class Signal(NamedTuple):
         Raises `Missing` if there is no line above `LOW`.
         """
         self.lines(above=LOW)
-        return spectra.power_share(self.time, self.values, frequency, LOW)
+        return signals.power_share(self.time, self.values, frequency, LOW)
 
     def lines(self, count: int | None = None, **options: float) -> list[spectra.Line]:
         """Return lines of the spectrum; raises `Missing` if there are none.
@@ -416,9 +529,12 @@ class Signal(NamedTuple):
     def strongest(self, near: float, within: float) -> spectra.Line:
         """Return the strongest line within `within` Hz of a frequency; raises `Absent`."""
         try:
-            return spectra.strongest(self.time, self.values, near, within)
+            return signals.strongest(self.time, self.values, near, within)
         except ValueError as error:
             raise Absent(f"case {self.case}: {error} in w_point") from None
+
+
+Cases = Sequence[CaseView]
 
 
 # ---- Several cases
@@ -436,7 +552,7 @@ def views(trees: Mapping[str, xr.DataTree]) -> dict[str, CaseView]:
     return {name: CaseView(name, node) for name, node in nodes.items()}
 
 
-def pairs(cases: Sequence[CaseView]) -> list[tuple[CaseView, CaseView]]:
+def pairs(cases: Cases) -> list[tuple[CaseView, CaseView]]:
     """Return cases with separation, each with the case that ignores separation.
 
     Raises `Missing` if one has no such case.
@@ -500,7 +616,7 @@ def _failed(study: xr.Dataset) -> Mask:
     return variables.flag_names(study["status"]) != "ok"
 
 
-def facts(study: xr.Dataset) -> dict[str, Any]:
+def facts(study: xr.Dataset) -> Found:
     """Return what sentences state of a grid study.
 
     These are its base values, its options, and the extent of each axis of numbers.

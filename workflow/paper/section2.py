@@ -1,9 +1,11 @@
-"""Rows on the abstract, Sections 2 to 4 and the precursor.
+"""Measures for rows on the abstract, Sections 2 to 4 and the precursor.
 
 They are about the scale and the number of modes, and about the disc and the slider at rest.
 """
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -15,10 +17,9 @@ from disc_model.data.variables import flag_names, stated_in
 from disc_model.disc.modes import coupled_natural_frequencies, plate_modes
 from disc_model.disc.plate import mode_shapes
 from disc_model.parameters import Parameters
-from workflow.paper import measures
 from workflow.paper.judging_tables import GROWTHS, PRECURSOR
-from workflow.paper.measures import Array, CaseView
-from workflow.paper.model import FALSE, NOT_COMPUTED, PART, TRUE, Answer, graded, parameters_of
+from workflow.paper.measures import Array, Cases, Found, extent, pairs, width_ratio
+from workflow.paper.model import parameters_of
 
 BASE = Parameters(N=200, Omega=20)
 NORMALISED = BASE.replace(normalization="orthonormal")
@@ -45,9 +46,8 @@ def separating_points(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
         axes = {*maps[name]["outcome"].dims} - {"normalization"}
         values = {axis: getattr(parameters, str(axis)) for axis in axes}
         point = maps[name].sel(values, method="nearest")
-        for axis, value in values.items():
-            if not np.isclose(point[axis], value):
-                raise Missing(f"study {name} has no point of {figure}")
+        if not all(np.isclose(point[axis], value) for axis, value in values.items()):
+            raise Missing(f"study {name} has no point of {figure}")
         if np.any(flag_names(point["outcome"]) == "failed"):
             raise Missing(f"study {name} failed at {figure}")
         points[figure] = point
@@ -63,49 +63,37 @@ def first_separations(points: Mapping[str, xr.Dataset]) -> pd.DataFrame:
     return pd.DataFrame(times).T
 
 
-def survive(*maps: xr.Dataset, share: float) -> Answer:
-    """Judge whether low speeds separate with both sets of modes.
+def separation_by_normalisation(*maps: xr.Dataset) -> Found:
+    """Measure what becomes of the points of `SEPARATING` with both sets of modes.
 
     Parameters
     ----------
-    maps : that over speed and preload first, and those with the other points of `SEPARATING`
-    share : of the critical speed of a moving load, below which a speed is low
+    maps : that over speed and preload first, and those with the other points
+
+    Returns
+    -------
+    dict
+        ``counts`` of points, of those that separate as published, and that separate, stay quiet or
+        grow by Eq. (17); ``lowest`` speeds with separation with both; ``until`` when motions grow.
     """
-    critical = moving_load_speed(BASE)
     plane = maps[0].transpose("normalization", "Omega", ...)
     lowest = []
     for separates in flag_names(plane["outcome"]) == "separation":
         speeds = plane["Omega"].values[separates.any(axis=1)]
         lowest.append(np.min(speeds, initial=np.inf))
 
-    points = separating_points({study.attrs["study"]: study for study in maps})
-    as_published = 0
-    in_contact = 0
-    grow = []
-    for point in points.values():
-        published = str(flag_names(point.sel(normalization="as_published")["outcome"]))
-        as_published += published == "separation"
-        outcome = str(flag_names(point.sel(normalization="orthonormal")["outcome"]))
-        if outcome == "separation":
-            continue
-        in_contact += 1
-        if outcome == "growing":
-            grow.append(stated_in(point, "options")["horizon"])
-
-    counts = (
-        len(points),
-        as_published,
-        len(points) - in_contact,
-        in_contact - len(grow),
-        len(grow),
+    points = separating_points({study.attrs["study"]: study for study in maps}).values()
+    outcomes = pd.DataFrame(
+        [flag_names(point["outcome"].sortby("normalization")).tolist() for point in points],
+        columns=sorted(plane["normalization"].values),
     )
-    return Answer(
-        graded(speed < share * critical for speed in lowest),
-        counts=counts,
-        until=measures.extent(grow) if grow else None,
-        lowest=lowest,
-        critical=critical,
-    )
+    other = outcomes["orthonormal"]
+    horizons = [stated_in(point, "options")["horizon"] for point in points]
+    grow = [end for end, outcome in zip(horizons, other, strict=True) if outcome == "growing"]
+    separate = (outcomes == "separation").sum()
+    quiet = len(other) - separate["orthonormal"] - len(grow)
+    counts = (len(other), separate["as_published"], separate["orthonormal"], quiet, len(grow))
+    return {"counts": counts, "until": extent(grow) if grow else None, "lowest": lowest}
 
 
 # ---- Scale and number of modes
@@ -123,162 +111,118 @@ def norms(p: Parameters) -> Array:
     return np.asarray(2 * np.pi * mass_per_area * square / modes_of_amplitude)
 
 
-def normalised(*, within: float) -> Answer:
-    """Judge whether the published modes satisfy the first relation of Eq. (17)."""
-    first = norms(BASE)
-    off = np.max(np.abs(first - 1))
-    return Answer(off <= within, norms=[*first])
+def second_relation(p: Parameters) -> Array:
+    """Return the left side of the second relation of Eq. (17).
 
-
-def second_relation(*, within: float) -> Answer:
-    """Judge whether normalised modes satisfy the second relation of Eq. (17)."""
-    p = NORMALISED
-    # the biharmonic operator multiplies a mode by rho h omega^2/D
+    The biharmonic operator multiplies a mode by rho h omega^2/D.
+    """
     omega = plate_modes(p)["omega"].to_numpy()
-    second = norms(p) * omega**2 / p.D
-    off = np.max(np.abs(second - 1))
-    return Answer(off <= within, second=[*second])
+    return norms(p) * omega**2 / p.D
 
 
-def truncation(*evidence: CaseView, seconds: float, share: float) -> Answer:
-    """Judge whether more modes change nothing.
+def after_more_modes(cases: Cases, share: float) -> Found:
+    """Measure what more modes change after a separation.
 
     Parameters
     ----------
-    evidence : cases with 4, 5, 6 and 8 nodal diameters, then with one and with two nodal circles
-    seconds : greatest difference of first separations that counts as none
-    share : greatest relative difference of rates and shares of time that counts as none
-    """
-    first = [case["first_separation"] for case in evidence]
-    soon = np.ptp(first[:4]) <= seconds  # false if one does not separate: its time is nan
-    all_soon = np.ptp(first) <= seconds
+    cases : with 4, 5, 6 and 8 nodal diameters, then with one and with two nodal circles
+    share : greatest relative difference that counts as none
 
+    Returns
+    -------
+    dict
+        ``rows`` of rates and shares of time of the first case and the last three, and whether more
+        ``diameters`` and ``circles`` leave them equal.
+    """
     rows = [
         (case.rate_of("separation"), case.phase_share("separation"), case.stick)
-        for case in (evidence[0], *evidence[3:])
+        for case in (cases[0], *cases[3:])
     ]
-    equal = [bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:]]
-    diameters, *circles = equal
-    if all_soon and diameters and all(circles):
-        verdict = TRUE
-    elif soon and diameters:
-        verdict = PART
-    else:
-        verdict = FALSE
-    effect = {True: "hardly change", False: "change"}
-    change = [effect[diameters], effect[all(circles)]]
-    return Answer(verdict, change=change, rows=rows)
+    diameters, *circles = (bool(np.allclose(row, rows[0], rtol=share)) for row in rows[1:])
+    return {"rows": rows, "diameters": diameters, "circles": all(circles)}
 
 
 # ---- Conditions and frequencies
 
 
-def slip_condition(*cases: CaseView) -> Answer:
-    """Judge Eq. (24) at stops of the slider, where ψ' = Ω; in these cases c_p = 0."""
+def slip_condition(cases: Cases) -> Array:
+    """Return whether Eq. (24) holds at stops of the slider, where ψ' = Ω."""
     holds: list[bool] = []
     for case in cases:
         stops = case.switches("slip_to_stick")
-        damper = case["c_p"] * case["Omega"]
-        spring = case["k_p"] * stops["psi"].values
-        pull = case["r_0"] * np.abs(damper + spring)
+        spring = case["k_p"] * stops["psi"].values + case["c_p"] * case["Omega"]
         friction = case["mu_s"] * stops["P"].values
-        holds += (pull < friction).tolist()
+        holds += (case["r_0"] * np.abs(spring) < friction).tolist()
     if not holds:
         raise Missing("no case keeps an end of slip")
-    return Answer(not any(holds), held=sum(holds), ends=len(holds))
+    return np.array(holds)
 
 
-def attached_frequencies(*, printed: Sequence[float], within: float) -> Answer:
-    """Judge the printed natural frequencies with the slider attached, rad/s."""
-    ours = coupled_natural_frequencies(BASE)
-    off = np.abs(ours - np.sort(printed))
-    return Answer(np.all(off <= within), ours=[*ours])
+def coupled(p: Parameters) -> Array:
+    """Return natural frequencies with the slider attached, rad/s."""
+    return np.asarray(coupled_natural_frequencies(p))
 
 
-def moving_load(*, printed: float, within: float) -> Answer:
-    """Judge the printed critical speed of a moving load, rad/s."""
-    ours = moving_load_speed(BASE)
-    holds = abs(ours - printed) <= within
-    shifted: float | str = ""
-    if not holds:
-        modes = plate_modes(BASE)
-        orders = modes["diameters"] + 1
-        shifted = float(np.min(modes["omega"] / orders))
-    return Answer(holds, ours=ours, shifted=shifted)
+def moving_load_speed(p: Parameters, further: int = 0) -> float:
+    """Return the critical speed of a load that moves round the disc, min omega_l/l, in rad/s.
 
-
-def moving_load_speed(p: Parameters) -> float:
-    """Return the critical speed of a load that moves round the disc, min omega_l/l, in rad/s."""
-    modes = plate_modes(p).query("diameters > 0")
-    return float(np.min(modes["omega"] / modes["diameters"]))
+    With a number of further diameters, it is min omega_l/(l + further) over all modes.
+    """
+    modes = plate_modes(p)
+    orders = modes["diameters"] + further
+    return float(np.min((modes["omega"] / orders)[orders > 0]))
 
 
 # ---- What separation changes
 
 
-def different(*cases: CaseView, factor: float, share: float = 0.0, both: bool = False) -> Answer:
-    """Judge whether separation changes the range of the disc or the share of stick.
+def pairs_of(cases: Cases, factor: float = math.inf) -> list[tuple[Any, ...]]:
+    """Return a row for each pair of a case with separation and one without it.
 
-    Parameters
-    ----------
-    cases : with separation and without it, which form pairs
-    factor : by which one of the two has to change
-    share : of the pairs in which it has to; at least one
-    both : whether range and share of stick have to change
+    It has their place, the ratio of the disc's ranges, both shares of stick, both ranges, and how
+    many of range and stick separation changes by a factor.
     """
     rows = []
-    differ = 0
-    for case, other in measures.pairs(cases):
-        ratio = measures.width_ratio(case, other)
+    for case, other in pairs(cases):
+        ratio = width_ratio(case, other)
         sticks = (case.stick, other.stick)
-        changes = [ratio * factor <= 1, max(sticks) >= factor * min(sticks)]
-        if all(changes) or (any(changes) and not both):
-            differ += 1
-        rows.append((case.place, ratio, *sticks, case.disc.width, other.disc.width))
-    fewest = max(1, share * len(rows))
-    return Answer(differ >= fewest, rows=rows, differ=differ)
+        changed = (ratio * factor <= 1) + (max(sticks) >= factor * min(sticks))
+        rows.append((case.place, ratio, *sticks, case.disc.width, other.disc.width, changed))
+    return rows
 
 
 # ---- The abstract of the model's precursor, J. Sound Vib. 209 (1998): steady sliding with friction
 # that falls
 
 
-def additional(*, precursor: pd.DataFrame) -> Answer:
-    """Judge whether friction makes stable speeds unstable, and the damper raises growth there.
+def growth_of_sliding(precursor: pd.DataFrame) -> Found:
+    """Count combinations of load and speed by what friction and a damper do to growth.
 
-    The statement is open if the damper raises some of these growth rates only: of the precursor we
-    have the abstract, and do not know its disc. The table is that of `judging_tables.precursor`.
+    Parameters
+    ----------
+    precursor : growth rates, as `judging_tables.precursor`
+
+    Returns
+    -------
+    dict
+        Numbers of combinations that are ``unstable`` without friction, of these ``stabilised`` and
+        ``lowered`` by it; that are ``new``, unstable with friction alone, of these ``raised`` by the
+        damper, and ``below`` the critical speed of a moving load; the ``slowest`` that is raised.
     """
     without, both, damped = (precursor[name].to_numpy() for name in GROWTHS)
     speeds = precursor["Omega"].to_numpy()
-    critical = moving_load_speed(BASE)
-    new = (both > 0) & ~(without > 0)
-    raised = new & (damped > both)
-    if not raised.any():
-        verdict = FALSE
-    elif np.array_equal(raised, new):
-        verdict = TRUE
-    else:
-        verdict = NOT_COMPUTED
-    slowest = np.min(speeds[raised], initial=np.inf)
-    below = new & (speeds < critical)
-    counts = (new.sum(), raised.sum(), below.sum())
-    return Answer(
-        verdict, size=len(precursor), counts=counts, slowest=slowest, critical=critical, **PRECURSOR
-    )
-
-
-def reduced(*, precursor: pd.DataFrame) -> Answer:
-    """Judge whether friction lowers growth where sliding is unstable without it."""
-    without, both, _ = (precursor[name].to_numpy() for name in GROWTHS)
     unstable = without > 0
-    stabilised = (unstable & (both < 0)).sum()
-    lowered = (unstable & (both < without)).sum()
-    if not lowered:
-        verdict = FALSE
-    elif lowered == unstable.sum() and stabilised:
-        verdict = TRUE
-    else:
-        verdict = NOT_COMPUTED
-    counts = (unstable.sum(), stabilised, lowered)
-    return Answer(verdict, size=len(precursor), counts=counts, **PRECURSOR)
+    new = (both > 0) & ~unstable
+    raised = new & (damped > both)
+    critical = moving_load_speed(BASE)
+    found = {
+        "unstable": unstable,
+        "stabilised": unstable & (both < 0),
+        "lowered": unstable & (both < without),
+        "new": new,
+        "raised": raised,
+        "below": new & (speeds < critical),
+    }
+    counts = {name: int(points.sum()) for name, points in found.items()}
+    slowest = np.min(speeds[raised], initial=np.inf)
+    return {**counts, **PRECURSOR, "size": len(precursor), "slowest": slowest, "critical": critical}

@@ -13,10 +13,10 @@ from enum import StrEnum
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from disc_model.arrays import Array, Indices, Mask
-from disc_model.data.variables import PHASES, Outcome
+from disc_model.arrays import Array, Indices
+from disc_model.data.variables import Outcome
 
 CLOSES = 1e-8
 """s, to which intervals of a periodic motion repeat; those on a torus mostly differ by far more."""
@@ -193,62 +193,9 @@ def share(
     return hits / trials, float(as_misses.low), float(as_hits.high)
 
 
-# ---- Poincare sections: one sample every 2 pi/Omega
+# ---- Points of a Poincare section, one sample every 2 pi/Omega
 
 SAME = 0.01  # share of the range, along every axis, within which two points count as one
-
-
-def stages(
-    time: Array, phase: NDArray[np.int8], first_separation: float, settled_since: float
-) -> tuple[Mask, Mask, Mask]:
-    """Divide a run into the stages that the paper distinguishes by colour: masks of samples in
-    contact early, in contact later, and separated. The first separation divides early from later;
-    without one, the time from which the motion has settled does.
-
-    Parameters
-    ----------
-    time : s, shape (n,)
-    phase : shape (n,), index into `disc_model.data.variables.PHASES`
-    first_separation : s, nan if there was none
-    settled_since : s, nan if it is not shown that the motion has settled: then all samples in contact are early
-    """
-    divides = settled_since
-    if math.isfinite(first_separation):
-        divides = first_separation
-    before = np.asarray(~(time >= divides))  # all of them if it is nan
-    apart = np.asarray(phase == PHASES.index("separation"))
-    return before & ~apart, ~before & ~apart, apart
-
-
-def distinct_points(points: Array, extent: Array | None = None) -> int:
-    """Count the distinct points of a section, by a greedy search.
-
-    Points within `SAME` of each other count as one. A chain of near points is not merged, so that a
-    closed curve has about 1/`SAME` points.
-
-    Parameters
-    ----------
-    points : shape (n, d)
-    extent : shape (d,), units in which the coordinates are measured; by default the range of each
-    """
-    points = np.asarray(points, dtype=float)
-    if points.size == 0:
-        return 0
-    if extent is None:
-        extent = np.ptp(points, axis=0)
-    # along other axes only rounding changes the points
-    varies = extent > 1e-9 * np.max(np.abs(points))
-    scaled = np.zeros(points.shape)
-    np.divide(points - points.min(axis=0), extent, out=scaled, where=varies)
-    centres: list[Array] = []
-    for point in scaled:
-        if not centres:
-            centres.append(point)
-            continue
-        apart = np.max(np.abs(np.array(centres) - point), axis=1)
-        if apart.min() > SAME:
-            centres.append(point)
-    return len(centres)
 
 
 def first_settled(points: Array, start: int = 0) -> int:
@@ -272,12 +219,9 @@ def first_settled(points: Array, start: int = 0) -> int:
 
     # neighbours on the set, the first of which is the point itself
     between, _ = tree.query(ends / extent, k=2, p=np.inf)
-    apart = max(SAME, float(between[:, 1].max()))
     distance, _ = tree.query(points / extent, p=np.inf)
-    away = np.flatnonzero(distance > apart)
-    if not away.size:
-        return start
-    return max(start, int(away[-1]) + 1)
+    away = distance > max(SAME, float(between[:, 1].max()))
+    return max(start, 1 + int(np.flatnonzero(away).max(initial=-1)))
 
 
 # ---- Whether a motion has settled: the rate at which a record of it still changes, and the least
@@ -349,53 +293,46 @@ def settling(
     x = np.asarray(values, dtype=float)
     if not t.size or not np.isfinite(x).all():
         return Settling()
-    whole = _drift(t, x, slowest, still)
-    for start in t[0] + PARTS * (t[-1] - t[0]):
-        if t[-1] - start < RESOLUTION / slowest:  # shorter parts cannot show that little
-            break
-        first = int(np.searchsorted(t, start))
+    starts = t[0] + PARTS * (t[-1] - t[0])
+    # shorter parts cannot show that little
+    long = t[-1] - starts >= RESOLUTION / slowest
+    for first in np.searchsorted(t, starts[long]):
         part = _drift(t[first:], x[first:], slowest, still)
         if part.answer is Settled.SETTLED:
             return part
-    return whole
+    return _drift(t, x, slowest, still)
 
 
 def _drift(t: Array, x: Array, slowest: float, still: float) -> Settling:
     """Whether mean, spread and number of samples change in a record, by straight lines through their
     values in windows; arguments as in `settling`."""
     edges = np.linspace(t[0], t[-1], WINDOWS + 1)
-    starts = np.concatenate([[0], np.searchsorted(t, edges[1:-1])])
-    counts = np.diff(starts, append=x.size)
+    windows = np.split(x, np.searchsorted(t, edges[1:-1]))
+    counts = np.array([len(part) for part in windows])
     if counts.min() < LEAST_SAMPLES:
         return Settling()
 
     # moments of each window, relative to the width of the motion
-    means = np.add.reduceat(x, starts) / counts
-    deviations = x - np.repeat(means, counts)
-    spreads = np.sqrt(np.add.reduceat(deviations**2, starts) / counts)
+    means = np.array([part.mean() for part in windows])
+    spreads = np.array([part.std() for part in windows])
     width = max(2 * spreads.max(), still * float(np.abs(means).max()), np.finfo(float).tiny)
     moments = np.array([means / width, 2 * spreads / width, counts / counts.mean()])
 
     # slopes of lines through them, and their errors, 1/s
     middle = (edges[1:] + edges[:-1]) / 2 - (t[0] + t[-1]) / 2
-    square = middle @ middle
-    slopes = moments @ middle / square
-    rest = moments - moments.mean(axis=1, keepdims=True) - np.outer(slopes, middle)
-    variance = (rest**2).sum(axis=1) / (WINDOWS - 2)
-    errors = QUANTILE * np.sqrt(variance / square)
-    errors = np.maximum(errors, RESOLUTION / (t[-1] - t[0]))
+    (slopes, _), covariance = np.polyfit(middle, moments.T, 1, cov=True)
+    errors = np.maximum(QUANTILE * np.sqrt(covariance[0, 0]), RESOLUTION / (t[-1] - t[0]))
 
     # the fastest change, of those that are clear if there are any
     sizes = np.abs(slopes)
     clear = sizes > np.maximum(errors, slowest)
+    fastest = int(np.lexsort((sizes, clear))[-1])
     if clear.any():
-        place = int(np.argmax(np.where(clear, sizes, 0.0)))
-        return Settling(Settled.CHANGING, float(slopes[place]), float(errors[place]))
-    fastest = float(slopes[int(np.argmax(sizes))])
+        return Settling(Settled.CHANGING, float(slopes[fastest]), float(errors[fastest]))
     least = float(errors.max())
     if max(least, sizes.max()) <= slowest:
-        return Settling(Settled.SETTLED, fastest, least, float(t[0]))
-    return Settling(Settled.UNDECIDED, fastest, least)
+        return Settling(Settled.SETTLED, float(slopes[fastest]), least, float(t[0]))
+    return Settling(Settled.UNDECIDED, float(slopes[fastest]), least)
 
 
 SECTIONS = ("psi", "w_point")
@@ -411,22 +348,22 @@ def settled_since(section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike
     bins : ranges of an envelope beside it, if there is one, such as w_point_min and w_point_max: their widths decide
         where the section itself shows nothing
     """
-    latest = max(_since(section, bins, name) for name in SECTIONS)
-    if not math.isfinite(latest):
+    since = [_since(section, bins, name) for name in SECTIONS]
+    if not np.isfinite(since).all():
         return math.nan
     time = np.asarray(section["time"])
-    start = min(int(np.searchsorted(time, latest)), len(time) - 1)
-    columns = [np.asarray(section[f"{name}{of}"]) for name in SECTIONS for of in ("", "_velocity")]
+    start = min(int(np.searchsorted(time, max(since))), len(time) - 1)
+    columns = [section[f"{name}{of}"] for name in SECTIONS for of in ("", "_velocity")]
     return float(time[first_settled(np.column_stack(columns), start)])
 
 
 def _since(
     section: Mapping[str, ArrayLike], bins: Mapping[str, ArrayLike] | None, name: str
 ) -> float:
-    """Time from which a variable has settled, s; infinite if this is not shown."""
-    answer = settling(section["time"], section[name])
-    if math.isnan(answer.since) and bins is not None:
-        widths = np.asarray(bins[f"{name}_max"]) - np.asarray(bins[f"{name}_min"])
+    """Time from which a variable has settled, s; nan if this is not shown."""
+    since = settling(section["time"], section[name]).since
+    if math.isnan(since) and bins is not None:
+        widths = np.subtract(bins[f"{name}_max"], bins[f"{name}_min"])
         # the last one is cut
-        answer = settling(np.asarray(bins["time"])[:-1], widths[:-1], still=1.0)
-    return math.inf if math.isnan(answer.since) else answer.since
+        since = settling(np.asarray(bins["time"])[:-1], widths[:-1], still=1.0).since
+    return since

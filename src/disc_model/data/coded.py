@@ -1,13 +1,17 @@
-"""Words in place of the numbers by which datasets of studies and of files stand for them."""
+"""Words in place of the numbers by which datasets of studies and of files stand for them, and datasets as
+tables of text."""
 
 from __future__ import annotations
 
-from typing import TypeVar
+from collections.abc import Mapping
+from typing import Any, TypeVar
 
+import pandas as pd
 import xarray as xr
 
 from disc_model.data.variables import flag_names
 from disc_model.errors import require
+from disc_model.parameters import PLATE_NAME, Disc
 
 Data = TypeVar("Data", xr.DataArray, xr.Dataset, xr.DataTree)
 
@@ -45,25 +49,45 @@ def words(data: Data) -> Data:
     >>> study["status"].values.tolist(), dm.words(study["status"]).values.tolist()
     ([[0], [0]], [['ok'], ['ok']])
     """
-    kinds = (xr.DataArray, xr.Dataset, xr.DataTree)
-    rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
-    require((isinstance(data, kinds), "data", data, rule))
-    if isinstance(data, xr.DataArray):
-        return _words_of(data)
+    if isinstance(data, xr.DataTree):
+        return data.map_over_datasets(words)
     if isinstance(data, xr.Dataset):
-        return _words_in(data)
-    return data.map_over_datasets(_words_in)
-
-
-def _words_in(data: xr.Dataset) -> xr.Dataset:
-    """A dataset with words in place of all numbers that stand for them."""
-    return data.assign({name: _words_of(x) for name, x in data.items() if CODED in x.attrs})
-
-
-def _words_of(variable: xr.DataArray) -> xr.DataArray:
-    """A variable with words in place of numbers that stand for them."""
-    if CODED not in variable.attrs:
-        return variable
-    worded = variable.copy(data=flag_names(variable))
-    worded.attrs = {key: x for key, x in variable.attrs.items() if key not in OF_NUMBERS}
+        return data.assign({name: words(x) for name, x in data.items() if CODED in x.attrs})
+    rule = "must be a DataArray, Dataset or DataTree of xarray; tables such as events have words already"
+    require((isinstance(data, xr.DataArray), "data", data, rule))
+    if CODED not in data.attrs:
+        return data
+    worded = data.copy(data=flag_names(data))
+    worded.attrs = {key: x for key, x in data.attrs.items() if key not in OF_NUMBERS}
     return worded
+
+
+# ---- Tables of text
+
+
+def table_of(data: xr.Dataset) -> pd.DataFrame:
+    """A dataset as one table: a row for each point of all its dimensions, words in place of numbers that
+    stand for them, and units in the heads, such as "P (N)"."""
+    points = words(data)
+    heads = {name: head_of(str(name), x.attrs) for name, x in points.variables.items()}
+    if points.dims:
+        return points.to_dataframe().reset_index().rename(columns=heads)
+    row = {heads[name]: points[name].item() for name in heads}
+    return pd.DataFrame([row])
+
+
+def head_of(name: str, attributes: Mapping[Any, Any]) -> str:
+    """The head of a column: a name, and the unit of its numbers."""
+    unit = attributes.get("units", "1")
+    return name if unit in ("", "1") else f"{name} ({unit})"
+
+
+def with_texts_of_discs(data: xr.Dataset) -> xr.Dataset:
+    """A dataset whose discs along a dimension are their tables in JSON, and the plate beside them its
+    name."""
+    texts = {}
+    for name, x in data.coords.items():
+        if x.dtype.kind == "O" and all(isinstance(value, Disc | None) for value in x.values.flat):
+            written = [PLATE_NAME if disc is None else disc.model_dump_json() for disc in x.values]
+            texts[name] = (x.dims, written, x.attrs)
+    return data.assign_coords(texts)

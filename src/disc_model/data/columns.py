@@ -1,4 +1,5 @@
-"""Datasets of the numbers of a case: samples and events along a dimension, scalars, and parameters."""
+"""Datasets of the numbers of a case: samples and events along a dimension, scalars, parameters, and what
+functions return."""
 
 from __future__ import annotations
 
@@ -13,7 +14,15 @@ import xarray as xr
 
 from disc_model.data.dataset import CONVENTIONS
 from disc_model.data.described import known_of
-from disc_model.data.variables import CHOICES, SCALARS, SERIES, STATUSES, attributes, message_of
+from disc_model.data.variables import (
+    CHOICES,
+    SCALARS,
+    SERIES,
+    STATUSES,
+    Variable,
+    attributes,
+    message_of,
+)
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.errors import DiscModelError, Fault, ParameterError
 from disc_model.parameters import PLATE, RESIDUAL, SURFACE, Parameters
@@ -24,9 +33,7 @@ def series_dataset(columns: Mapping[str, Any], along: str) -> xr.Dataset:
     the same time."""
     data: dict[str, Any] = {}
     for name, column in columns.items():
-        kind: type = float
-        if name in SERIES:
-            kind = SERIES[name].dtype
+        kind: type = SERIES[name].dtype if name in SERIES else float
         data[name] = (along, np.asarray(column, kind), attributes(name))
     return xr.Dataset(data).set_coords("time")
 
@@ -60,9 +67,6 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
     has no value, or does not count beside another one."""
     values: dict[str, Any] = p.model_dump()
     values["stretching"] = p.stretching
-    values["disc"] = ""
-    if p.disc is not None:
-        values["disc"] = p.disc.model_dump_json()  # variables hold no mapping
     if p.contact_compliance == RESIDUAL:
         # nan if no modes are left out for it, which has made the case fail
         values["contact_compliance"] = math.nan
@@ -70,21 +74,22 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
             values["contact_compliance"] = contact_compliance(p)
     if p.friction_offset == SURFACE:
         values["friction_offset"] = p.h / 2
-        if p.disc is not None:  # it follows from the table
-            values["friction_offset"] = math.nan
-    if p.disc is not None:
+    if p.disc is None:
+        values["disc"] = ""
+        if p.damping_ratio is not None:
+            values["D_star"] = math.nan
+    else:
+        values["disc"] = p.disc.model_dump_json()  # variables hold no mapping
+        values |= {name: math.nan for name in PLATE if isinstance(values[name], float)}
         values["n_diameters"] = max(p.disc.diameters)
         values["n_circles"] = max(p.disc.circles)
         values["normalization"] = "orthonormal"  # as amplitudes per root of mass are
+        if p.friction_offset == SURFACE:  # it follows from the table
+            values["friction_offset"] = math.nan
+    return {name: math.nan if value is None else value for name, value in values.items()}
 
-    unused = [name for name, value in values.items() if value is None]
-    if p.disc is not None:
-        unused += [name for name in PLATE if isinstance(values[name], float)]
-    elif p.damping_ratio is not None:
-        unused.append("D_star")
-    values |= dict.fromkeys(unused, math.nan)
-    return values
 
+# ---- What functions return
 
 BY_METHODS = ("stable", "at_lower_bound", "border", "stick_time", "slip_time")
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
@@ -98,46 +103,74 @@ def result_dataset(result: Any, function: str = "") -> xr.Dataset:
 
     Parameters
     ----------
-    result : a dataset, a result of this package, a mapping, or one number
+    result : a dataset, a result of this package, whose attributes become variables, a mapping, or one number
     function : its name, if it is one of this package
     """
-    if isinstance(result, xr.Dataset):
-        data, words = result, {"status": "ok", "message": result.attrs.get("message", "")}
-    elif hasattr(result, "to_dataset"):
-        data, words = result.to_dataset(), {"status": "ok", "message": message_of(result)}
-    else:
-        data = _dataset_of_values(_values_of(result), type(result).__name__ if is_dataclass(result) else function)
-        words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
+    words = {"status": str(getattr(result, "status", "ok")), "message": message_of(result)}
+    data = result if isinstance(result, xr.Dataset) else _dataset_of(result, function)
     if not data.variables:
         rule = "must return a number, a mapping of numbers, words and arrays of one dimension, or a dataset"
         raise ParameterError(Fault(("function",), function, rule))
-    missing = {name: word for name, word in words.items() if name not in data}
-    return xr.Dataset({**missing, **dict(data.data_vars)}, data.coords)
+    return with_real_parts(xr.Dataset({**words, **data.data_vars}, data.coords))
 
 
-def _dataset_of_values(values: Mapping[str, Any], kind: str) -> xr.Dataset:
+def _dataset_of(result: Any, function: str) -> xr.Dataset:
+    """The dataset of a result, with its attributes as variables, or of its values."""
+    kind = type(result).__name__ if is_dataclass(result) else function
+    if not hasattr(result, "to_dataset"):
+        return _dataset_of_values(_values_of(result), kind)
+    data = result.to_dataset()
+    stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
+    return data.assign(_dataset_of_values(stated, kind))
+
+
+def _dataset_of_values(values: Mapping[Any, Any], kind: str) -> xr.Dataset:
     """Numbers, words and one-dimensional arrays by name, with what the table says of them."""
-    known = {name: each.texts() for name, each in known_of(kind).items() if not each.flags} if kind else {}
+    known = known_of(kind)
     variables = {}
     for name, value in values.items():
-        array = np.array(str(value)) if isinstance(value, str) else np.asarray(value)
+        array = np.asarray(str(value) if isinstance(value, str) else value)
         if array.ndim <= 1 and array.dtype.kind in "biufcU":
-            variables[name] = xr.Variable((f"{name}_index",)[: array.ndim], array, known.get(name, {}))
+            said = known.get(name, Variable(units=""))
+            attrs = {} if said.flags else said.texts()
+            variables[name] = ((f"{name}_index",)[: array.ndim], array, attrs)
     return xr.Dataset(variables)
 
 
 def _values_of(result: Any) -> Mapping[str, Any]:
     """The values of a result by name; nan where a result of `floquet` has no cycle."""
+    if isinstance(result, Mapping):
+        return result
     if hasattr(result, "scalars"):
         return dict(result.scalars())
     if not is_dataclass(result):
-        return result if isinstance(result, Mapping) else {"value": result}
+        return {"value": result}
     names = [each.name for each in fields(result) if not each.name.startswith("_")]
-    values = {name: getattr(result, name) for name in (*names, *BY_METHODS) if hasattr(result, name)}
-    if "message" in values:
-        values["message"] = message_of(result)
-    if getattr(result, "sliding", None) is not None:
-        values["sliding_growth_rate"] = result.sliding.growth_rate
-        if result.status != "ok":
+    every = {name: getattr(result, name, None) for name in (*names, *BY_METHODS)}
+    values = {name: value for name, value in every.items() if value is not None}
+    if "sliding" in values:
+        values["sliding_growth_rate"] = values["sliding"].growth_rate
+        if values["status"] != "ok":
             values |= dict.fromkeys(OF_A_CYCLE, math.nan)
-    return values
+    return {**values, "message": message_of(result)}
+
+
+def with_real_parts(data: xr.Dataset) -> xr.Dataset:
+    """A dataset with the real and the imaginary part of each complex variable x in its place, x_real and
+    x_imag: files have no complex numbers."""
+    parts: dict[str, xr.DataArray] = {}
+    for name, x in data.data_vars.items():
+        if x.dtype.kind == "c":
+            parts |= {f"{name}_real": x.real, f"{name}_imag": x.imag}
+    whole = [name for name, x in data.data_vars.items() if x.dtype.kind == "c"]
+    return data.drop_vars(whole).assign(parts)
+
+
+def with_complex_values(data: xr.Dataset) -> xr.Dataset:
+    """A dataset with complex variables in place of the parts that `with_real_parts` has made of them."""
+    names = [
+        str(name).removesuffix("_real") for name in data.data_vars if str(name).endswith("_real")
+    ]
+    whole = {name: data[f"{name}_real"] + 1j * data[f"{name}_imag"] for name in names}
+    parts = [f"{name}_{part}" for name in names for part in ("real", "imag")]
+    return data.drop_vars(parts).assign(whole)

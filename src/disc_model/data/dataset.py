@@ -8,13 +8,11 @@ import json
 from collections.abc import Iterable, Sequence
 from functools import partial
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any
 
 import xarray as xr
-from netCDF4 import Dataset
-from xarray.backends import NetCDF4DataStore
 
+from disc_model.data.coded import table_of, with_texts_of_discs
 from disc_model.data.described import describe_run
 from disc_model.data.files import (
     MissingFile,
@@ -25,65 +23,179 @@ from disc_model.data.files import (
     write_atomically,
 )
 from disc_model.data.variables import STATUSES
-from disc_model.errors import require
+from disc_model.errors import Fault, ParameterError, require
 
 __all__ = ["MissingFile", "UnreadableFile", "WriteError", "load", "save"]
 
 CONVENTIONS = "CF-1.11"
 
 
-# ---- Trees and files
+# ---- Writing
 
 
-def save(tree: xr.DataTree, path: str | Path, *, compressed: bool = True) -> None:
-    """Write a tree as netCDF 4, atomically; raises `ParameterError` for what is no tree, or
-    `WriteError`."""
-    require(
-        (isinstance(tree, xr.DataTree), "tree", tree, "must be an xarray.DataTree"),
-        (isinstance(compressed, bool), "compressed", compressed, "must be True or False"),
-    )
+def save(data: Any, path: str | Path) -> None:
+    """Write a dataset, such as `sweep` and `run_study` return, to a file: whole, for `disc_model.load`, or as a table.
 
-    write_atomically(regular_file(path), partial(_write, tree, compressed=compressed))
+    Parameters
+    ----------
+    data : an xarray.Dataset or xarray.DataTree of numbers and words; discs along a dimension are written as text, in
+        JSON, and None beside them, the plate, as "plate". A `Branch` and what `critical` returns are written as the
+        dataset of their method `to_dataset`, and an xarray.DataArray that has a name as a dataset of it alone. A
+        `Result` is written by its method `save`, to .nc, and read by its method `load`
+    path : its suffix says how. ".nc": netCDF 4. ".csv": a table of pandas with a row for each point, units in the
+        heads, such as "Omega (rad s-1)", and words for what stands as numbers in `data`. Numbers that stand along
+        fewer dimensions are repeated: choose some, as by ``data[["crossing_Omega", "crossing_effect"]]``. Tables are
+        for other programs: `load` reads none
+
+    Returns
+    -------
+    None
+
+    Raises
+    ------
+    ParameterError
+        If the file has another suffix, or the dataset holds what such a file cannot, as a table a tree.
+    disc_model.data.dataset.WriteError
+        If the folder does not exist, or the disk is full.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> cycles = dm.sweep(dm.floquet, dm.Parameters(N=385, Omega=15), Omega=[12, 14])
+    >>> dm.save(cycles, "cycles.nc")
+    >>> dm.load("cycles.nc").identical(cycles)
+    True
+    """
+    if hasattr(data, "save"):
+        data.save(path)
+        return
+    file = regular_file(path, ".nc", ".csv")
+    given = _as_dataset(data)
+    write = partial(_write, given)
+    if file.suffix == ".csv":
+        is_one = isinstance(given, xr.Dataset)
+        require((is_one, "data", "a tree", "must be one group to be a table"))
+        write = partial(table_of(given).to_csv, index=False)
+    write_atomically(file, write)
 
 
-def _write(tree: xr.DataTree, name: str, *, compressed: bool) -> None:
-    """Write a new file of a tree, with all groups defined before an array is written.
-    `DataTree.to_netcdf` writes each array as soon as it is defined, after a pass through all of the
-    file's metadata: eight times the time for 70 cases."""
-    arrays: list[tuple[Any, Any]] = []
-    collector = SimpleNamespace(add=lambda source, target: arrays.append((source, target)))
-    with Dataset(name, "w") as root:
-        for node in tree.subtree:
-            group = node.to_dataset(inherit=node is tree)
-            store = NetCDF4DataStore(
-                root if node is tree else root.createGroup(node.relative_to(tree))
-            )
-            encoding = {
-                str(name): _encode(variable, compressed)
-                for name, variable in group.variables.items()
-            }
-            group.dump_to_store(store, encoding=encoding, writer=collector)
-        for source, target in arrays:
-            target[...] = source
+def _as_dataset(data: Any) -> Any:
+    """A dataset or tree as it is, and an array or a result as its dataset; raises `ParameterError`."""
+    rule = "must be an xarray.Dataset or xarray.DataTree"
+    if isinstance(data, xr.Dataset):
+        return with_texts_of_discs(data)
+    if isinstance(data, xr.DataTree):
+        return data
+    require((hasattr(data, "to_dataset"), "data", data, rule))
+    try:
+        return data.to_dataset()
+    except ValueError as error:  # of an array without a name, or with that of a coordinate
+        raise ParameterError(Fault(("data",), "", str(error))) from None
 
 
-def load(path: str | Path) -> xr.DataTree:
-    """Read a netCDF file as a tree, into memory; raises `ParameterError`, `UnreadableFile` or
-    `MissingFile`."""
+def _write(data: xr.Dataset | xr.DataTree, name: str) -> None:
+    """Write a dataset or a tree as netCDF; raises `ParameterError` for what a file cannot hold."""
+    encoding: dict[str, Any]
+    if isinstance(data, xr.DataTree):
+        encoding = {node.path: _encoding(node.to_dataset(inherit=False)) for node in data.subtree}
+    else:
+        encoding = _encoding(data)
+    try:
+        data.to_netcdf(name, engine="netcdf4", encoding=encoding)
+    except (NotImplementedError, TypeError, ValueError) as error:
+        rule = f"must hold numbers and words, with attributes that are text or numbers: {error}"
+        raise ParameterError(Fault(("data",), "", rule)) from None
+
+
+def _encoding(group: xr.Dataset) -> dict[str, Any]:
+    """How variables are written: arrays compressed, with the checksums of HDF5 (fletcher32), which every
+    reader compares."""
+    arrays = {"fletcher32": True, "zlib": True, "complevel": 1, "shuffle": True}
+    encoding = {}
+    for name, variable in group.variables.items():
+        own: dict[str, Any] = {"_FillValue": None}
+        if variable.dtype.kind in "UO":
+            own = {"dtype": "S1"}
+        elif variable.ndim and variable.size:
+            own.update(arrays)
+        encoding[str(name)] = own
+    return encoding
+
+
+# ---- Reading
+
+
+def load(path: str | Path) -> xr.Dataset | xr.DataTree:
+    """Read a dataset of a study, or a file of `disc_model.save` or `Result.save`, into memory.
+
+    Parameters
+    ----------
+    path : of a netCDF file
+
+    Returns
+    -------
+    xarray.Dataset
+        A DataTree if the file has groups: of a run single numbers at its root, and a group for the events and for each
+        window.
+
+    Raises
+    ------
+    ParameterError
+        If the name is not allowed for a file.
+    disc_model.data.dataset.UnreadableFile
+        If the file is damaged, or is neither.
+    disc_model.data.dataset.MissingFile
+        If there is no such file.
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15.1)
+    >>> dm.simulate(case, 1, {"late": dm.Window(last=0.5, rate=1e4)}).save("run.nc")
+    >>> sorted(dm.load("run.nc").children)
+    ['events', 'final_state', 'late']
+    """
+    tree = load_tree(path)
+    return tree if tree.children else tree.to_dataset()
+
+
+def load_tree(path: str | Path) -> xr.DataTree:
+    """As `load`, always as a tree."""
     file = regular_file(path)
     try:
-        groups = xr.open_groups(file, engine="netcdf4", decode_timedelta=False)
-        try:
-            # a tree of loaded groups is made in three quarters of the time of a tree that is loaded,
-            # and DataTree.load skips a variable with its group's name
-            return xr.DataTree.from_dict({name: each.load() for name, each in groups.items()})
-        finally:
-            for each in groups.values():
-                each.close()
+        return xr.load_datatree(file, engine="netcdf4", decode_timedelta=False).map_over_datasets(
+            _with_words
+        )
     except FileNotFoundError:
         raise MissingFile(f"{file}: there is no such file") from None
     except Exception as error:  # whatever a file of another kind leads the libraries to
         raise unreadable(file, getattr(error, "strerror", None) or error) from error
+
+
+def _with_words(group: xr.Dataset) -> xr.Dataset:
+    """A group whose words are text of numpy's own."""
+    words = {name: x.astype(str) for name, x in group.variables.items() if x.dtype.kind == "O"}
+    return group.assign(words)
+
+
+def load_result(path: str | Path) -> xr.DataTree:
+    """As `load_tree`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of
+    a run say what they are in today's words."""
+    try:
+        tree = load_tree(path)
+    except UnreadableFile as error:
+        raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
+    if "parameters_key" in tree.attrs:
+        describe_run(tree)
+    return tree
+
+
+def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
+    """As `load_result`, by the names of files, such as those of cases or studies."""
+    return {Path(path).stem: load_result(path) for path in paths}
+
+
+# ---- Provenance
 
 
 def json_attribute(value: Any) -> str:
@@ -94,48 +206,12 @@ def json_attribute(value: Any) -> str:
 def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
     """Attributes that say what made datasets; a value that differs between them becomes the list of
     all, as text."""
-    names = ("source_hash", "git_commit", "versions")
     provenance = {}
-    for name in names:
-        texts = {str(each.attrs[name]) for each in datasets if name in each.attrs}
-        if len(texts) == 1:
-            provenance[name] = min(texts)
-        elif texts:
-            provenance[name] = json_attribute(sorted(texts))
+    for name in ("source_hash", "git_commit", "versions"):
+        texts = sorted({str(each.attrs[name]) for each in datasets if name in each.attrs})
+        if texts:
+            provenance[name] = json_attribute(texts) if len(texts) > 1 else texts[0]
     return provenance
-
-
-def _encode(variable: xr.Variable, compressed: bool) -> dict[str, Any]:
-    """Encoding with the checksums of HDF5 (fletcher32), which every reader compares."""
-    if variable.dtype.kind in "UO":
-        return {"dtype": "S1"}
-    encoding: dict[str, Any] = {"_FillValue": None}
-    if variable.ndim and variable.size:
-        encoding["fletcher32"] = True
-        if compressed:
-            encoding |= {"zlib": True, "complevel": 1, "shuffle": True}
-    return encoding
-
-
-# ---- Several files
-
-
-def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
-    """Trees by the names of their files, such as those of cases or studies; raises `UnreadableFile`
-    with a remedy."""
-    return {Path(path).stem: load_result(path) for path in paths}
-
-
-def load_result(path: str | Path) -> xr.DataTree:
-    """As `load`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of a run
-    say what they are in today's words."""
-    try:
-        tree = load(path)
-    except UnreadableFile as error:
-        raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
-    if "parameters_key" in tree.attrs:
-        describe_run(tree)
-    return tree
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained
@@ -148,12 +224,11 @@ class Missing(Exception):
 
 def group(case: xr.DataTree, name: str) -> xr.Dataset:
     """A window, the Poincare section ``poincare`` or ``events``, as recorded."""
-    if name not in case.children:
-        known = case.dataset
-        if "status" in known and STATUSES[int(known["status"])] == "failed":
-            raise Missing("failed")
-        raise Missing(f"did not record {name}")
-    return case.children[name].to_dataset(inherit=False)
+    if name in case.children:
+        return case.children[name].to_dataset(inherit=False)
+    if "status" in case and STATUSES[int(case["status"])] == "failed":
+        raise Missing("failed")
+    raise Missing(f"did not record {name}")
 
 
 def events(case: xr.DataTree) -> xr.Dataset:
@@ -170,17 +245,13 @@ def samples(
     """A window of at least `at_least` samples; or bins of an `envelope`, each variable as ``_min``
     and ``_max``."""
     window = group(case, name)
-    if any(str(key).endswith("_min") for key in window) != envelope:
-        instead = "ranges, not as samples: its window has"
-        if envelope:
-            instead = "samples, not as ranges: its window needs"
-        raise Missing(f"recorded {name} as {instead} an envelope")
+    folded = any(str(key).endswith("_min") for key in window)
+    if folded != envelope:
+        kind = "ranges" if folded else "samples"
+        raise Missing(f"recorded {name} as {kind}: its window has, or needs, an envelope")
     length = window.sizes["time"]
     if length < at_least:
-        kept = "samples"
-        if envelope:
-            kept = "bins"
-        raise Missing(f"has {length} {kept} in {name}, at least {at_least} are needed")
+        raise Missing(f"has {length} samples in {name}, at least {at_least} are needed")
     return window
 
 
@@ -188,12 +259,9 @@ def markdown_table(head: Iterable[object], rows: Iterable[Iterable[object]]) -> 
     """Lines of a table: its head, the rule below it, and one line for each row; a | within a cell
     is escaped."""
     names = [*head]
-    lines = [_table_line(names), _table_line(["---"] * len(names))]
-    lines += [_table_line(row) for row in rows]
+    lines = []
+    table: list[Iterable[object]] = [names, ["---"] * len(names), *rows]
+    for row in table:
+        cells = [str(cell).replace("|", r"\|") for cell in row]
+        lines.append(f"| {' | '.join(cells)} |")
     return lines
-
-
-def _table_line(row: Iterable[object]) -> str:
-    """Return a line of a table in Markdown."""
-    cells = [str(cell).replace("|", r"\|") for cell in row]
-    return f"| {' | '.join(cells)} |"

@@ -7,7 +7,7 @@ import secrets
 from collections.abc import Callable
 from pathlib import Path
 
-from disc_model.errors import DiscModelError, Fault, ParameterError, require
+from disc_model.errors import DiscModelError, require
 
 
 class WriteError(DiscModelError, OSError):
@@ -27,35 +27,32 @@ def unreadable(path: str | Path, reason: object) -> UnreadableFile:
     return UnreadableFile(f"{path}: cannot be read: {reason}")
 
 
-# ---- Names and writing
-
-
-def regular_file(path: str | os.PathLike[str]) -> Path:
-    """A path that leads to a file or to nothing; raises `ParameterError` otherwise."""
+def regular_file(path: str | os.PathLike[str], *suffixes: str) -> Path:
+    """A path that may be that of a file, with one of some suffixes if there are any; raises
+    `ParameterError`."""
+    is_path = isinstance(path, str | os.PathLike)
     rule = "must be the name of a file"
-    possible = isinstance(path, str | os.PathLike) and "\0" not in str(path)
-    require((possible, "path", str(path), rule))
+    require((is_path and not os.path.isdir(path), "path", str(path), rule))
     file = Path(path)
-    try:
-        named = file.is_file() or not file.exists()
-    except OSError as error:  # such as a name that is too long
-        raise ParameterError(Fault.of(("path",), str(path), f"{rule}: {error.strerror}")) from None
-    require((named, "path", str(path), rule))
+    known = not suffixes or file.suffix in suffixes
+    require((known, "path", str(path), f"must end in {' or '.join(suffixes)}"))
     return file
 
 
 def write_atomically(path: Path, write: Callable[[str], object]) -> None:
     """Write a file by `write` under a temporary name, and rename it: after a failure `path` is
     unchanged. Raises `WriteError`."""
-    if not path.parent.is_dir():
-        raise WriteError(f"{path}: must be in a folder that exists")
     # `write` makes the file, so that the umask determines its permissions; the name is short, as
     # the file's own may have the greatest length
     temporary = path.with_name(f".{secrets.token_hex(8)}.tmp")
     try:
+        if not os.path.isdir(path.parent):
+            raise WriteError(f"{path}: must be in a folder that exists")
         write(str(temporary))
         os.replace(temporary, path)
-    except (OSError, RuntimeError) as error:
+    except DiscModelError:
+        raise
+    except (OSError, RuntimeError, ValueError) as error:
         # the netCDF library raises RuntimeError, without the system's reason
         raise WriteError(f"{path}: cannot be written: {error}") from error
     finally:

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from disc_model.display import counted, frequencies_text
 from disc_model.errors import StatusBase
 from disc_model.mode_units import si_unit_of_mode
-from disc_model.parameters import RATIOS, Parameters
+from disc_model.parameters import Parameters
 
 _TABLES = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
 WORDS = {name: tuple(words) for name, words in _TABLES["words"].items()}
@@ -164,12 +164,10 @@ def _variables(table: Mapping[str, Any]) -> dict[str, Variable]:
     return variables
 
 
-SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS = (
+SERIES, SCALARS, PERTURBATIONS, COORDINATES, OF_STATES, _OF_GRIDS, _OF_A_MODE = (
     _variables(_TABLES[part])
-    for part in ("series", "scalars", "perturbations", "modal", "of_states", "of_grids")
+    for part in ("series", "scalars", "perturbations", "modal", "of_states", "of_grids", "of_modes")
 )
-OF_ARGUMENTS = {name: _variables(part) for name, part in _TABLES["arguments"].items()}
-"""Arguments of functions that are no options of a quantity, by function."""
 OF_RESULTS = {name: _variables(part) for name, part in _TABLES["results"].items()}
 OF_RESULTS["Result"].update(SCALARS)
 """Variables of results by their class or function, which may mean something else elsewhere."""
@@ -188,91 +186,90 @@ CHOICES: dict[str, tuple[str, ...]] = {
     name: get_args(Parameters.model_fields[name].annotation)
     for name in ("normalization", "contact", "contact_force", "friction_law", "stretching")
 }
-_OF_RATIOS = {
-    name: Variable("1", f"{name_above} relative to {other}")
-    for name, (name_above, other) in RATIOS.items()
+# flag of points that a grid's rule leaves out; other variables have no value there
+EXCLUDED = "excluded"
+TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
+"""Attributes of numbers that stand for True and False, since some are missing."""
+
+
+# ---- What variables are
+
+
+_BOUNDS = {"min": "least", "max": "greatest"}
+_CF_UNITS = {
+    "N/m": "N m-1",
+    "N s/m": "N s m-1",
+    "kg/m^3": "kg m-3",
+    "m/N": "m N-1",
+    "rad/s": "rad s-1",
+    "s/m": "s m-1",
 }
-# names in tables and figures of points without a stick-slip cycle, by their status
-WITHOUT_CYCLE = {
-    "no_cycle": "no cycle found",
-    "separates": "immediate separation",
-    "no_stick_slip": "steady sliding",
-    "at_rest": "permanent stick",
-}
-EXCLUDED = (
-    "excluded"  # flag of points that a grid's rule leaves out; other variables have no value there
-)
-SAMPLE = "sample"  # the dimension of a grid that numbers the samples of distributed parameters
+"""Units of parameters as files have them."""
 
 
 def attributes(name: str) -> dict[str, Any]:
     """CF attributes of a variable: units, long name, comment and, for a flag, the meanings of its
     values."""
     stem, _, bound = name.rpartition("_")
-    if bound in ("min", "max") and stem in SERIES:
-        which = "least" if bound == "min" else "greatest"
-        known = SERIES[stem]
-        remark = "; ".join(filter(None, ["within the bin", known.comment]))
-        variable = known._replace(long_name=f"{which} {known.long_name}", comment=remark)
-    elif name in (others := SERIES | SCALARS | PERTURBATIONS | _OF_RATIOS | _OF_GRIDS):
-        variable = others[name]
-    else:
-        field = Parameters.model_fields[name]
-        unit = re.sub(
-            r"/(\w+?)\^?(\d?)$",
-            lambda below: f" {below[1]}-{below[2] or 1}",
-            Parameters.unit(name) or "1",
-        )
-        description = field.description or name
-        long_name = _TABLES["parameters"].get(name, description)
-        comment = description if long_name != description else ""
-        variable = Variable(unit, long_name, CHOICES.get(name, ()), comment=comment)
-    return variable.attributes
+    known = SERIES | SCALARS | PERTURBATIONS | _OF_GRIDS
+    if bound in _BOUNDS and stem in SERIES:
+        variable = SERIES[stem]
+        remark = f"within the bin; {variable.comment}".removesuffix("; ")
+        text = f"{_BOUNDS[bound]} {variable.long_name}"
+        return variable._replace(long_name=text, comment=remark).attributes
+    if name in known:
+        return known[name].attributes
+    description = Parameters.model_fields[name].description or name
+    text = _TABLES["parameters"].get(name, description)
+    comment = description if text != description else ""
+    choices = CHOICES.get(name, ())
+    unit = Parameters.unit(name) or "1"
+    return Variable(_CF_UNITS.get(unit, unit), text, choices, comment=comment).attributes
 
 
-def rule_of_taken(name: str) -> str:
-    """The rule that the name of a case or window breaks: what of a file has this name."""
-    if name in GROUPS:
-        return "must not be the name of a group of results"
-    kind = "parameter" if name in Parameters.model_fields else "variable of results"
-    if name not in BESIDE_WINDOWS:
-        return f"must not be the name of a {kind}"
-    return f"must not be the name of a {kind} ({attributes(name)['long_name']})"
+def attributes_of_mode(name: str) -> dict[str, Any]:
+    """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
+    column, diameters, circles = name.rsplit("_", 2)
+    number = _OF_A_MODE[column]
+    text = f"{number.long_name} of the mode ({diameters}, {circles})"
+    lines = f"{counted(int(diameters), 'nodal diameter')} and {counted(int(circles), 'circle')}"
+    return number._replace(long_name=text, comment=lines).attributes
 
 
-TRUTH = {"comment": "1 for True, 0 for False, nan where there is neither"}
-"""Attributes of numbers that stand for True and False, since some are missing."""
-
-
-WITHOUT_EFFECT = {"comment": "kept beside the samples, without effect on the results"}
-"""Attributes of numbers that stand along samples, but are none of the case."""
-
-
-FORMER_WORDS = {"quiet": "stick_slip"}
-"""Words of files that former versions have written, and what they are now."""
+def attributes_of_number(name: str) -> dict[str, Any]:
+    """CF attributes of a number of a case: a parameter, or a number of one of a disc's modes."""
+    if name in Parameters.model_fields:
+        return attributes(name)
+    return attributes_of_mode(name)
 
 
 def flag_names(variable: Any) -> np.ndarray:
-    """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as
-    they are, but for `FORMER_WORDS`, and "" for nan."""
+    """Values of a flag variable (a DataArray) as words, array of str of the same shape; words as they
+    are, and "" for nan."""
     values = variable.values
     if variable.dtype.kind in "UO":
         # as of words that xarray's where has masked
-        words = np.where(variable.isnull(), "", values).astype(str)
-    else:
-        known = np.array([*variable.attrs["flag_meanings"].split(), ""])
-        # the last one is that of a missing value
-        words = known[np.where(np.isnan(values), -1, values).astype(int)]
-    for former, word in FORMER_WORDS.items():
-        if former in words:
-            words = np.where(words == former, word, words)
-    return np.asarray(words)
+        return np.where(variable.isnull(), "", values).astype(str)
+    # the last one is that of a missing value
+    known = np.array([*variable.attrs["flag_meanings"].split(), ""])
+    return np.asarray(known[np.where(np.isnan(values), -1, values).astype(int)])
 
 
-def typeset(text: str) -> str:
-    """The text with its indexed symbols, such as c_p, in the notation of matplotlib, also if some
-    are in it already."""
-    return re.sub(r"(?<!\$)\b(\w)_(\w)\b", r"$\1_\2$", text)
+def rule_of_taken(name: str) -> str:
+    """The rule that the name of a case or window breaks, as a part of a file has it."""
+    kind = "parameter" if name in Parameters.model_fields else "variable"
+    if name in GROUPS:
+        kind = "group"
+    return f"must not be the name of a {kind} of results"
+
+
+def stated_in(study: Any, what: str) -> dict[str, Any]:
+    """What the dataset of a grid study or of a sweep states, such as its "base" or "options"; empty
+    without."""
+    return json.loads(study.attrs.get(what, "{}"))
+
+
+# ---- What readers are shown
 
 
 class Shown(NamedTuple):
@@ -284,13 +281,14 @@ class Shown(NamedTuple):
     factor: float = 1.0  # from SI to the unit
 
 
-# numeric parameters, their ratios, perturbations, and sampled variables
+# numeric parameters, perturbations, and sampled variables
 SHOWN = {name: Shown(*entry) for name, entry in _TABLES["shown"].items()}
-for _name, (_upper, _lower) in RATIOS.items():
-    SHOWN[_name] = Shown("Ratio", f"{SHOWN[_upper].symbol}/{SHOWN[_lower].symbol}", "")
 
 
-_OF_A_MODE = _variables(_TABLES["of_modes"])
+def typeset(text: str) -> str:
+    """The text with its indexed symbols, such as c_p, in the notation of matplotlib, also if some
+    are in it already."""
+    return re.sub(r"(?<!\$)\b(\w)_(\w)\b", r"$\1_\2$", text)
 
 
 def presentation_of(name: str) -> Shown:
@@ -309,9 +307,14 @@ def ranged_variable(name: str) -> str:
 
 
 def unit_of_parameter(name: str) -> str:
-    """Return the unit of a parameter or of a number of a disc's table for readers; "" without one."""
+    """The unit of a parameter or of a number of a disc's table for readers; "" without one."""
     unit = Parameters.unit(name) or si_unit_of_mode(name)
     return "" if unit == "1" else unit
+
+
+def value_with_unit(name: str, value: float) -> str:
+    """A value of a parameter with its name and its unit of SI, in a message."""
+    return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()
 
 
 def message_of(result: Any) -> str:
@@ -327,33 +330,6 @@ def message_of(result: Any) -> str:
     return message if is_complete else with_advice(message, status)
 
 
-def value_with_unit(name: str, value: float) -> str:
-    """A value of a parameter with its name and its unit of SI, in a message."""
-    return f"{name} = {value:.6g} {unit_of_parameter(name)}".strip()
-
-
-def attributes_of_mode(name: str) -> dict[str, Any]:
-    """CF attributes of a number of one of a disc's modes, such as omega_2_0."""
-    column, diameters, circles = name.rsplit("_", 2)
-    number = _OF_A_MODE[column]
-    long_name = f"{number.long_name} of the mode ({diameters}, {circles})"
-    lines = counted(int(diameters), "nodal diameter"), counted(int(circles), "circle")
-    return number._replace(long_name=long_name, comment=" and ".join(lines)).attributes
-
-
-def attributes_of_number(name: str) -> dict[str, Any]:
-    """CF attributes of a number of a case: a parameter, a ratio, or a number of one of a disc's modes."""
-    if name in (*Parameters.model_fields, *RATIOS):
-        return attributes(name)
-    return attributes_of_mode(name)
-
-
-def stated_in(study: Any, what: str) -> dict[str, Any]:
-    """What the dataset of a grid study or of a sweep states, such as its "base" or "options"; empty
-    without."""
-    return json.loads(study.attrs.get(what, "{}"))
-
-
 def values_text(
     values: Mapping[str, Any], units: Mapping[str, tuple[str, float]] = MappingProxyType({})
 ) -> str:
@@ -361,21 +337,25 @@ def values_text(
     factors from SI; of a disc that is given by its modes their number and frequencies."""
     texts = []
     for name, field in Parameters.model_fields.items():
-        value: Any = values.get(name)
-        is_usual = value in (field.default, str(field.default)) and name not in ("N", "Omega")
-        if name not in values or is_usual or name in ("normalization", "contact"):
+        usual = [] if name in ("N", "Omega") else [field.default, str(field.default)]
+        told = name in values and name not in ("normalization", "contact")
+        if not told or values[name] in usual:
             continue
         if name == "disc":
-            omega = dict(value)["omega"]
+            omega = dict(values[name])["omega"]
             modes = counted(len(omega), "mode")
             texts.append(f"a disc given by {modes} of {frequencies_text(omega)}")
             continue
-        shown = SHOWN.get(name) or Shown(name, name, Parameters.unit(name).removeprefix("1"))
+        shown = SHOWN.get(name) or Shown(name, name, unit_of_parameter(name))
         unit, factor = units.get(name, (shown.unit, shown.factor))
-        text = str(value)  # some parameters may be words, which have no unit
-        if isinstance(value, float | int):
-            unit = unit if value else unit.removeprefix("10⁻⁵ ")
-            text = f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵")
-        texts.append(f"{shown.symbol or name} = {text}")
-    texts += [f"{SHOWN[name].symbol} = {values[name]:g}" for name in RATIOS if name in values]
+        texts.append(f"{shown.symbol or name} = {_number_text(values[name], unit, factor)}")
     return ", ".join(texts)
+
+
+def _number_text(value: Any, unit: str, factor: float) -> str:
+    """A value of a parameter in a unit, whose power of ten stands at the number; a word as it is."""
+    if not isinstance(value, float | int):
+        return str(value)
+    if not value:
+        unit = unit.removeprefix("10⁻⁵ ")
+    return f"{value * factor:g} {unit}".strip().replace(" 10⁻⁵", "·10⁻⁵")

@@ -14,7 +14,7 @@ exactly c nodal circles.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from operator import attrgetter
@@ -121,34 +121,21 @@ def radial_range(p: Parameters) -> tuple[float, float]:
 
 
 def _given_shapes(disc: Disc, r_0: float) -> tuple[Array, Array]:
-    """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them
-    replace them."""
+    """Radii, and the shapes of a table at these; at the slider the amplitudes that agree with them, within a
+    share of the mode's largest motion, replace them."""
     if not disc.radii:
         rule = "must have shapes at radii: only amplitudes under the slider are known"
         raise ParameterError(Fault(("disc",), "", rule))
     radii = np.array([r_0, *disc.radii])
-    at_slider = np.array(disc.amplitude)
-    if disc.radii[0] <= r_0 <= disc.radii[-1]:
-        by_shapes = shapes_at_slider(disc, r_0)
-        at_slider = np.where(are_elsewhere(disc, by_shapes), by_shapes, at_slider)
-    shapes = np.column_stack([at_slider, disc.shapes])
-    _, first = np.unique(
-        np.round(radii, 9), return_index=True
-    )  # nm, by which two radii are the same
-    return radii[first], shapes[:, first]
-
-
-def shapes_at_slider(disc: Disc, r_0: float) -> Array:
-    """The shapes of a table at the radius of the slider, by splines: kg^-1/2, (n_modes,)."""
-    return _spline(np.array(disc.radii), np.array(disc.shapes), np.array([r_0]))[:, 0]
-
-
-def are_elsewhere(disc: Disc, by_shapes: Array) -> np.ndarray:
-    """Whether the amplitude of each mode of a table is not that of its shape at the slider, as
-    `shapes_at_slider` has it, within a share of the mode's largest motion: (n_modes,)."""
     amplitude = np.array(disc.amplitude)
-    largest = np.abs(np.column_stack([amplitude, disc.shapes])).max(axis=1)
-    return np.abs(by_shapes - amplitude) > SAME_AMPLITUDE * largest
+    shapes = np.column_stack([amplitude, disc.shapes])
+    if radii[1] <= r_0 <= radii[-1]:
+        by_shapes = _spline(radii[1:], shapes[:, 1:], radii[:1])[:, 0]
+        apart = np.abs(by_shapes - amplitude) > SAME_AMPLITUDE * np.abs(shapes).max(axis=1)
+        shapes[apart, 0] = by_shapes[apart]
+    # nm, by which two radii are the same
+    _, first = np.unique(np.round(radii, 9), return_index=True)
+    return radii[first], shapes[:, first]
 
 
 def _spline(radii: Array, shapes: Array, r: Array) -> Array:
@@ -159,66 +146,48 @@ def _spline(radii: Array, shapes: Array, r: Array) -> Array:
     return np.asarray(make_interp_spline(radii, shapes, k=degree, axis=1)(r))
 
 
-def coupled_frequencies(p: Parameters, compliance: float = 0.0, kept: Any = slice(None)) -> Array:
+def coupled_frequencies(p: Parameters, compliance: float = 0.0) -> Array:
     """Frequencies of the modes of disc and attached slider at rest in which the slider moves,
-    rad/s, ascending: (n,), or (n + 1,) with a `compliance` of the contact (m/N). `kept` selects n
-    of the disc's modes. Raises `ModeError`."""
-    return np.sort(1 / np.sqrt(_inverse_squares(p, compliance, kept, eigvals_only=True)))
+    rad/s, ascending: (n,), or (n + 1,) with a `compliance` of the contact (m/N). Raises `ModeError`."""
+    return np.sort(coupled_shapes(p, compliance)[0])
 
 
 def coupled_shapes(p: Parameters, compliance: float = 0.0) -> tuple[Array, Array]:
     """Frequencies of `coupled_frequencies`, descending, and shapes in columns: n rows, each mode
     times its frequency. On a compliant contact the last row is the slider's."""
-    inverse_squares, shapes = _inverse_squares(p, compliance)
+    from scipy import linalg  # takes 0.3 s, and most jobs do without
+
+    omega = mode_arrays(p).omega
+    inverse_squares = shapes = np.zeros(0)
+    resolved = False
+    # a matrix that is singular by rounding, or not finite
+    with np.errstate(all="ignore"), suppress(linalg.LinAlgError, ValueError):
+        inverse_squares, shapes = linalg.eigh(*_coupling(p, compliance))
+        resolved = not omega.size or bool(inverse_squares[0] * WIDEST > inverse_squares[-1])
+    if not resolved:
+        ends = f"{omega.min(initial=np.inf):g} to {omega.max(initial=0):g} rad/s"
+        case = (
+            f"m={as_text(p.m)}, k={as_text(p.k)}, a contact compliance of {compliance:g} m/N and "
+        )
+        rule = f"disc modes of {ends}: squared frequencies must be within a factor of {WIDEST:g}"
+        raise ModeError(f"disc and slider at rest: {case}{rule}")
     return 1 / np.sqrt(inverse_squares), shapes
 
 
-def _inverse_squares(
-    p: Parameters, compliance: float, taking_part: Any = slice(None), **how: bool
-) -> Any:
-    """Solution by `eigh` of the eigenvalue problem of either contact: lambda^-2, ascending, and
-    shapes."""
-    from scipy import linalg  # takes 0.3 s, and most jobs do without
-
-    modes = mode_arrays(p)
-    omega = modes.omega[taking_part]
-    psi = modes.psi[taking_part]
-    try:
-        with np.errstate(all="ignore"):
-            matrices = _coupling(omega, psi, p.m, p.k, compliance)
-        solution = linalg.eigh(*matrices, **how)
-        values = solution if how else solution[0]
-        resolved = values.size == 0 or values[0] * WIDEST > values[-1]
-    except (linalg.LinAlgError, ValueError):  # a matrix that is singular by rounding, or not finite
-        resolved = False
-    if not resolved:
-        low = omega.min(initial=np.inf)
-        high = omega.max(initial=0)
-        case = f"m={as_text(p.m)}, k={as_text(p.k)}, "
-        case += f"a contact compliance of {compliance:g} m/N and "
-        case += f"disc modes of {low:g} to {high:g} rad/s"
-        rule = f"squared frequencies must be within a factor of {WIDEST:g}"
-        raise ModeError(f"disc and slider at rest: {case}: {rule}")
-    return solution
-
-
-def _coupling(
-    omega: Array, psi: Array, m: float, k: float, compliance: float
-) -> tuple[Array, Array]:
+def _coupling(p: Parameters, compliance: float) -> tuple[Array, Array]:
     """Both matrices of M y = lambda^-2 K y: `coupled_natural_frequencies` with y = omega v, so that
     low frequencies stay accurate beside high ones. On a compliant contact the last coordinate is u
     over the root of its compliance."""
-    phi = psi / omega
+    modes = mode_arrays(p)
+    omega = modes.omega
+    phi = modes.psi / omega
     if compliance == 0:
         at_slider = np.outer(phi, phi)
-        mass = np.diag(omega**-2) + m * at_slider
-        stiffness = np.eye(omega.size) + k * at_slider
-        return mass, stiffness
+        return np.diag(omega**-2) + p.m * at_slider, np.eye(omega.size) + p.k * at_slider
     stretch = np.append(phi / np.sqrt(compliance), -1.0)
-    mass = np.diag(np.append(omega**-2, m * compliance))
-    uncoupled = np.append(np.ones(omega.size), k * compliance)
-    stiffness = np.diag(uncoupled) + np.outer(stretch, stretch)
-    return mass, stiffness
+    mass = np.diag(np.append(omega**-2, p.m * compliance))
+    uncoupled = np.append(np.ones(omega.size), p.k * compliance)
+    return mass, np.diag(uncoupled) + np.outer(stretch, stretch)
 
 
 def modal_damping(p: Parameters) -> Array:
@@ -382,6 +351,8 @@ def _evaluate(l: Indices, lam: Array, coefficients: Array, exponents: Array, x: 
 def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
     """The lowest zeros lambda of the frequency determinant for each l, (n_circles + 1, n_diameters
     + 1)."""
+    from scipy.optimize.elementwise import find_root  # takes 0.2 s
+
     step = np.pi / (1 - inner) / POINTS_PER_ROOT
     l = np.arange(n_diameters + 1)
     start = 0.02 + 0.3 * np.maximum(
@@ -409,51 +380,16 @@ def _roots(inner: float, nu: float, n_diameters: int, n_circles: int) -> Array:
         raise ModeError(
             f"plate modes: no {n_circles + 1} roots for {missing[0]} nodal diameters at a/b={inner:g}"
         )
-    brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(1, 0, 2)
-    orders = np.tile(l, n_circles + 1)
-    lam = _refine(
-        lambda x: _determinant(orders, x, inner, nu),
-        brackets[..., 0].ravel(),
-        brackets[..., 1].ravel(),
-    )
-    return lam.reshape(n_circles + 1, n_diameters + 1)
+    brackets = np.array([of_l[: n_circles + 1] for of_l in by_diameters]).transpose(2, 1, 0)
+    orders = np.tile(l, (n_circles + 1, 1))
 
+    def determinant(lam: Array, orders: Indices) -> Array:
+        return _determinant(orders.ravel(), lam.ravel(), inner, nu).reshape(lam.shape)
 
-def _refine(function: Callable[[Array], Array], low: Array, high: Array) -> Array:
-    """Zeros of n functions in n brackets at once, to rounding: Chandrupatla's method (1997), shape
-    (n,)."""
-    x_1 = low.copy()
-    x_2 = high.copy()
-    f_1 = function(x_1)
-    f_2 = function(x_2)
-    t = np.full_like(low, 0.5)
-    for _ in range(100):
-        x = x_1 + t * (x_2 - x_1)
-        f = function(x)
-        same = np.sign(f) == np.sign(f_1)
-        x_3 = np.where(same, x_1, x_2)
-        f_3 = np.where(same, f_1, f_2)
-        x_2 = np.where(same, x_2, x_1)
-        f_2 = np.where(same, f_2, f_1)
-        x_1 = x
-        f_1 = f
-        best = np.where(np.abs(f_1) < np.abs(f_2), x_1, x_2)
-        tolerance = 2e-16 * best
-        width = np.abs(x_2 - x_1)
-        if np.all((width <= 4 * tolerance) | (f_1 == 0) | (f_2 == 0)):
-            break
-        with np.errstate(divide="ignore", invalid="ignore"):
-            xi = (x_1 - x_2) / (x_3 - x_2)
-            phi = (f_1 - f_2) / (f_3 - f_2)
-            quadratic = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
-            alpha = (x_3 - x_1) / (x_2 - x_1)
-            first = f_1 / (f_1 - f_2) * f_3 / (f_3 - f_2)
-            second = alpha * f_1 / (f_3 - f_1) * f_2 / (f_2 - f_3)
-            t = first - second
-            edge = np.minimum(tolerance / width, 0.5)
-        t = np.where(quadratic & np.isfinite(t), np.clip(t, edge, 1 - edge), 0.5)
-        t = np.where(np.isfinite(t), t, 0.5)
-    return best
+    # Chandrupatla's method, to rounding
+    tight = {"xatol": 0.0, "xrtol": 2e-16, "fatol": 0.0, "frtol": 0.0}
+    found = find_root(determinant, tuple(brackets), args=(orders,), tolerances=tight, maxiter=50)
+    return np.asarray(found.x)
 
 
 def _determinant(l: Indices, lam: Array, inner: float, nu: float) -> Array:

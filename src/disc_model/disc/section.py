@@ -19,7 +19,7 @@ from scipy.sparse import coo_matrix, csgraph, linalg
 
 from disc_model.arrays import Array, Indices
 from disc_model.display import brought
-from disc_model.errors import Fault, ParameterError, require
+from disc_model.errors import require
 from disc_model.parameters import Disc, Parameters
 from disc_model.units import is_number
 
@@ -106,10 +106,8 @@ def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
     rule = (
         "must be rectangles (r from, r to, z from, z to) with 0 < r from < r to and z from < z to"
     )
-    require(
-        (is_section, "section", rectangles, rule),
-        (is_number(size) and size > 0, "size", size, "must be > 0"),
-    )
+    is_size = is_number(size) and size > 0
+    require((is_section, "section", rectangles, rule), (is_size, "size", size, "must be > 0"))
     elements = np.prod(np.ptp(boxes, axis=(0, 2)) / size)
     rule = f"must give at most {MOST_ELEMENTS:,} elements: size and rectangles are in m"
     require((elements <= MOST_ELEMENTS, "size", size, rule))
@@ -118,27 +116,18 @@ def mesh_of(rectangles: Iterable[Iterable[float]], size: float) -> Any:
     mesh = brought("skfem", "fe").MeshQuad.init_tensor(*lines)
     middle = mesh.p[:, mesh.t].mean(axis=1).T[:, None]
     is_inside = np.all((low < middle) & (middle < high), axis=2).any(axis=1)
-    mesh = mesh.remove_elements(np.flatnonzero(~is_inside))
+    mesh = mesh.restrict(np.flatnonzero(is_inside))
+    links = coo_matrix((np.ones(mesh.facets.shape[1]), mesh.facets), shape=[mesh.p.shape[1]] * 2)
+    is_whole = csgraph.connected_components(links, directed=False)[0] == 1
     rule = "must be one piece: the rectangles must share edges"
-    require((_is_one_piece(mesh), "section", rectangles, rule))
+    require((is_whole, "section", rectangles, rule))
     return mesh
 
 
 def _divided(ends: Array, size: float) -> Array:
     """Coordinates with all ends among them, and no gap larger than `size`."""
-    parts = []
-    for a, b in pairwise(ends):
-        count = math.ceil((b - a) / size)
-        parts.append(np.linspace(a, b, count + 1)[:-1])
-    return np.concatenate([*parts, ends[-1:]])
-
-
-def _is_one_piece(mesh: Any) -> bool:
-    """Whether all elements of a mesh are connected by nodes."""
-    count = mesh.p.shape[1]
-    weights = np.ones(mesh.facets.shape[1])
-    links = coo_matrix((weights, mesh.facets), shape=(count, count))
-    return csgraph.connected_components(links, directed=False)[0] == 1
+    parts = [np.linspace(a, b, math.ceil((b - a) / size) + 1) for a, b in pairwise(ends)]
+    return np.unique(np.concatenate(parts))
 
 
 def _points(basis: Any, slider: Any) -> Points:
@@ -186,32 +175,27 @@ def _harmonic(
     if l == 0:  # rotation about the axis is uncoupled from the other displacements
         held = np.union1d(held, basis.split_indices()[2])
     free = basis.complement_dofs(held)
-    K = stiffness[free][:, free].tocsc()
-    M = mass[free][:, free].tocsc()
+    K, M = (matrix[free][:, free].tocsc() for matrix in (stiffness, mass))
 
     # twice as many modes, until one is above the highest frequency
     count = 4
-    while True:
-        sought = min(count, len(free) - 1)
-        start = np.ones(len(free))
-        squares, shapes = linalg.eigsh(K, sought, M, sigma=0.0, v0=start)
-        if squares.max() > highest**2 or count >= len(free) - 1:
-            break
-        if count >= MOST_EQUAL:
-            most = math.sqrt(squares.max()) / math.tau
-            rule = f"must be below the {count} lowest modes of {l} nodal diameters, which end at "
-            rule += f"{most:.3g} Hz: lengths are in m, E in Pa, rho in kg/m^3"
-            raise ParameterError(Fault.of(("highest_Hz",), highest / math.tau, rule))
+    most = min(MOST_EQUAL, len(free) - 1)
+    squares = shapes = np.zeros(0)
+    while count < 2 * most and not squares.max(initial=0.0) > highest**2:
+        squares, shapes = linalg.eigsh(K, min(count, most), M, sigma=0.0, v0=np.ones(len(free)))
         count *= 2
+    is_above = squares.max() > highest**2 or most < MOST_EQUAL
+    rule = (
+        f"must be below {most} modes of {l} nodal diameters: lengths in m, E in Pa, rho in kg/m^3"
+    )
+    require((is_above, "highest_Hz", highest / math.tau, rule))
 
     order = np.argsort(squares)
     order = order[squares[order] <= highest**2]
     whole = np.zeros((basis.N, len(order)))
     whole[free] = shapes[:, order]
     moves = whole[measured].T
-    omega = np.sqrt(squares[order])
-    upwards = np.where(moves[:, :1] < 0, -moves, moves)
-    return omega.tolist(), upwards
+    return np.sqrt(squares[order]).tolist(), np.where(moves[:, :1] < 0, -moves, moves)
 
 
 def _matrices(basis: Any, l: int, material: Material) -> tuple[Any, Any]:

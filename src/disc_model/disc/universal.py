@@ -114,18 +114,17 @@ def _disc(sets: Sequence[Data], place: Place) -> Disc:
     require((length * force, "units", place.units, rule))
     for data in sets:
         if data["type"] == 164:
-            sizes = [data["length"] * length, data["force"] * force]
-            rule = f"must be those of dataset 164: {data['length']:g} a metre, {data['force']:g} a newton"
-            require((np.allclose(sizes, 1, rtol=SAME_UNIT), "units", place.units, rule))
+            given = (data["length"], data["force"])  # of them in a metre and in a newton
+            fits = np.allclose(np.multiply(given, (length, force)), 1, rtol=SAME_UNIT)
+            require((fits, "units", place.units, f"dataset 164 has {given} of them in m and N"))
+        kinds = data.get("cs_type", data.get("CS_types", ()))
+        require((not any(kinds), "coordinate systems", [*kinds], "must be Cartesian"))
     nodes = [data for data in sets if data["type"] in NODES]
     modes = [data for data in sets if _kind(data) == NORMAL_MODE]
     found = ", ".join(dict.fromkeys(map(_kind, sets)))
     rule = f"must be nodes, 15 or 2411, and {NORMAL_MODE}, 55 or 2414"
     require((nodes and modes, "datasets", found, rule))
 
-    local = _local_systems(sets)
-    rule = "must be Cartesian, and the global one, for nodes and their motion"
-    require((not local, "coordinate systems", sorted(local), rule))
     circle = _circle(nodes, modes[0]["node_nums"], length, place)
     waves = [wave for data in modes if (wave := _wave(data, circle, force / length))]
     require((waves, "modes", len(modes), "must move the slider's circle along the axis"))
@@ -150,18 +149,6 @@ def _kind(data: Data) -> str:
     if is_real and (analysis, kind) == (2, 8) and values in (3, 6):
         return NORMAL_MODE
     return f"{number} (analysis {analysis}, data {kind})"
-
-
-def _local_systems(sets: Iterable[Data]) -> set[int]:
-    """Numbers of coordinate systems that are not Cartesian, in which nodes or their motion are given."""
-    local: set[int] = set()
-    used: set[int] = set()
-    for data in sets:
-        labels = data.get("cs_num", data.get("CS_sys_labels", ()))
-        kinds = data.get("cs_type", data.get("CS_types", ()))
-        local |= {label for label, kind in zip(labels, kinds, strict=True) if kind}
-        used |= {*data.get("def_cs", ()), *data.get("disp_cs", ())}
-    return local & used
 
 
 # ---- Waves along the circle
@@ -248,17 +235,21 @@ def _pairs(waves: Iterable[Wave]) -> list[list[Wave]]:
     """The waves of each mode of the disc: both halves of a pair, or one."""
     groups: list[list[Wave]] = []
     for wave in sorted(waves):
-        single = {group[0].diameters: group for group in groups if len(group) == 1}
-        halves = single.get(wave.diameters, [wave])
-        low = halves[0]
-        if wave.diameters == 0 or low is wave or low.omega < (1 - SAME_PAIR) * wave.omega:
+        near = [
+            group
+            for group in groups
+            if group[0].diameters == wave.diameters > 0
+            and group[0].omega >= (1 - SAME_PAIR) * wave.omega
+            and len(group) == 1
+        ]
+        if not near:
             groups.append([wave])
             continue
-        is_half = math.cos(wave.turn - low.turn) ** 2 < SAME_HALF
-        frequency = wave.omega / math.tau
+        is_half = math.cos(wave.turn - near[-1][0].turn) ** 2 < SAME_HALF
+        frequency = f"{wave.omega / math.tau:g} Hz"
         rule = (
             "must not be within 5 % of another one with equal diameters and antinodes at one place"
         )
-        require((is_half, "mode", f"{frequency:g} Hz", rule))
-        halves.append(wave)
+        require((is_half, "mode", frequency, rule))
+        near[-1].append(wave)
     return groups

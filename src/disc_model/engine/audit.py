@@ -41,6 +41,8 @@ _PANEL = 8.0  # time units that the nodes resolve; only stick in closed form is 
 # audited or not.
 STEPS, WORST, TRANSVERSE, INPLANE, TRANSVERSE_SCALE, INPLANE_SCALE = range(6)
 TRANSVERSE_TURNOVER, INPLANE_TURNOVER, SURFACE, N_SUMS = range(6, 10)
+# In-plane energy over that of the transverse motion, below which it is rounding: nothing moves yet.
+NEGLIGIBLE = 1e-9
 
 
 class Powers(NamedTuple):
@@ -203,8 +205,9 @@ def accumulate_residuals(audit, residual_t, residual_p, size_t, size_p):
     audit[INPLANE_SCALE] = max(audit[INPLANE_SCALE], size_p)
     if audit[TRANSVERSE_SCALE] > 0.0:
         audit[WORST] = max(audit[WORST], abs(residual_t) / audit[TRANSVERSE_SCALE])
-    if audit[INPLANE_SCALE] > 0.0:
-        audit[WORST] = max(audit[WORST], abs(residual_p) / audit[INPLANE_SCALE])
+    inplane_scale = max(audit[INPLANE_SCALE], NEGLIGIBLE * audit[TRANSVERSE_SCALE])
+    if inplane_scale > 0.0:
+        audit[WORST] = max(audit[WORST], abs(residual_p) / inplane_scale)
 
 
 @helper

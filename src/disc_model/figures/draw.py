@@ -46,8 +46,10 @@ SMALL = 0.2  # share of common axes below which a panel keeps its own
 LINEAR_RATE = 0.1  # up to which an axis of growth rates is linear, 1/s
 TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end of the scale
 NO_LOOKS: dict[str, Look] = {}
+MOST_MARKS = 12  # on one line of several
 SIDES = ("right", "left")  # of lines, for their names
 NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
+LOWER, UPPER = 0.015, 0.985  # places of crosses, share of a panel
 BELOW_ANY = "−∞, below any number"
 
 
@@ -101,7 +103,8 @@ def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH
     letters : of the legend in an inch
     """
     handles: dict[str, Any] = {}
-    for ax in axes:
+    insets = [each for ax in axes for each in ax.child_axes if isinstance(each, Axes)]
+    for ax in (*axes, *insets):
         for handle, text in zip(*ax.get_legend_handles_labels(), strict=True):
             handles.setdefault(fill(text, 42), handle)
     if not handles:
@@ -201,18 +204,17 @@ def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] = NO_LOOKS
     frame(ax, flag)
 
 
-def strip(ax: Axes, flag: xr.DataArray, low: float = 0.0) -> None:
-    """Paint words along the horizontal axis in a strip up to the top of a panel, and nothing where
-    they are "".
+def strip(ax: Axes, flag: xr.DataArray) -> None:
+    """Paint words along the horizontal axis over the height of a panel, and nothing where they are "".
 
     flag : words, shape (x,)
-    low : lower edge of the strip, share of the panel
     """
     said, sides = words(flag), edges(flag[str(flag.dims[0])])
     x, place = np.repeat(sides, 2)[1:-1], ax.get_xaxis_transform()
     for word, look in looks_of(said[said != ""]).items():
         here = np.repeat(said == word, 2)
-        ax.fill_between(x, low, 1, here, transform=place, zorder=0, **look.paint)
+        paint = look.paint if look.hatch else {**look.paint, "ec": GREY}  # white ones are seen
+        ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
 
 
 def number_map(
@@ -282,7 +284,9 @@ def finite_of(x: xr.DataArray) -> NDArray[np.float64]:
 
 
 def colours_of(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
-    """Colours of any numbers."""
+    """Colours of any numbers; none of words."""
+    if is_words(x):
+        return {}
     return growth_colours(x) if is_rate(x) and not log else usual_colours(x, log=log)
 
 
@@ -369,15 +373,18 @@ def lines(
     doubtful: xr.DataArray | None = None,
     doubt: str = "not settled",
     missing: str | None = None,
+    edge: float = LOWER,
     jump: float = np.inf,
     **look: Any,
 ) -> None:
     """A line along a dimension, for each value of the other one if there is one: hollow marks where
-    a value is in doubt, and along the lower edge crosses where there is none, and triangles where it
-    is below any number. Words are marks at places of their own, which no line joins.
+    a value is in doubt, and along an edge crosses where there is none, and triangles where it is
+    below any number. Words are marks at places of their own, which no line joins. Of several lines
+    the first are the widest, so that the last ones hide none.
 
     doubtful : of the dimensions of `y`
     missing : what the legend says of crosses; "" for no crosses
+    edge : `LOWER` or `UPPER`, where these are
     jump : step of asinh(y / 0.1) beyond which the line is open, as where a cycle may be another one
     look : options of matplotlib
     """
@@ -388,9 +395,14 @@ def lines(
     if is_words(y) or is_words(y[x]):
         look = wished(look) | {"linestyle": ""}
     drawn = []
-    for (name, part), marker in zip(parts, cycle("os^Dv<>ph"), strict=False):
+    joined = len(parts) > 1 and wished(look).get("linestyle") != ""
+    every = max(1, y.sizes[x] // MOST_MARKS) if joined else 1
+    for i, ((name, part), marker) in enumerate(zip(parts, cycle("os^Dv<>ph"), strict=False)):
         points = places(ax.xaxis, part[x]), places(ax.yaxis, part["drawn"])
-        own = wished(look, marker=marker, label=name)
+        later = len(parts) - 1 - i
+        size = 3 + (0.4 if joined else 1.5) * later
+        usual = {"markevery": every, "linewidth": 1 + 0.2 * later, "markersize": size}
+        own = wished(look, marker=marker, label=name, **usual)
         drawn.append((*ax.plot(*opened(*points, jump), **own), *points, part["unsure"].values))
     for line, across, up, hollow in drawn:  # after all lines in the legend
         same = {"color": line.get_color(), "marker": line.get_marker()}
@@ -398,7 +410,8 @@ def lines(
         below = np.isneginf(up)
         mark_missing(ax, across[below], BELOW_ANY, line.get_color(), marker="v")
         if why:
-            mark_missing(ax, across[~np.isfinite(up) & ~below], why, line.get_color())
+            gone = across[~np.isfinite(up) & ~below]
+            mark_missing(ax, gone, why, line.get_color(), edge=edge)
     scale(ax.xaxis, y[x])
     ax.set_ylabel(label(y))
 
@@ -418,11 +431,13 @@ def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
         ax.plot(x, y, **own)
 
 
-def mark_missing(ax: Axes, x: Any, why: str, colour: Any = BLACK, marker: str = "x") -> None:
-    """Crosses along the lower edge of a panel at points without a value."""
+def mark_missing(
+    ax: Axes, x: Any, why: str, colour: Any = BLACK, marker: str = "x", edge: float = LOWER
+) -> None:
+    """Crosses along the lower edge of a panel at points without a value, or along the upper one."""
     look = {"marker": marker, "color": colour, "mfc": colour, "clip_on": False}
-    edge = np.full(np.shape(x), 0.015)
-    mark_points(ax, x, edge, why, transform=ax.get_xaxis_transform(), **look)
+    heights = np.full(np.shape(x), edge)
+    mark_points(ax, x, heights, why, transform=ax.get_xaxis_transform(), **look)
 
 
 def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:

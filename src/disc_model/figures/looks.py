@@ -37,6 +37,8 @@ class Look(NamedTuple):
 
 STABLE = Look("stable", "none", "...")
 """Of growth rates below zero, over their colours: grey print does not show their sign."""
+AROUND_DOTS = Look("_nolegend_", "none", "ooo", "#ffffff")
+"""Rings in which black dots are seen on dark colours."""
 UNRESOLVED = Look("finer than the cells", "none", "////////")
 """Of single cells, over their colours."""
 

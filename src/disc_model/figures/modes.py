@@ -11,8 +11,10 @@ from scipy.signal import find_peaks
 
 from disc_model.figures.draw import (
     LINEAR_RATE,
+    NOTE,
     PAGE,
     lines,
+    mark_missing,
     mark_points,
     panels,
     rate_axis,
@@ -29,6 +31,7 @@ from disc_model.units import Positive, Unit
 ROUNDING = 1e-9  # growth rate up to which a mode does not grow, 1/s
 IN_PLANE = -1  # in place of nodal diameters: the slider
 AT_ZERO = -2  # growth at 0 Hz
+BESIDE = 0.05  # share of a panel's width within which a peak is near
 NAMES_APART = 0.04  # share of a panel's height within which modes share a name
 LINEAR_GROWTH = 0.5  # growth rate up to which the axis of modes is linear at least, 1/s
 Frequency = Annotated[Positive | None, Unit("Hz")]
@@ -52,6 +55,13 @@ def sliding_modes(study: xr.Dataset, highest: Frequency = None) -> Figure:
     below = axes["rate"]
     _modes(below, modes, "rate", "value")
     rate_axis(below, max(LINEAR_GROWTH, float(largest.max())))
+    growing = modes.where(modes["rate"] > ROUNDING)
+    if growing["rate"].notnull().any():
+        end = 1.25 * float(largest.max())
+        below.set_ylim(max(-end, below.get_ylim()[0]), end)
+        faster = modes["value"][(modes["rate"] < -end).any("mode").values]
+        mark_missing(below, faster[:: faster.size // 12 + 1], "modes that decay faster", GREY, "v")
+        _name_humps(below, growing, "value")
     _name_ends(below, modes.where(abs(modes["rate"]) > ROUNDING), "rate", "value")
     below.set_xlabel(label(study["value"]))
     return figure
@@ -73,10 +83,9 @@ def _modes(ax: Axes, modes: xr.Dataset, name: str, x: str) -> None:
     for number in np.unique(modes["diameters"]):
         part = y.where(modes["diameters"] == number)
         grows = part.where(modes["rate"] > ROUNDING)
-        text = "mode of steady sliding"
-        ax.plot(y[x], part, ".-", color=BLACK, lw=0.8, ms=0.8, mew=0, label=text)
+        ax.plot(y[x], part, ".-", color=BLACK, lw=0.8, ms=0.8, mew=0, label="mode")
         if grows.notnull().any():
-            ax.plot(y[x], grows, ".-", color=RED, lw=2.4, ms=2.4, mew=0, label="growing mode")
+            ax.plot(y[x], grows, ".-", color=RED, lw=2.4, ms=2.4, mew=0, label="mode that grows")
     ax.margins(x=0.1)  # room for names
     ax.set_ylabel(label(y))
 
@@ -104,8 +113,27 @@ def _name_ends(ax: Axes, modes: xr.Dataset, name: str, x: str) -> None:
             )
 
 
+def _name_humps(ax: Axes, modes: xr.Dataset, x: str) -> None:
+    """Names of growing modes at the peaks of parts of their lines that reach no end, on the left of a
+    near peak; divergence is named by its frequency, 0 Hz."""
+    numbers = modes["diameters"].where(modes["frequency"] > 0, AT_ZERO)
+    peaks = {}
+    for number in np.unique(numbers.where(modes["rate"].notnull()).dropna("mode", how="all")):
+        rate = modes["rate"].where(numbers == number).max("mode")
+        for part in np.ma.clump_unmasked(np.ma.masked_invalid(rate.values)):
+            if part.start > 0 and part.stop < rate.size:
+                place = part.start + int(rate.values[part].argmax())
+                peaks[place] = name_of([number])
+    for place, name in peaks.items():
+        near = any(0 < other - place < BESIDE * modes.sizes[x] for other in peaks)
+        at = (modes[x][place], modes["rate"][place].max())
+        ax.annotate(name, at, (0, 3), ha="right" if near else "center", **NOTE)
+
+
 def name_of(numbers: Any) -> str:
-    """Name of modes by their nodal diameters, or `IN_PLANE`."""
+    """Name of modes by their nodal diameters, `IN_PLANE` or `AT_ZERO`."""
+    if AT_ZERO in numbers:
+        return "0 Hz"
     of_disc = ", ".join(f"{number:g}" for number in np.unique(numbers) if number >= 0)
     names = ["in plane"] * (IN_PLANE in numbers) + [f"l = {of_disc}"] * bool(of_disc)
     return "\n".join(names)
@@ -129,6 +157,8 @@ def campbell(
     multiples : of the stick-slip frequency, that are drawn over all speeds
     """
     figure, axes = panels([["frequency"], ["rate"]], PAGE, 2.4, sharex=True, height_ratios=[3, 2])
+    if "Omega" not in study.dims:
+        study = study.expand_dims("Omega")
     draw_campbell([*axes.values()], study, highest, multiples)
     return figure
 
@@ -166,18 +196,13 @@ def draw_campbell(
     for multiple in multiples:
         above.plot(slips["Omega"], multiple * slips, "--", lw=0.8, label=f"{multiple:g} $f_s$")
     places = {}
-    for i in _peaks(rate.where(~far)):
-        at = _crossing_at(data, i)
-        if at is None:
-            continue
-        mark_points(
-            above,
-            at["crossing_Omega"],
-            at["crossing_frequency"],
-            "crossing at a peak of growth",
-            color=BLACK,
-            marker="D",
-        )
+    near = {i: _crossing_at(data, i) for i in _peaks(rate.where(~far))}
+    meetings = {i: at for i, at in near.items() if at is not None}
+    count = int((data["crossing_line"] == "stick_slip").sum())
+    name = f"at a peak of growth: {len(meetings)} of {count} crossings"
+    for i, at in meetings.items():
+        drawn = at["crossing_Omega"], at["crossing_frequency"]
+        mark_points(above, *drawn, name, color=BLACK, marker="D")
         multiple = at["crossing_multiple"].item()
         line = multiple * slips
         above.plot(slips["Omega"], line, "--", color=GREY, lw=0.8, label="multiple of $f_s$")

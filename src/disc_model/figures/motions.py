@@ -14,6 +14,7 @@ from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.figures.draw import (
     PAGE,
+    UPPER,
     each_value,
     lines,
     mark_points,
@@ -25,14 +26,13 @@ from disc_model.figures.draw import (
     threshold,
 )
 from disc_model.figures.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED
-from disc_model.figures.schema import Role, grid_figure
+from disc_model.figures.schema import NOTHING, Role, grid_figure
 from disc_model.figures.shown import label, placed, value_text
 from disc_model.figures.stability import stable_between, thicken
 from disc_model.units import Finite, Unit
 
 Named = Annotated[dict[str, Finite], Unit(of="x")]
 """Values of x by names."""
-NOTHING: dict[str, float] = {}
 
 
 def _places(along: xr.DataArray, values: dict[str, float]) -> dict[str, float]:
@@ -110,8 +110,9 @@ def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
     few = samples.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
-    ax.margins(y=0.1)  # room for the classes
-    strip(ax, study["kind"], 0.93)
+    above = ax.inset_axes((0, 1.03, 1, 0.07), sharex=ax)
+    strip(above, study["kind"])
+    above.set_axis_off()
     study["psi"].attrs["long_name"] += said
     ax.set_ylabel(label(study["psi"]))
 
@@ -122,7 +123,7 @@ def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
     numbers.attrs["names"] = {f"{i}": f"exponent {i + 1}" for i in range(numbers.size)}
     ax.set_prop_cycle(color=[BLACK, BLUE, ORANGE, GREY])
     moving = lyapunov["converged"] != "yes"
-    lines(ax, lyapunov["exponent"], x, doubtful=moving, doubt="not converged", ls="", ms=2.5)
+    lines(ax, lyapunov["exponent"], x, doubtful=moving, doubt="not converged", ls="")
     bars = f"± {ERRORS} standard errors"
     for _, one in each_value(lyapunov, "exponent_number"):
         errors = ERRORS * one["exponent_error"]
@@ -275,7 +276,8 @@ def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
         ax,
         study["critical_energy"],
         x,
-        missing="no start is known to separate",
+        missing="no start is known to separate: larger than any",
+        edge=UPPER,
         label="least energy, by bisection",
         color=RED,
         marker="v",

@@ -10,38 +10,21 @@ from contextlib import contextmanager
 from typing import Annotated, Any
 
 import matplotlib.pyplot as plt
-import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
 
 from disc_model.data.dataset import Missing
-from disc_model.data.swept_branches import is_of_sweep, selected_text
+from disc_model.data.swept_branches import is_of_sweep
 from disc_model.disc.plate import mode_arrays, radial_range
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures import runs, stability
-from disc_model.figures.draw import (
-    bar_of,
-    break_label,
-    cells,
-    class_map,
-    colours_of,
-    explain,
-    is_rate,
-    is_words,
-    lines,
-    number_map,
-    rate_axis,
-    shares,
-    unresolved,
-    wished,
-)
-from disc_model.figures.looks import Look
+from disc_model.figures.draw import bar_of, break_label, colours_of, explain, shares, wished
 from disc_model.figures.modes import draw_campbell
-from disc_model.figures.schema import MOST_VALUES, known_units
-from disc_model.figures.shown import label, parameter_of, shown, shown_case, value_text
-from disc_model.figures.studies import in_doubt, rate_map, why_missing
+from disc_model.figures.schema import known_units
+from disc_model.figures.shown import label, shown, shown_case
+from disc_model.figures.studies import draw_lines, draw_map
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
 
@@ -64,7 +47,6 @@ USUAL = (
 )
 """Variables of sweeps that are drawn unless another one is asked for: the first that there is."""
 CLASSES = "attractor_class"  # dimension along which shares of starts add up to one
-OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
 ROW = 1.4  # height of a row of histories, inch
 LETTERS = 12.0  # per inch, of a legend in matplotlib's own style
 
@@ -247,7 +229,7 @@ def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
     figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
     with refused("window", name):
         runs.draw_sections(axes, case, name)
-    figure.suptitle(", ".join(runs.fate_of(case)))
+    figure.suptitle(", ".join(runs.fate_of(case, name)))
     explain(figure, axes, LETTERS)
     return axes
 
@@ -267,8 +249,8 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     units = Wishes(variable=variable, x=x, units=units).units
     data = study.to_dataset() if isinstance(study, xr.DataTree) else study
     if is_of_sweep(data):
-        each = f"disc_model.Branch.from_dataset({selected_text(data, 'study')})"
-        raise ParameterError(Fault(("study",), "", f"holds branches: draw one by {each}.plot()"))
+        rule = "holds branches: draw one by disc_model.Branch.from_dataset(study.isel(N=0)).plot()"
+        raise ParameterError(Fault(("study",), "", rule))
     single = [dim for dim, size in data.sizes.items() if size == 1 and dim != x]
     data = swapped(data.squeeze(single).compute(), x)
     name = chosen(data, variable, x)
@@ -285,7 +267,10 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
         below = False
         draw_lines(ax, data, name, across, joined=across in study.dims, **look)
     else:
-        draw_map(ax, data.transpose(*reversed(numbers), ...), name, **look)
+        colours = {**colours_of(data[name]), **look}
+        mesh = draw_map(ax, data.transpose(*reversed(numbers), ...), name, **colours)
+        if mesh is not None:
+            bar_of(ax.figure, ax, mesh, data[name])
     return explained(ax, below)
 
 
@@ -338,57 +323,3 @@ def number_axes(study: xr.Dataset, name: str) -> list[str]:
     points = study.get("status", study[name]).dims
     kinds = {dim: study[dim].dtype.kind for dim in dims}
     return [dim for dim, kind in kinds.items() if kind == "f" or (kind in "iu" and dim in points)]
-
-
-# ---- Sweeps: drawing
-
-
-def draw_map(ax: Axes, study: xr.Dataset, name: str, **look: Any) -> None:
-    """Draw classes, or numbers in colours, over two dimensions (up, across)."""
-    plane, doubt = study[name], in_doubt(study, name)
-    if is_words(plane):
-        class_map(ax, plane)
-        unresolved(ax, plane)
-        return
-    colours = {**colours_of(plane), **look}
-    paint = rate_map if is_rate(plane) else number_map
-    mesh = paint(ax, plane, why_missing(study, name), **colours)
-    bar_of(ax.figure, ax, mesh, plane)
-    if doubt is not None:
-        why = f"circles: {doubt.attrs['long_name']}"
-        cells(ax, plane, doubt.values, Look(why, "none", "oo"))
-
-
-def draw_lines(
-    ax: Axes, study: xr.Dataset, name: str, across: str, *, joined: bool, **look: Any
-) -> None:
-    """Draw a line for each value of a second dimension, or points where there are many of these.
-
-    joined : whether lines join the points, which are not paired values
-    """
-    array, doubt = study[name], in_doubt(study, name)
-    by = next((str(dim) for dim in array.dims if dim != across), "")
-    usual: dict[str, Any] = {"markersize": 3}
-    if not by:
-        chosen_values = [x for x in array.coords.values() if x.ndim == 0 and parameter_of(x)]
-        usual["label"] = ", ".join(map(value_text, chosen_values))
-    if by and (by not in array.coords or array.sizes[by] > MOST_VALUES):
-        array = flattened(array, across)
-        doubt = None if doubt is None else flattened(doubt, across)
-        usual |= {"marker": ".", "linestyle": "", "missing": ""}
-    if not joined:
-        usual["linestyle"] = ""
-    if doubt is not None:
-        usual["doubt"] = doubt.attrs["long_name"]
-    if name in OF_CYCLES and study.attrs.get("function") != "steady_sliding":
-        usual["jump"] = 1.0
-    lines(ax, array, across, doubtful=doubt, **wished(look, **usual))
-    if is_rate(array):
-        rate_axis(ax)
-
-
-def flattened(array: xr.DataArray, across: str) -> xr.DataArray:
-    """All values at each place along a dimension, in one line."""
-    x = array[across].broadcast_like(array)
-    along = xr.DataArray(np.ravel(x), dims=across, attrs=x.attrs)
-    return xr.DataArray(np.ravel(array), {across: along}, name=array.name, attrs=array.attrs)

@@ -16,11 +16,12 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from pydantic import Field
 
+from disc_model.analysis.classify import FEWEST, first_settled
 from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import radial_range
 from disc_model.figures.draw import COLUMN, PAGE, compare, mark_points, number_map, panels
-from disc_model.figures.looks import BLACK, OF_PHASE, OF_VARIABLE, RED, SKY
+from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SKY
 from disc_model.figures.schema import Cases, Either, Sampled, Samples, case_figure
 from disc_model.figures.shown import label, value_text, words
 from disc_model.parameters import Parameters
@@ -168,13 +169,14 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
 
 # ---- Poincaré sections
 
-POINTS = {
-    "before the first separation": ("x", SKY),
-    "not yet settled": (".", "#b0b0b0"),
-    "separated": ("^", RED),
-    "in contact": (".", BLACK),
+POINTS: dict[str, dict[str, Any]] = {
+    "before the first separation": {"marker": "x", "color": SKY},
+    "on the way to the final motion": {"marker": "o", "color": GREY, "mfc": "none"},
+    "separated": {"marker": "^", "color": RED, "mfc": RED},
+    "in contact": {"marker": ".", "color": BLACK, "mfc": BLACK},
 }
-"""Marks of the stages of a run, and their colours; transient points are light."""
+"""Marks of the stages of a run; those of the way are light."""
+SMALL: dict[str, Any] = {"ms": 2.5, "mew": 0.4, "rasterized": True}
 
 
 @case_figure({"poincare": None})
@@ -200,46 +202,56 @@ def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
 def draw_sections(axes: Sequence[Axes], case: xr.DataTree, name: str = "poincare") -> None:
     """Draw the section of the slider and that of the disc, in marks of the stages of a run.
 
-    Light: before the first separation, and until the motion has settled, if that is known.
+    Light: before the first separation, and on the way to the final motion, if its start is known.
     """
     samples = window_of(case, name)
+    first, final = number_of(case, "first_separation"), final_since(case, samples)
     conditions = [
-        samples["time"] < number_of(case, "first_separation"),
-        samples["time"] < number_of(case, "settled_since"),
+        samples["time"] < first,
+        samples["time"] < final,
         samples["phase"] == "separation",
     ]
     *stages, usual = POINTS
     stage = np.select(conditions, stages, usual)
+    known = {"final motion": final, "after the first separation": first}
+    said = next((f", {text}" for text, time in known.items() if np.isfinite(time)), "")
     for ax, variable in zip(axes, ("psi", "w_point"), strict=True):
         x = samples[variable]
         y = samples[f"{variable}_velocity"]
-        for text, (marker, colour) in POINTS.items():
-            mark_points(
-                ax,
-                x,
-                y.where(stage == text),
-                text,
-                marker=marker,
-                color=colour,
-                mfc=colour,
-                ms=2.5,
-                mew=0.4,
-                rasterized=True,
-            )
+        for text, look in POINTS.items():
+            name = text + said * (text == usual)
+            mark_points(ax, x, y.where(stage == text), name, **look, **SMALL)
         ax.set(xlabel=label(x), ylabel=label(y))
 
 
-def fate_of(case: xr.DataTree) -> list[str]:
-    """What a run comes to, in words: its first separation, and when it has settled."""
+def final_since(case: xr.DataTree, section: xr.Dataset) -> float:
+    """Time since when all points of a section lie on the motion on which a run ends, s: since when it
+    is shown to have settled or, after a first separation, since when they lie on the set of the later
+    half of those after it; nan if the last quarter does not cover this set, or nothing is known."""
+    settled = number_of(case, "settled_since")
+    after = section.sel(time=section["time"] >= number_of(case, "first_separation"))
+    if np.isfinite(settled) or after.sizes["time"] < FEWEST:
+        return settled
+    names = [f"{name}{of}" for name in ("psi", "w_point") for of in ("", "_velocity")]
+    points = after[names].to_array().values.T
+    half = len(points) // 2
+    if first_settled(points, half) > half:
+        return np.nan
+    return float(after["time"][first_settled(points)])
+
+
+def fate_of(case: xr.DataTree, name: str = "poincare") -> list[str]:
+    """What a run comes to, in words: its first separation, and since when its section, by its name,
+    shows the final motion."""
     first = number_of(case, "first_separation")
-    since = number_of(case, "settled_since")
+    since = final_since(case, window_of(case, name))
     fate = f"first separation at {first:.2f}\u00a0s"
     if np.isnan(first):
         ignored = {"bilateral": "separation ignored"}
         fate = ignored.get(case["contact"].item(), "no separation")
     if np.isnan(since):
-        return [fate, "not shown to settle"]
-    return [fate, f"settled since {since:.0f}\u00a0s"]
+        return [fate, "settling not shown here"]
+    return [fate, f"final motion since {since:.0f}\u00a0s"]
 
 
 # ---- Spectra

@@ -16,6 +16,8 @@ from disc_model.simulation.case import Poincare, Window
 from disc_model.units import UNITS, Finite, Strict, Unit, in_si
 
 NORM = "normalization"
+NOTHING: dict[str, Any] = {}
+"""The default of a key that is a mapping."""
 Function = Callable[..., Any]
 Values = Mapping[str, Sequence[Any]]
 """Values along each dimension of a grid; tuples where it varies several parameters, and none where

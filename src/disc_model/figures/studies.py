@@ -14,8 +14,10 @@ from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.data.variables import presentation_of, stated_in, typeset
 from disc_model.figures.draw import (
     COLUMN,
+    LOWER,
     NOTE,
     PAGE,
+    UPPER,
     bar_of,
     cells,
     class_map,
@@ -23,8 +25,8 @@ from disc_model.figures.draw import (
     each_value,
     growth_colours,
     is_rate,
+    is_words,
     lines,
-    lone_cells,
     mark_missing,
     mark_points,
     number_map,
@@ -33,8 +35,10 @@ from disc_model.figures.draw import (
     sign_changes,
     unresolved,
     wilson,
+    wished,
 )
 from disc_model.figures.looks import (
+    AROUND_DOTS,
     BLACK,
     BLUE,
     GREEN,
@@ -46,15 +50,17 @@ from disc_model.figures.looks import (
     STABLE,
     Look,
 )
-from disc_model.figures.schema import NORM, Role, grid_figure
-from disc_model.figures.shown import label, placed, value_text
+from disc_model.figures.schema import MOST_VALUES, NORM, NOTHING, Role, grid_figure
+from disc_model.figures.shown import label, parameter_of, placed, value_text
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Strict
 
 Curves = Annotated[xr.Dataset | None, Role("neutral_curves")]
 BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
 """What curves are, and their lines."""
-NOTHING: dict[str, Any] = {}
+OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
+SIGN = "growth rate changes its sign"
+MERGED = "growing, or another cycle"
 LINE_COLOURS = (BLACK, ORANGE, BLUE, GREEN)
 MARKS: list[Any] = [
     {"marker": marker, "color": colour, "ls": ""}
@@ -65,8 +71,9 @@ LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
 HOLLOW = "hollow: no frequency carries 95 % of height and contact force"
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
+RING: dict[str, Any] = {"marker": "o", "ms": 7, "mew": 0.6, "mfc": "none", "color": BLACK}
+BOX: dict[str, Any] = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}  # behind names
 SHADE = "#e4e4e4"
-PALE = "#d8d8d8"  # dots on dark colours
 
 
 def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
@@ -87,20 +94,28 @@ def heat_map(
     """Any variable in colour over two dimensions, with a panel for each value of a third."""
     parts = each_value(study, by)
     figure, axes = row(len(parts), 2.4)
-    shown = study[variable]
-    has_classes = shown.dtype == object
-    scale = {} if has_classes else colours_of(shown, log=log)
-    paint = rate_map if is_rate(shown) else number_map
+    scale = colours_of(study[variable], log=log)
     for ax, (title, part) in zip(axes, parts, strict=True):
-        plane = part.transpose(y, x, ...)
         ax.set_title(title)
-        if has_classes:
-            class_map(ax, plane[variable])
-        else:
-            mesh = paint(ax, plane[variable], why_missing(plane, variable), **scale)
-    if not has_classes:
-        bar_of(figure, axes, mesh, shown)
+        mesh = draw_map(ax, part.transpose(y, x, ...), variable, **scale)
+    if mesh is not None:
+        bar_of(figure, axes, mesh, study[variable])
     return figure
+
+
+def draw_map(ax: Axes, data: xr.Dataset, variable: str, **colours: Any) -> Any:
+    """Draw classes, or numbers in colours, over two dimensions (up, across), with circles where they
+    are in doubt; returns the mesh of numbers, for a bar."""
+    plane, doubt = data[variable], in_doubt(data, variable)
+    if is_words(plane):
+        class_map(ax, plane)
+        unresolved(ax, plane)
+        return None
+    paint = rate_map if is_rate(plane) else number_map
+    mesh = paint(ax, plane, why_missing(data, variable), **colours)
+    if doubt is not None:
+        cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
+    return mesh
 
 
 def rate_map(
@@ -109,38 +124,77 @@ def rate_map(
     """Paint growth rates, of dimensions (up, across), with dots where they are negative; single cells
     that differ from those beside them are hatched. Returns the mesh.
 
-    contour : whether a line is drawn where the sign changes
+    contour : whether a line is drawn where the sign changes, between areas of some width
     """
     mesh = number_map(ax, rate, why, **colours)
     negative = (rate < 0).values
-    dark = (rate < -colours["norm"].vmax / 8).values  # black dots would not be seen there
-    cells(ax, rate, negative & ~dark, STABLE)
-    cells(ax, rate, dark, STABLE._replace(ink=PALE))
+    cells(ax, rate, negative, AROUND_DOTS)
+    cells(ax, rate, negative, STABLE)
 
     stability = rate.copy(data=np.where(negative, "stable", "unstable").astype(object))
     if why is not None:
         stability = stability.where(rate.notnull(), why)
     unresolved(ax, stability)
     if contour:
-        sign_changes(ax, rate.where(~lone_cells(stability)), "growth rate changes its sign")
+        borders(ax, None, rate)
     return mesh
 
 
 @grid_figure()
-def curve(study: xr.Dataset, variable: str, x: str, by: str = NORM, log: bool = False) -> Figure:
-    """Any variable against one dimension, with a line for each value of another."""
-    figure, axes = panels([["a"]], COLUMN, 2.6)
-    y = study[variable]
-    of_cycle = variable == "growth_rate"  # which may be another one at the next value
-    jump = 1.0 if of_cycle else np.inf
-    lines(axes["a"], y, x, doubtful=in_doubt(study, variable), jump=jump)
-    if of_cycle:
-        rate_axis(axes["a"])
-    elif is_rate(y):
-        axes["a"].axhline(0, color=GREY, lw=0.5, zorder=0)
+def curve(
+    study: xr.Dataset,
+    variable: str,
+    x: str,
+    by: str = NORM,
+    log: bool = False,
+    highest: Finite | None = None,
+) -> Figure:
+    """Any variable against one dimension, with a line for each value of another.
+
+    highest : upper end of the axis of the variable, in the unit of the figure, such as for two figures side by side
+    """
+    figure, [ax] = row(1, 2.6)
+    draw_lines(ax, study, variable, x)
     if log:
-        axes["a"].set_yscale("log")
+        ax.set_yscale("log")
+    ax.set_ylim(top=highest)
     return figure
+
+
+def draw_lines(
+    ax: Axes, data: xr.Dataset, variable: str, x: str, *, joined: bool = True, **look: Any
+) -> None:
+    """Draw a line for each value of a second dimension, or points where there are many of these.
+
+    joined : whether lines join the points, which are not paired values
+    """
+    array, doubt = data[variable], in_doubt(data, variable)
+    by = next((str(dim) for dim in array.dims if dim != x), "")
+    usual: dict[str, Any] = {} if joined else {"linestyle": ""}
+    if not by:
+        chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
+        usual["label"] = ", ".join(map(value_text, chosen))
+    elif by not in array.coords or array.sizes[by] > MOST_VALUES:
+        array = flattened(array, x)
+        doubt = None if doubt is None else flattened(doubt, x)
+        usual |= {"marker": ".", "linestyle": "", "missing": ""}
+    if doubt is not None:
+        usual["doubt"] = doubt.attrs["long_name"]
+    of_cycle = variable in OF_CYCLES and data.attrs.get("function") != "steady_sliding"
+    jump = 1.0 if of_cycle else np.inf
+    lines(ax, array, x, doubtful=doubt, jump=jump, **wished(look, **usual))
+    if of_cycle:
+        rate_axis(ax)
+    elif is_rate(array):
+        ax.axhline(0, color=GREY, lw=0.5, zorder=0)
+
+
+def flattened(array: xr.DataArray, x: str) -> xr.DataArray:
+    """All values at each place along a dimension, in one line."""
+    points = array.stack(point=array.dims, create_index=False)
+    places = points[x].variable.values
+    along = xr.DataArray(places, dims=x, attrs=array[x].attrs)
+    return xr.DataArray(points.values, {x: along}, name=array.name, attrs=array.attrs)
 
 
 def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
@@ -227,7 +281,8 @@ def region_map(
         beside = curves
         if curves is not None and by in curves.dims:
             beside = curves.sel({by: part[by].item()})
-        borders(axes[below[i]], beside, rate)
+        for panel in (axes[above[i]], axes[below[i]]):
+            borders(panel, beside, rate)
     for name, mark in marks.items():
         draw_mark(axes[above[0]], name, mark, study[x], study[y])
     bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
@@ -241,23 +296,25 @@ def titled(title: str, study: xr.Dataset) -> str:
 
 
 def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
-    """Continued curves where they pass between an area in which the cycle of a map is stable and one
-    beyond, both two cells wide or more: no curves of another cycle, and none finer than the cells.
+    """Continued curves beside a stable cycle: thin where they do not pass between an area in which the
+    cycle of a map is stable and one beyond, both two cells wide or more, but are of another cycle, or
+    finer than the cells. Without curves, the line at which the rate changes its sign.
 
     rate : of dimensions (up, across)
     """
     if curves is None:
+        sign_changes(ax, rate.where(around(rate < 0) & around(rate >= 0)), SIGN)
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
     known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
     filled = zip(rate.dims, (up.fillna(0.0), across.fillna(0.0)), strict=True)
     beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
-    shown = up.where(known & beside).transpose("curve_point", ...)
-    for kind, (name, style) in BORDERS.items():
-        here = (curves["kind"] == kind).values
-        part = shown[:, here]
+    for (kind, (name, style)), wide in product(BORDERS.items(), (True, False)):
+        chosen = known & (beside == wide) & (curves["kind"] == kind)
+        part = up.where(chosen).transpose("curve_point", ...)
+        text = name if wide else "thin: narrow, or of another cycle"
         if part.notnull().any():
-            ax.plot(across.T[:, here], part, style, color=BLACK, label=name)
+            ax.plot(across.T, part, style, color=BLACK, lw=1 if wide else 0.4, label=text)
 
 
 def around(area: xr.DataArray) -> xr.DataArray:
@@ -275,11 +332,13 @@ def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray)
     """A case of the paper, in the colour and the shape of what the paper says."""
     at = (placed(x, mark.x), placed(y, mark.y))
     shape, size, up, end = SHAPES[mark.paper_outcome]
-    look: dict[str, Any] = {"mfc": LOOKS[mark.paper_outcome].face, "mec": BLACK, "clip_on": False}
-    ax.plot(*at, shape, ms=size, zorder=20 - size, label="paper's case and outcome", **look)
+    said = LOOKS[mark.paper_outcome]
+    look: dict[str, Any] = {"mfc": said.face, "mec": BLACK, "clip_on": False}
+    ax.plot(*at, shape, ms=size, zorder=20 - size, label=f"paper: {said.label}", **look)
     side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
-    box = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}
-    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=box, zorder=20, **NOTE)
+    if at[1] < y.min() + 0.1 * np.ptp(y.values):
+        up, end = 6, "bottom"
+    ax.annotate(name, at, (right, up), ha=side, va=end, bbox=BOX, zorder=20, **NOTE)
 
 
 FATES = {
@@ -370,17 +429,30 @@ def critical_speed(
 def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
     """Outcomes of a map and the borders of its cycle, and where this is stable."""
     plane = cycle.transpose("N", "Omega", ...)
-    merged = plane["outcome"].isin(["other_cycle", "undecided"])
-    others = LOOKS["growing"]._replace(label="growing, another cycle, or undecided")
-    class_map(axes[0], plane["outcome"].where(~merged, "growing"), {"growing": others})
+    merged = plane["outcome"].where(plane["outcome"] != "other_cycle", "growing")
+    class_map(axes[0], merged, {"growing": LOOKS["growing"]._replace(label=MERGED)})
     borders(axes[0], curves, plane["growth_rate"])
+    if curves is not None:
+        name_folds(axes[0], curves)
     stable = plane["growth_rate"] < 0
     for ax in axes[1:]:
         cells(ax, stable, stable, Look("cycle stable", LOOKS["stable"].face))
 
 
+def name_folds(ax: Axes, curves: xr.Dataset) -> None:
+    """The multiples of the stick-slip frequency of folds of a stable cycle that leave a panel through
+    its upper edge."""
+    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
+    up, top = along(curves)["N"].where(beside), ax.get_ylim()[1]
+    for i in np.flatnonzero(up.max("curve_point") > 0.98 * top):
+        place = {"curve": i, "curve_point": int(np.nanargmax(up[i]))}
+        at = along(curves)["Omega"][place], top
+        name = f"{curves['resonance_harmonic'][i]:g} $f_s$"
+        ax.annotate(name, at, (-2, -2), ha="right", va="top", bbox=BOX, **NOTE)
+
+
 def onsets(ax: Axes, study: xr.Dataset) -> None:
-    """All speeds of a scan at which separation begins, and crosses at the left edge without one."""
+    """All speeds of a scan at which separation begins, and crosses beyond the right edge without one."""
     found = study["crossing"].where(study["crossing_kind"] == "begins")
     at, loads = xr.broadcast(found, study["N"])
     look: dict[str, Any] = {"color": BLACK, "mew": 0.6}
@@ -389,7 +461,9 @@ def onsets(ax: Axes, study: xr.Dataset) -> None:
     )
     none = study["N"][study["critical_speed"].isnull().values]
     edge = {"transform": ax.get_yaxis_transform(), "clip_on": False, "marker": "x"}
-    mark_points(ax, 0 * none + 0.01, none, "separation not found", **edge, **look)
+    low, high = study["scan_Omega"].values[[0, -1]]
+    name = f"none found from {low:g} to {high:g} {study['scan_Omega'].units}"
+    mark_points(ax, 0 * none + 1.02, none, name, **edge, **look)
 
 
 def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
@@ -424,15 +498,17 @@ def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
 def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     """Speeds at which separation begins and ends on ramps of the speed, against their rate; a line where
     the stable cycle ends, the limit of slow ramps."""
-    figure, axes = panels([["a"]], COLUMN, 2.4)
-    ax = axes["a"]
-    for name, way, end, marker, colour in (
-        ("onset_speed", "rising", "begins", "^", RED),
-        ("offset_speed", "falling", "ends", "v", BLUE),
+    figure, [ax] = row(1, 2.4)
+    bounds = stated_in(study, "options")["bounds"]
+    low, high = (placed(study["onset_speed"], end) for end in bounds)
+    for name, way, end, edge, marker, colour in (
+        ("onset_speed", "rising", "begins", UPPER, "^", RED),
+        ("offset_speed", "falling", "ends", LOWER, "v", BLUE),
     ):
         speeds = study[name].assign_attrs(long_name="Speed Ω")
-        missing = f"{way}: {speeds.attrs.get('missing', 'no value')}"
-        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4}
+        why = speeds.attrs.get("missing", "no value")
+        missing = f"{way}, {low:g} to {high:g} {speeds.units}: {why}"
+        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4, "edge": edge}
         lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
     mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
     if curves is not None:
@@ -462,8 +538,7 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     """Share of starts that have separated, against time, with a line for each value of a parameter, and
     bars of 95 % confidence at its end."""
     horizon = stated_in(study, "options")["horizon"]
-    figure, axes = panels([["a"]], COLUMN, 2.6)
-    ax = axes["a"]
+    figure, [ax] = row(1, 2.6)
     for i, (title, part) in enumerate(each_value(study, by)):
         known = part["first_separation"][(part["status"] == "ok").values]
         times = np.sort(known.dropna(starts).values)
@@ -485,8 +560,8 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
     return figure
 
 
-UNSETTLED = "not shown to settle"
-SETTLED = ("stick_slip", "other_cycle", "steady_sliding", "at_rest")
+UNSETTLED = "still growing, or undecided"
+SURE = ("stick_slip", "other_cycle", "steady_sliding", "at_rest", "separation")
 """Outcomes that a longer time would not change."""
 
 
@@ -501,7 +576,7 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     late, limits = height.copy(data=height - study["u_min"]), lost_contact(study)
     apart = late.where(study["outcome"] == "separation").sel(contact="unilateral")
     lost = f"R, at which contact is lost; separating: {extent(apart / limits)} R"
-    data = study.assign(late=late, unsure=~study["outcome"].isin(SETTLED))
+    data = study.assign(late=late, unsure=~study["outcome"].isin(SURE))
 
     names = [name for name in ("late", "surface_speed") if name in data]
     figure, axes = panels([names], PAGE, 2.8, sharex=True)
@@ -510,6 +585,8 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
         for contact, style in (("unilateral", "-"), ("bilateral", "--")):
             one = data.sel(contact=contact)
             lines(ax, one[name], "Omega", doubtful=one["unsure"], doubt=UNSETTLED, ls=style)
+            apart_too = one[name].where(one["outcome"] == "separation").transpose("Omega", ...)
+            mark_points(ax, one["Omega"], apart_too, "ringed: separating", **RING)
     for limit, colour in zip(limits.dropna("N").values, LINE_COLOURS, strict=False):
         axes["late"].axhline(limit, color=colour, ls=":", label=lost)
     beyond = placed(height, thickness)

@@ -7,7 +7,7 @@ import json
 import math
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Annotated, Any, Literal, NamedTuple, Self
 
@@ -22,8 +22,8 @@ from pydantic import (
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
 from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
-from disc_model.hashing import canonical_json, content_key
 from disc_model.parameters import FORMAT, Parameters
+from disc_model.provenance import canonical_json, content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
 
 Time = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("s")]
@@ -79,25 +79,19 @@ class Span(Interval):
         """The same span with absolute times, for a run from ``start`` to ``t_end``. Raises
         `ParameterError` if it has no stop time and begins at the end of the run or later."""
         first, stop = self.ends(start, t_end)
-        return (
-            self
-            if (first, stop) == (self.start, self.stop)
-            else self.replace(start=first, stop=stop, last=None)
-        )
-
-    def faults_of_length(self, start: float, t_end: float) -> list[Fault]:
-        """Faults of a `last` that is longer than a run from ``start`` to ``t_end``, but for
-        rounding."""
-        if self.last is None or t_end - self.last >= start - ROUNDING * t_end:
-            return []
-        rule = f"must be <= {as_text(t_end - start)} s, the length of the run"
-        return [Fault.of(("last",), self.last, rule)]
+        if (first, stop) == (self.start, self.stop):
+            return self
+        return self.replace(start=first, stop=stop, last=None)
 
     def ends(self, start: float, t_end: float) -> tuple[float, float]:
         """Absolute times of its ends, s, for a run from ``start`` to ``t_end``, even if they are
         not within the run."""
-        first = self.start if self.last is None else max(t_end - self.last, start)
-        return first, self.stop if self.stop < math.inf else self._end(first, t_end)
+        first = self.start
+        if self.last is not None:
+            first = max(t_end - self.last, start)
+        if self.stop < math.inf:
+            return first, self.stop
+        return first, self._end(first, t_end)
 
     def _end(self, first: float, t_end: float) -> float:
         return t_end
@@ -115,8 +109,8 @@ class Window(Span):
     Parameters
     ----------
     start, stop : s, absolute times; from the start of the run to its end if not given
-    last : s, counted back from the end of the run, instead of start and stop; not longer than the run. A run with
-        ``stop_at`` ends where it stops, which may be sooner, and is computed twice for this
+    last : s, counted back from the end of the run, instead of start and stop; not longer than the run, and not with
+        ``stop_at``, because the end is not known before
     rate : Hz
     theta : rad, angle of the point fixed to the disc at radius r_0 where ``w_point`` is taken
     envelope : if given, the least and the greatest of each ``envelope`` successive samples are kept instead of them;
@@ -193,17 +187,8 @@ class Poincare(Interval):
 
 Windows = Mapping[str, Window | Poincare]  # samples to keep, by their names
 ROUNDING = 1e-9  # of a time at the end of a run, relative
-LONGEST_NAME = 60  # characters of the name of a window, which netCDF accepts, however long in bytes
-
-
-def faults_of_lengths(windows: Windows, start: float, t_end: float) -> list[Fault]:
-    """Faults of windows whose `last` is longer than a run from ``start`` to ``t_end``, s."""
-    faults = []
-    for name, window in windows.items():
-        if isinstance(window, Window):
-            found = window.faults_of_length(start, t_end)
-            faults += [fault.inside(("windows", name)) for fault in found]
-    return faults
+NAME = re.compile(r"\w([^/\x00-\x1f]{0,58}[^/\s])?")
+"""Name of a window, which is that of a group in files."""
 
 
 def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
@@ -211,59 +196,35 @@ def resolved_windows(windows: object, start: float, t_end: float) -> Windows:
     `Span.resolved`. Each becomes a group of a file, beside others. One may end before the run
     starts, as parts of a run may share windows, but not begin after its end. Raises
     `ParameterError`."""
-    by_name = isinstance(windows, Mapping)
-    require(
-        (
-            by_name,
-            "windows",
-            windows,
-            "must be windows by name, such as {'late': Window(last=1, rate=1000)}",
-        )
-    )
+    rule = "must be windows by name, such as {'late': Window(last=1, rate=1000)}"
+    require((isinstance(windows, Mapping), "windows", windows, rule))
     resolved: dict[str, Window | Poincare] = {}
     for name, window in dict(windows).items():  # type: ignore[call-overload]
-        rule = _rule_of_name(name)
+        path = f"windows.{name}"
+        named = isinstance(name, str) and NAME.fullmatch(name) is not None
+        rule = "the name of a window must begin with a letter, a digit or _, and have at most 60 characters and no /"
         require(
-            (not rule, "windows", name, f"the name of a window {rule}"),
-            (
-                isinstance(window, Window | Poincare),
-                f"windows.{name}",
-                window,
-                "must be a Window, or Poincare",
-            ),
+            (named, "windows", name, rule),
+            (isinstance(window, Window | Poincare), path, window, "must be a Window, or Poincare"),
         )
+        if name in BESIDE_WINDOWS:
+            rule = f"the name of a window {rule_of_taken(name)}"
+            raise ParameterError(Fault.of(("windows",), name, rule))
+        length = getattr(window, "last", None) or 0.0
         try:
-            resolved[name] = window.resolved(start, t_end) if isinstance(window, Window) else window
             require(
-                (
-                    window.start <= t_end,
-                    "start",
-                    window.start,
-                    f"must be <= {as_text(t_end)}, where the run ends",
-                )
-            )
+                (window.start <= t_end, "start", window.start, f"must be <= {as_text(t_end)}, where the run ends"),
+                (t_end - length >= start - ROUNDING * t_end, "last", length,
+                 f"must be <= {as_text(t_end - start)} s, the length of the run"),
+            )  # fmt: skip
+            resolved[name] = window
+            if isinstance(window, Window):
+                resolved[name] = window.resolved(start, t_end)
         except ParameterError as error:
             raise ParameterError(
                 *(fault.inside(("windows", name)) for fault in error.faults)
             ) from None
     return resolved
-
-
-def _rule_of_name(name: object) -> str:
-    """The first rule that the name of a window breaks, or ""."""
-    if not isinstance(name, str):
-        return "must be a text"
-    if name in BESIDE_WINDOWS:
-        return f"{rule_of_taken(name)}; window_{name} would do"
-    rules = {
-        "must not be empty": name,
-        "must have at most 60 characters": len(name) <= LONGEST_NAME,
-        "must have printable characters only": name.isprintable(),
-        "must have no /": "/" not in name,
-        "must begin with a letter, a digit or _": re.match(r"\w", name),
-        "must not end in a space": not name[-1:].isspace(),
-    }
-    return next((rule for rule, holds in rules.items() if not holds), "")
 
 
 # ---- Slow ramps of the drive speed or of the preload, and the values of Omega and N at any time
@@ -513,3 +474,30 @@ class CaseSpec(Strict):
     def key(self) -> str:
         """First 12 hexadecimal digits of the sha256 of `canonical`."""
         return content_key(self.canonical)
+
+
+# ---- How a run is carried out
+
+
+class Execution(Strict):
+    """How a run is carried out. No setting changes the motion, but a run ends early after
+    `max_steps`.
+
+    Attributes
+    ----------
+    audit_every_step : whether to audit both energy balances on every step instead of every 256th
+        (the run takes about ten times as long)
+    progress : function that is called repeatedly with the time reached
+    max_steps : largest number of steps; None sets a generous limit from the highest frequency
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> short = dm.simulate(dm.Parameters(N=385, Omega=15.1), 60, execution=dm.Execution(max_steps=100))
+    >>> short.status.value
+    'step_limit'
+    """
+
+    audit_every_step: bool = False
+    progress: Callable[[float], object] | None = None
+    max_steps: Annotated[Count, Field(ge=1)] | None = None

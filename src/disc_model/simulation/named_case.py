@@ -6,11 +6,10 @@ import logging
 from typing import TYPE_CHECKING
 
 from disc_model.errors import DiscModelError
+from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import CaseSpec, Start
-from disc_model.simulation.request import Execution
+from disc_model.simulation.case import CaseSpec, Execution, Start
 from disc_model.simulation.starts import make_initial_state
-from disc_model.sources import PHYSICS, git_commit, source_hash, versions_text
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -63,7 +62,7 @@ def run_case(spec: CaseSpec) -> xr.DataTree:
     if spec.start != Start():
         tree.attrs["start"] = json_attribute(spec.start.model_dump())
     tree.attrs |= {
-        "source_hash": source_hash(*PHYSICS),
+        "source_hash": physics_hash(),
         "git_commit": git_commit(),
         "versions": versions_text(),
         "specification": spec.beside,

@@ -18,15 +18,16 @@ from disc_model import errors
 from disc_model.arrays import EqualByValue
 from disc_model.data.files import unreadable
 from disc_model.data.variables import EVENT_KINDS, PHASES, SCALARS, attributes, values_text
+from disc_model.disc.plate import mode_arrays
 from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.engine import record
 from disc_model.engine.record import EVENT_ROW
 from disc_model.errors import Fault, ParameterError, Status, require, rule_of_choice, suggestion
 from disc_model.parameters import Parameters
+from disc_model.provenance import versions_text
 from disc_model.simulation.case import RAMPED, Poincare, Ramp, Window, Windows, line
-from disc_model.simulation.states import Array, State, StateValues, is_finite_array, stored_state
-from disc_model.sources import versions_text
-from disc_model.units import Count, Finite, Real, Strict, in_si
+from disc_model.simulation.states import Array, State, is_finite_array
+from disc_model.units import Finite, Real, Strict, in_si, is_number, is_whole
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -48,21 +49,22 @@ SAMPLE_ROW = record.SAMPLE_ROW[1:]
 FOLDED = ("P", "u", "w", "w_point", "psi", "psi_velocity")
 BIN_ROW = ("time", *(f"{name}_{end}" for name in FOLDED for end in ("min", "max")))
 """Columns of a window with an envelope."""
-_PLAIN = ("t_end", "tol", "status", "message", "first_separation", "u_0", "versions")
+_PLAIN = (
+    "parameters", "windows", "ramps", "t_end", "tol", "status", "message", "first_separation", "u_0",
+    "versions",
+)  # fmt: skip
 """Values of a `Result` that its files hold as they are."""
 
 
-FORMER_NAMES = {"events": "n_events", "separations": "n_separations"}
-"""Names of counts in `Result.statistics` that earlier versions had."""
-
-
-class Totals(dict[str, float]):
-    """Statistics of a run by name, also by former names."""
-
-    def __missing__(self, name: str) -> float:
-        if name in FORMER_NAMES:
-            return self[FORMER_NAMES[name]]
-        raise KeyError(name)
+CYCLES = 4  # of stick and slip that pictures show of the end of a run
+SEPARATIONS = 4 * CYCLES  # most of them that are shown of the end of a run
+SHORTEST = 0.1  # s, of the end of a run that is shown where nothing repeats within a second
+BINS = 600  # of the envelope of a run
+RATE = 4000.0  # samples of the envelope per second, at least
+PER_PERIOD = (
+    16  # samples for a spectrum of the highest mode: what is beyond its eighth multiple is weak
+)
+FINE = 4000  # samples of the last cycles
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -245,13 +247,21 @@ class Result(Summarised, EqualByValue):
         """
         from disc_model.data import tables
 
-        states = {"final_state": self.final_state.parts}
-        if self.initial_state is not None:
-            states["initial_state"] = self.initial_state.parts
         columns = {"events": dict(zip(EVENT_ROW, self.event_rows.T, strict=True))}
-        columns |= {which: arrays for which, (_, arrays) in states.items()}
-        columns |= self.samples
-        tables.save_tables(columns, self._header(states).model_dump_json(), path, self.to_tree())
+        described: dict[str, Any] = {name: getattr(self, name) for name in _PLAIN}
+        motion = {name: x for name, x in self.statistics.items() if name != "wall_time"}
+        for which in ("final_state", "initial_state"):
+            state = getattr(self, which)
+            described[which] = None
+            if state is not None:
+                values = vars(state).items()
+                arrays = {name: x for name, x in values if isinstance(x, np.ndarray)}
+                columns[which] = arrays
+                described[which] = {name: x for name, x in values if name not in arrays}
+        header = Header(**described, statistics=motion)
+        tables.save_tables(
+            columns | {**self.samples}, header.model_dump_json(), path, self.to_tree()
+        )
 
     def to_csv(self, path: str | Path) -> None:
         """Write the events and the samples of each window as tables of text.
@@ -276,8 +286,8 @@ class Result(Summarised, EqualByValue):
         >>> print(open("run/events.csv").readline().strip())
         time (s),kind,phase,psi (rad),f (rad s-1),u (m),u_velocity (m s-1),P (N)
         """
+        from disc_model.data.coded import table_of
         from disc_model.data.columns import series_dataset
-        from disc_model.data.tables import table_of
 
         is_path = isinstance(path, str | os.PathLike)
         require((is_path, "path", str(path), "must be the name of a folder"))
@@ -287,22 +297,6 @@ class Result(Summarised, EqualByValue):
         table_of(events).drop(columns="event").to_csv(folder / "events.csv", index=False)
         for name in self.samples:
             table_of(self[name]).to_csv(folder / f"{name}.csv", index=False)
-
-    def _header(self, states: Mapping[str, tuple[dict[str, Any], Any]]) -> Header:
-        """What a file holds beside the arrays; states : the `State.parts` by name."""
-        kinds: dict[type, dict[str, Any]] = {Window: {}, Poincare: {}}
-        for name, window in self.windows.items():
-            kinds[type(window)][name] = window
-        statistics = {name: x for name, x in self.statistics.items() if name != "wall_time"}
-        return Header(
-            parameters=self.parameters,
-            windows=kinds[Window],
-            sections=kinds[Poincare],
-            ramps=self.ramps,
-            statistics=Statistics(**statistics),
-            **{which: StateValues(**values) for which, (values, _) in states.items()},
-            **{name: getattr(self, name) for name in _PLAIN},
-        )
 
     @classmethod
     def load(cls, path: str | Path) -> Result:
@@ -324,8 +318,18 @@ class Result(Summarised, EqualByValue):
         whole = text and {"events", "final_state"} <= columns.keys()
         require((whole, "path", str(path), "must be a file written by Result.save"))
         try:
-            return _stored_result(Header.model_validate_json(text), columns)
-        except ParameterError as error:
+            fields = dict(Header.model_validate_json(text))
+            for which in ("final_state", "initial_state"):
+                if fields[which] is not None:
+                    stored = fields[which] | columns.pop(which)
+                    fields[which] = State(**stored | {"_roots": tuple(stored["_roots"])})
+            rows = columns.pop("events")
+            return cls(
+                **fields | {"statistics": {**fields["statistics"], "wall_time": math.nan}},
+                event_rows=np.stack([rows[name] for name in EVENT_ROW], axis=1),
+                samples={name: columns[name] for name in fields["windows"]},
+            )
+        except (LookupError, TypeError, ValueError) as error:
             raise unreadable(path, error) from None
 
     def __repr__(self) -> str:
@@ -342,31 +346,19 @@ class Result(Summarised, EqualByValue):
         s = self.statistics
         reached = float(self.final_state.time)
         yield "case", values_text(dict(self.parameters))
-        yield "ramps", ", ".join(map(_ramp_text, self.ramps))
+        ramps = (f"{x.parameter} to {x.to:g} from {x.start:g} to {x.end:g} s" for x in self.ramps)
+        yield "ramps", ", ".join(ramps)
         yield "status", self.message or self.status.value
         yield "advice", "" if self.status.complete else self.status.advice
         yield "time reached", f"{reached:.9g} s of {self.t_end:g} s"
         yield "first separation", number_text(self.first_separation, "s", 9) or "none"
         yield "events", s["n_events"]
-        yield from (
-            (f"  {kind}", count)
-            for kind, count in self.events["kind"].value_counts().items()
-            if count
-        )
         for phase in PHASES:
-            yield (
-                f"time in {phase}",
-                f"{s[f'time_{phase}']:.6g} s ({s[f'time_{phase}'] / (reached or 1.0):.2%})",
-            )
+            share = s[f"time_{phase}"] / (reached or 1.0)
+            yield f"time in {phase}", f"{s[f'time_{phase}']:.6g} s ({share:.2%})"
         yield "steps", s["steps"]
-        yield (
-            "energy residual",
-            f"{s['energy_residual']:.2e} (largest of {s['audited_steps']} steps, relative)",
-        )
-        yield (
-            "surface speed",
-            number_text(s["surface_speed"], "(largest, over that of the drive)", 3),
-        )
+        audited = f"largest of {s['audited_steps']} steps, relative"
+        yield "energy residual", f"{s['energy_residual']:.2e} ({audited})"
         yield "windows", ", ".join(self.samples)
 
     def raise_for_status(self) -> Result:
@@ -419,11 +411,18 @@ class Result(Summarised, EqualByValue):
         ...     run = dm.simulate(dm.Parameters(N=N, Omega=15), 1, {"end": dm.Window(last=0.05, rate=2e4)})
         ...     line = run["end"]["u"].plot(ax=ax, label=f"{N} N")
         """
-        from disc_model.simulation.shown import shown_windows
-
         pictures = drawings()
-        case, names = shown_windows(self, windows)
-        return pictures.history(case, names, variables, units)
+        if windows is None:
+            names = ["end"]
+            if self._span > 1.5 * self._last_cycles:
+                names = ["run", "end"]
+            return pictures.history(self._again(*names), names, variables, units)
+        # what is no text and cannot be iterated is refused by its name
+        several = np.iterable(windows) and not isinstance(windows, str)
+        names = [windows]  # type: ignore[list-item]
+        if several:
+            names = list(windows)
+        return pictures.history(self.to_tree(), names, variables, units)
 
     def plot_phase_portrait(
         self,
@@ -447,10 +446,8 @@ class Result(Summarised, EqualByValue):
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 60).plot_phase_portrait().get_xlabel()
         'Angle ψ (rad)'
         """
-        from disc_model.simulation.shown import shown_window
-
         pictures = drawings()
-        case, name = shown_window(self, window, "end")
+        case, name = self._shown(window, "end")
         return pictures.portrait(case, name, x, y, ax, units, **look)
 
     def plot_spectrum(
@@ -479,10 +476,9 @@ class Result(Summarised, EqualByValue):
         >>> dm.simulate(dm.Parameters(N=385, Omega=15.1), 10).plot_spectrum(highest=500).get_xlabel()
         'Frequency (Hz)'
         """
-        from disc_model.simulation.shown import draw_spectrum
-
-        options = {"ax": ax, "units": units, **look}
-        return draw_spectrum(self, window, variable, highest, **options)
+        pictures = drawings()
+        case, name = self._shown(window, "late")
+        return pictures.spectrum(case, name, variable, highest, ax=ax, units=units, **look)
 
     def plot_poincare(
         self, window: str | None = None, *, units: Mapping[str, str] | None = None
@@ -501,10 +497,15 @@ class Result(Summarised, EqualByValue):
         >>> run.plot_poincare("late").shape
         (2,)
         """
-        from disc_model.simulation.shown import shown_section
-
+        sections = [
+            name
+            for name, kept in self.windows.items()
+            if isinstance(kept, Poincare) and len(self.samples[name]["time"])
+        ]
+        rule = f"must be a recorded Poincare with samples{suggestion(window, sections)}"
+        require((window is None or window in sections, "window", window, rule))
         pictures = drawings()
-        case, name = shown_section(self, window)
+        case, name = self._shown(window, "poincare")
         return pictures.poincare(case, name, units)
 
     def animate(
@@ -538,96 +539,105 @@ class Result(Summarised, EqualByValue):
         >>> import disc_model as dm
         >>> film = dm.simulate(dm.Parameters(N=385, Omega=15.1), 1).animate("cycle.gif", frames=2)
         """
-        from disc_model.simulation.shown import film
+        from disc_model.simulation.api import snapshots
 
-        return film(self, path, window, frames, fps)
+        pictures = drawings()
+        # what cannot be written is refused before anything is computed
+        is_path = path is None or isinstance(path, str | Path)
+        file = Path(path or "film.gif") if is_path else Path()
+        suffix = "must end in .gif or .mp4; a window is given by window="
+        require(
+            (is_whole(frames) and frames >= 1, "frames", frames, "must be a whole number >= 1"),
+            (is_number(fps) and fps > 0, "fps", fps, "must be a number > 0"),
+            (file.suffix in (".gif", ".mp4"), "path", str(path), suffix),
+            (file.absolute().parent.is_dir(), "path", str(path), "must be in a folder that exists"),
+        )
+        case, name = self._shown(window, "end")
+        time = pictures.window_of(case, name)["time"]
+        states = snapshots(
+            self.parameters,
+            np.linspace(float(time[0]), float(time[-1]), frames),
+            tol=self.tol,
+            initial_state=self.initial_state,
+            ramps=self.ramps,
+        )
+        made = pictures.film(self.parameters, states, case, name)
+        if path is not None:
+            made.save(
+                path, writer="pillow" if file.suffix == ".gif" else "ffmpeg", fps=fps, dpi=100
+            )
+        return made
 
+    def _shown(self, window: str | None, otherwise: str) -> tuple[xr.DataTree, str]:
+        """Windows of the run, and the name of the one to show: a recorded one if it is named, and
+        otherwise one of those of `_again`."""
+        if window is None:
+            return self._again(otherwise), otherwise
+        return self.to_tree(), window
 
-def _ramp_text(ramp: Ramp) -> str:
-    """Where a ramp leads, and when."""
-    course = values_text({ramp.parameter: ramp.to})
-    return f"{course.replace(' = ', ' to ')} from {ramp.start:g} to {ramp.end:g} s"
+    @property
+    def _span(self) -> float:
+        """The duration of the run, s."""
+        return float(self.final_state.time - getattr(self.initial_state, "time", 0.0))
 
+    @property
+    def _last_cycles(self) -> float:
+        """The length of the last cycles of the run, s: from a release of stick on."""
+        end = float(self.final_state.time)
+        lengths = [self._span]
+        for kind, number in (("stick_to_slip", CYCLES), ("separation", SEPARATIONS)):
+            times = self.events["time"][self.events["kind"] == kind].to_numpy()
+            length = SHORTEST
+            if len(times) > number:
+                length = end - float(times[-1 - number])
+            if length >= 1.0:
+                length = SHORTEST
+            lengths.append(length)
+        return min(lengths)
 
-# ---- What files hold of a result
+    def _again(self, *names: str) -> xr.DataTree:
+        """Simulate the run once more, and return it with windows that pictures show: "run" (an envelope of
+        all of it), "end" (its last cycles), "late" (for a spectrum: its last 8 s, or the second half of a
+        shorter run) and "poincare"."""
+        from disc_model.simulation.api import simulate
 
-
-class Statistics(Strict):
-    """The `Result.statistics` in a file, which are those of the motion alone."""
-
-    steps: Count
-    n_events: Count
-    n_separations: Count
-    time_stick: Real
-    time_slip: Real
-    time_separation: Real
-    energy_residual: Real
-    energy_residual_transverse: Real = math.nan
-    energy_residual_inplane: Real = math.nan
-    audited_steps: Count
-    surface_speed: Real = math.nan
+        end = float(self.final_state.time)
+        rate = max(RATE, BINS / self._span)
+        cycles = self._last_cycles
+        highest = float(mode_arrays(self.parameters).omega.max(initial=0.0)) / math.tau
+        bins = max(2, math.ceil(rate * self._span / BINS))
+        windows: Windows = {
+            "run": Window(start=end - self._span, rate=rate, envelope=bins),
+            "end": Window(start=end - cycles, rate=FINE / cycles),
+            "late": Window(
+                start=end - min(8.0, self._span / 2), rate=max(RATE, PER_PERIOD * highest)
+            ),
+            "poincare": Poincare(start=end - self._span),
+        }
+        again = simulate(
+            self.parameters,
+            end,
+            {name: windows[name] for name in names},
+            tol=self.tol,
+            ramps=self.ramps,
+            initial_state=self.initial_state,
+        )
+        return again.to_tree()
 
 
 class Header(Strict):
     """What a file holds of a `Result` beside its arrays, checked."""
 
     parameters: Parameters
-    windows: dict[str, Window]
-    sections: dict[str, Poincare]
+    windows: dict[str, Window | Poincare]
     ramps: tuple[Ramp, ...]
-    statistics: Statistics
-    final_state: StateValues
-    initial_state: StateValues | None = None
+    statistics: dict[str, int | float]
+    final_state: dict[str, Any]
+    initial_state: dict[str, Any] | None
     t_end: Finite
     tol: Finite
     status: Status
     message: str
     first_separation: Real
     u_0: Real
-    versions: str = ""
-
-
-def _stored_result(header: Header, columns: dict[str, dict[str, Array]]) -> Result:
-    """The result of a file, from what it holds; raises `ParameterError` unless its parts fit
-    together."""
-    tables = dict(columns)
-    final_state = stored_state(header.final_state, tables.pop("final_state"))
-    initial_state = None
-    if header.initial_state is not None:
-        initial_state = stored_state(header.initial_state, tables.pop("initial_state", {}))
-    events = tables.pop("events")
-    windows: Windows = {**header.windows, **header.sections}
-    rule = f"must be {', '.join(windows) or 'none'}"
-    require((tables.keys() == windows.keys(), "windows", ", ".join(tables), rule))
-    _check_columns("events", events, EVENT_ROW, ("time", "kind", "phase"))
-    for name, samples in tables.items():
-        folded = getattr(windows[name], "envelope", None)
-        _check_columns(name, samples, BIN_ROW if folded else SAMPLE_ROW, ("time",))
-    unknown = np.full(events["time"].shape, np.nan)
-    for name, words in (("kind", EVENT_KINDS), ("phase", PHASES)):
-        known = np.isin(events[name], range(len(words))).all()
-        require((known, f"events.{name}", events[name], "must be numbers of their words"))
-    statistics = Totals(header.statistics)
-    statistics["wall_time"] = math.nan
-    return Result(
-        parameters=header.parameters,
-        windows={name: windows[name] for name in tables},
-        event_rows=np.stack([events.get(name, unknown) for name in EVENT_ROW], axis=1),
-        final_state=final_state,
-        statistics=statistics,
-        samples=tables,
-        ramps=header.ramps,
-        initial_state=initial_state,
-        **{name: getattr(header, name) for name in _PLAIN},
-    )
-
-
-def _check_columns(
-    name: str, columns: Mapping[str, Array], row: Sequence[str], needed: Sequence[str]
-) -> None:
-    """Raise `ParameterError` unless a table has columns of a row, all of one length: the needed ones, and
-    others as far as they were known when it was written."""
-    fits = {*needed} <= columns.keys() <= {*row}
-    require((fits, name, ", ".join(columns), f"must be of {', '.join(row)}"))
-    lengths = {len(column) for column in columns.values()}
-    require((len(lengths) == 1, name, sorted(lengths), "must have columns of one length"))
+    versions: str

@@ -1,14 +1,15 @@
-"""One run of the engine: the arrays that it works on, its pauses, and its result."""
+"""One run of the engine: the arrays that it works on, its pauses, what it records, and its result."""
 
 from __future__ import annotations
 
 import math
 import time as clock
 from collections.abc import Callable
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from disc_model.arrays import Array
 from disc_model.data.variables import PHASES
 from disc_model.engine import audit, loop, record, transitions
 from disc_model.engine import state as motion
@@ -16,17 +17,24 @@ from disc_model.engine.jit import compiled_for
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.model import blocks_of, flags_of, on_ramp, slope_under_slider
 from disc_model.engine.stick_modes import LONGEST_STICK
-from disc_model.errors import Status
-from disc_model.hashing import content_key
+from disc_model.errors import Fault, ParameterError, Status
+from disc_model.parameters import Parameters
+from disc_model.provenance import content_key
 from disc_model.simulation import states
-from disc_model.simulation.case import SampleTimes, angle_of_drive, pieces
-from disc_model.simulation.collector import Collector
-from disc_model.simulation.request import Request
-from disc_model.simulation.result import Result, Totals
+from disc_model.simulation.case import Execution, Ramp, SampleTimes, Windows, angle_of_drive, pieces
+from disc_model.simulation.result import BIN_ROW, FOLDED, SAMPLE_ROW, Result
+from disc_model.simulation.states import State
 
 MOST_STEPS = 2**62  # largest number of steps that the engine can count
 # steps between two pauses of the engine where a step is cheapest: about 0.1 s of work
 STEPS_PER_PAUSE = 100_000
+# rows of samples between two pauses: large enough for cheap draining, small enough for the cache
+BUFFER = 1 << 15
+# events between two pauses: a larger buffer takes longer to make than a short simulation
+EVENT_BUFFER = 1 << 10
+# Where a ramp stops the drive, the time of a release is an angle over a speed that goes to 0: errors grow so
+# many times (measured, up to 40).
+STOPPING = 64.0
 
 _STATUS = {
     transitions.TIME_OVER: Status.OK,
@@ -36,8 +44,45 @@ _STATUS = {
     transitions.STALLED: Status.STALLED,
     transitions.NON_FINITE: Status.NON_FINITE,
 }
+STATISTICS = (
+    "steps", "n_events", "n_separations", "time_stick", "time_slip", "time_separation", "energy_residual",
+    "energy_residual_transverse", "energy_residual_inplane", "audited_steps", "surface_speed", "wall_time",
+)  # fmt: skip
+BALANCES = {
+    "transverse": (audit.TRANSVERSE, audit.TRANSVERSE_SCALE, audit.TRANSVERSE_TURNOVER),
+    "inplane": (audit.INPLANE, audit.INPLANE_SCALE, audit.INPLANE_TURNOVER),
+}
+"""Places of the sum of residuals of a balance, the largest energy present, and all energy exchanged."""
 # compiled, by blocks of lanes, laws of contact and ramp
 _ENGINES: dict[tuple[Any, ...], Callable[..., int]] = {}
+
+
+class Request(NamedTuple):
+    """What a run is to compute. Every value obeys the rules of `disc_model.simulate`.
+
+    Attributes
+    ----------
+    parameters : the case
+    start, t_end : s, absolute times of the run's first and last instant
+    tol : expected error of event times after one second of motion, s, which the series can use
+    windows : samples to keep, by name, with absolute times
+    events : whether to keep the table of events
+    initial_state : state at ``start``; None is the static start
+    stop_at : None, or "first_separation"
+    ramps : slow changes of Omega or N
+    execution : how the run is carried out
+    """
+
+    parameters: Parameters
+    start: float
+    t_end: float
+    tol: float
+    windows: Windows
+    events: bool
+    initial_state: State | None
+    stop_at: str | None
+    ramps: tuple[Ramp, ...]
+    execution: Execution
 
 
 class Run:
@@ -59,7 +104,7 @@ class Run:
         order = states.series_order(request.tol)
         self.state, self.probe, self.series = states.take_workspace(self.case, order)
         at_switch = initial is not None and states.write_state(
-            self.case, initial, self.state, self.key
+            self.case, initial, self.state, self.key, is_start=True
         )
         start = self.time
 
@@ -67,8 +112,11 @@ class Run:
         self.lead = 0.0
         if initial is not None and initial.drive_angle is not None:
             self.lead = float(initial.drive_angle) - angle_of_drive(self.pieces, start)
-        self.collector = self._new_collector()
         self.limits = self._first_limits(order)
+        self.first_separation = math.nan  # s
+        self.events: list[Array] = []
+        self.samples: dict[str, Samples] = {}
+        self.buffers = self._new_buffers()
 
         # in reverse order, so that the first piece is current at the end; compiling here keeps it
         # out of the wall time
@@ -78,16 +126,35 @@ class Run:
         if at_switch:
             self._begin_at_switch()
 
-    def _new_collector(self) -> Collector:
-        """Return the buffers for the windows of the request, from the time of the state on."""
+    def _new_buffers(self) -> record.RunBuffers:
+        """Return the buffers of the engine for the windows of the request, from the time of the state on."""
         request = self.request
-        grids: dict[str, SampleTimes] = {}
+        # the engine pauses between steps only, so one step's samples must fit above ``capacity``
+        longest = LONGEST_STICK * self.case.model.unit + record.SAME_INSTANT * request.t_end
+        per_step = 0
+        grids: list[SampleTimes] = []
         for name, window in request.windows.items():
             grid = window.grid(request.parameters, self.time, request.t_end)
             # the engine knows the angle without the lead
-            grids[name] = grid._replace(theta=grid.theta - self.lead)
-        longest = LONGEST_STICK * self.case.model.unit
-        return Collector(grids, request.windows, request.events, request.t_end, longest)
+            grids.append(grid._replace(theta=grid.theta - self.lead))
+            per_step += 1 + math.ceil(min(longest / grid.interval, grid.number))
+            try:
+                self.samples[name] = Samples(grid.number, getattr(window, "envelope", None) or 1)
+            except (MemoryError, ValueError) as error:
+                raise ParameterError(Fault(("windows", name), "", f"{error}: too many")) from None
+        capacity = 0
+        if grids:
+            capacity = BUFFER
+        return record.RunBuffers(
+            np.zeros(record.N_COUNTERS, np.int64),
+            np.zeros(3),
+            np.zeros(audit.N_SUMS),
+            np.array(grids).reshape(-1, 5),
+            np.zeros(len(grids), np.int64),
+            np.empty((capacity + per_step, len(record.SAMPLE_ROW))),
+            capacity,
+            np.empty((EVENT_BUFFER, len(record.EVENT_ROW))),
+        )
 
     def _first_limits(self, order: int) -> loop.Limits:
         """Return the limits of the engine for series of an order, to the end of the run."""
@@ -99,6 +166,11 @@ class Run:
             # twenty for each radian of the highest mode, far more than any published case takes
             most = 10_000 + 20 * (request.t_end - self.time) / model.unit
 
+        stops = any(ramp.parameter == "Omega" and ramp.to == 0 for ramp in request.ramps)
+        tolerance = states.series_tolerance(request.tol, self.compliant)
+        if stops:
+            tolerance /= STOPPING
+
         # pauses serve progress and Ctrl-C; there are fewer steps between them where a step costs
         # more. A compliant contact takes about four times as many steps per second
         step_cost = blocks_of(model)
@@ -108,7 +180,7 @@ class Run:
             audit_interval = 1
         return loop.Limits(
             order=order,
-            tolerance=states.series_tolerance(request.tol, self.compliant),
+            tolerance=tolerance,
             t_end=request.t_end,
             may_separate=request.stop_at is None,
             max_steps=int(min(most, MOST_STEPS)),
@@ -169,12 +241,28 @@ class Run:
         if code == transitions.TIME_OVER and self.limits.t_end < self.request.t_end:
             self._enter(self.index + 1)
             code = transitions.PAUSED
-        self.collector.drain()
+        self._drain()
         self.wall_time += clock.perf_counter() - began
         return code
 
     def _arguments(self) -> tuple[Any, ...]:
-        return self.model, self.series, self.state, self.probe, self.limits, self.collector.buffers
+        return self.model, self.series, self.state, self.probe, self.limits, self.buffers
+
+    def _drain(self) -> None:
+        """Copy the rows from the buffers and empty them."""
+        counters = self.buffers.counters
+        events = self.buffers.event_rows[: counters[record.EVENT_ROWS]]
+        rows = self.buffers.sample_rows[: counters[record.SAMPLE_ROWS]]
+        counters[record.EVENT_ROWS] = counters[record.SAMPLE_ROWS] = 0
+        if counters[record.SEPARATIONS] > 0 and math.isnan(self.first_separation):
+            self.first_separation = events[events[:, 1] == record.LOSS_OF_CONTACT][0, 0].item()
+        if not self.request.events:
+            events = events[:0]
+        self.events.append(events.copy())
+        for i, samples in enumerate(self.samples.values()):
+            new = rows[rows[:, 0] == i]
+            if len(new):
+                samples.add(new)
 
     def result(self, status: Status) -> Result:
         """Assemble the result of the run, which ends here: other runs of the case may use its
@@ -190,26 +278,24 @@ class Run:
         if stopped and final_state.phase == "stick":
             status = Status.AT_REST
         message = f"{status.value}: at t = {self.time:.9g} s in {final_state.phase}"
-        if stopped:
-            message += ", the drive stands still"
+        message += ", the drive stands still" * stopped
         if status is Status.PARADOX:
             end = states.read_state(self.case, self.state)
             slope = slope_under_slider(self.model, self.state)
-            message += f", psi = {end.psi:.6g} rad, f = {end.f:.6g} rad/s"
-            message += f", slope B = {slope:.6g}"
+            message += f", psi = {end.psi:.6g} rad, f = {end.f:.6g} rad/s, slope B = {slope:.6g}"
         result = Result(
             parameters=request.parameters,
             t_end=request.t_end,
-            tol=min(request.tol, states.LOOSEST / states.LOCAL[self.compliant]),
+            tol=request.tol,
             windows=request.windows,
             status=status,
             message=message,
-            event_rows=np.concatenate(self.collector.events),
-            first_separation=self.collector.first_separation,
+            event_rows=np.concatenate(self.events),
+            first_separation=self.first_separation,
             final_state=final_state,
             u_0=self.model.u_0,
             statistics=self._statistics(),
-            samples={name: samples.arrays() for name, samples in self.collector.samples.items()},
+            samples={name: samples.arrays() for name, samples in self.samples.items()},
             ramps=request.ramps,
             initial_state=request.initial_state,
         )
@@ -221,50 +307,66 @@ class Run:
         last = self.pieces[-1]
         return last.Omega == 0 and last.begin <= self.time
 
-    def _statistics(self) -> Totals:
+    def _statistics(self) -> dict[str, float]:
         """Return the `Result.statistics`."""
-        buffers = self.collector.buffers
-        every_step = self.request.execution.audit_every_step
-        count = buffers.counters.tolist()
-        total = buffers.audit.tolist()
-        statistics = Totals(
-            steps=count[record.STEPS],
-            n_events=count[record.EVENTS],
-            n_separations=count[record.SEPARATIONS],
-        )
-        for phase, duration in zip(PHASES, buffers.phase_times.tolist(), strict=True):
-            statistics[f"time_{phase}"] = duration
+        count = self.buffers.counters.tolist()
+        total = self.buffers.audit.tolist()
+        durations = zip(PHASES, self.buffers.phase_times.tolist(), strict=True)
+        statistics = dict.fromkeys(STATISTICS, math.nan)
+        statistics |= {f"time_{phase}": duration for phase, duration in durations}
+        statistics |= {
+            "steps": count[record.STEPS],
+            "n_events": count[record.EVENTS],
+            "n_separations": count[record.SEPARATIONS],
+            "audited_steps": int(total[audit.STEPS]),
+            "wall_time": self.wall_time,
+        }
 
         # energies, which need the sums over every step, but for the worst of the audited ones
-        statistics |= dict.fromkeys(_ENERGIES, math.nan)
-        statistics["audited_steps"] = int(total[audit.STEPS])
         if total[audit.STEPS]:
             statistics["energy_residual"] = total[audit.WORST]
-        if every_step:
-            statistics["energy_residual_transverse"] = _relative(
-                total[audit.TRANSVERSE],
-                total[audit.TRANSVERSE_SCALE] + total[audit.TRANSVERSE_TURNOVER],
-            )
-            statistics["energy_residual_inplane"] = _relative(
-                total[audit.INPLANE], total[audit.INPLANE_SCALE] + total[audit.INPLANE_TURNOVER]
-            )
+        if self.request.execution.audit_every_step:
+            for name, (residual, scale, turnover) in BALANCES.items():
+                size = total[scale] + total[turnover]
+                statistics[f"energy_residual_{name}"] = abs(total[residual]) / (size or 1.0)
         if self.model.has_moving_surface:
             statistics["surface_speed"] = total[audit.SURFACE]
-        statistics["wall_time"] = self.wall_time
         return statistics
 
 
-_ENERGIES = (
-    "energy_residual",
-    "energy_residual_transverse",
-    "energy_residual_inplane",
-    "audited_steps",
-    "surface_speed",
-)
+class Samples:
+    """Samples of a window, or bins of an envelope, in columns for as many as there may be, of which
+    some are filled."""
+
+    def __init__(self, count: int, fold: int) -> None:
+        names = BIN_ROW if fold > 1 else SAMPLE_ROW
+        self.columns = {name: np.empty(count // fold) for name in names}
+        self.fold = fold
+        self.filled = 0
+        self.rest = np.empty((0, len(record.SAMPLE_ROW)))  # rows of the bin that is not full
+
+    def add(self, rows: Array) -> None:
+        """Take in rows of the engine in order of time."""
+        done = rows[:, 1:]
+        if self.fold > 1:
+            rows = np.concatenate([self.rest, rows])
+            whole = len(rows) // self.fold * self.fold
+            self.rest = rows[whole:]
+            done = _fold(rows[:whole].reshape(-1, self.fold, rows.shape[1]))
+        for column, values in zip(self.columns.values(), done.T, strict=True):
+            column[self.filled : self.filled + len(done)] = values
+        self.filled += len(done)
+
+    def arrays(self) -> dict[str, Array]:
+        """What was recorded, by name."""
+        return {name: column[: self.filled] for name, column in self.columns.items()}
 
 
-def _relative(residual: float, size: float) -> float:
-    """Return the sum of residuals over the largest energy present plus all energy exchanged."""
-    if not size:
-        return 0.0
-    return abs(residual) / size
+def _fold(cells: Array) -> Array:
+    """Rows of mean time and (min, max) of each folded column, from cells of shape (n, samples,
+    columns)."""
+    folded = [cells[:, :, record.SAMPLE_ROW.index("time")].mean(axis=1)]
+    for name in FOLDED:
+        column = cells[:, :, record.SAMPLE_ROW.index(name)]
+        folded += [column.min(axis=1), column.max(axis=1)]
+    return np.stack(folded, axis=1)

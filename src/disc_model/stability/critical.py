@@ -1,29 +1,213 @@
 """Values of one parameter at which the motion near the static start, or steady sliding, gains or loses
 stability."""
 
+from __future__ import annotations
+
 import math
-from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, ClassVar
 
 import numpy as np
+import xarray as xr
+from scipy.optimize import brentq, linear_sum_assignment, minimize_scalar
 
-from disc_model.display import progress_bar
+from disc_model.arrays import Array, ComplexArray, EqualByValue, Mask
+from disc_model.data.variables import (
+    OF_RESULTS,
+    STABLE_CYCLES,
+    attributes_of_number,
+    unit_of_parameter,
+    value_with_unit,
+)
+from disc_model.display import Bar, counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
 from disc_model.errors import Fault, raise_faults, violations, with_known_names
 from disc_model.parameters import Parameters, Quantity, foreign_case
-from disc_model.stability.continuation import free_faults, interval_in_si
-from disc_model.stability.critical_values import MOTIONS, Critical
-from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult
-from disc_model.stability.parameter_scan import SLIDING, Scan, SlidingScan
-from disc_model.stability.sliding import SteadySliding
+from disc_model.provenance import versions_text
+from disc_model.stability.continuation import (
+    are_slow,
+    free_faults,
+    interval_in_si,
+    passings,
+    turns_of,
+)
+from disc_model.stability.cycle import STICK_SLIP, find_cycle
+from disc_model.stability.sliding import growth_rates, steady_sliding
 from disc_model.units import CYCLE_TOLERANCES, is_number, is_whole, limits_faults
 
+SLIDING = "sliding"
+MOTIONS = {STICK_SLIP: "the stick-slip cycle", SLIDING: "steady sliding"}
+"""Kinds of motion whose stability is followed, and what names of variables call them."""
+OF_PARAMETER = ("value", "border", "crossings", "values", "resolution", "jumps")
+"""Variables in the unit of the parameter."""
 MOST_POINTS = 100_000  # largest number of values: an hour of work
-SHORTEST = 1e-6  # of the range, to which crossings are bisected
+SHORTEST = 1e-6  # of the range, to which crossings are located
 NARROWEST = 1e-5  # of the range: between values closer than that no further ones are computed
-SLIDING_MOTIONS = ("steady_sliding", "unstable_sliding")
-RULE_OF_KIND = (
-    f"must be {STICK_SLIP!r}, the motion near the static start, or {SLIDING!r}, steady sliding"
+ROUNDS = 8  # times that places of suspected instability are predicted anew
+# rad, by which a multiplier may turn from one value to the next; beyond, multipliers cannot be told
+# apart by their distances
+LONGEST_TURN = 0.3
+# the angles of a pair at two values, from the real axis, over the longest turn of any multiplier:
+# up to this, the pair may have met the axis in between, and have left it again on the same side
+MAY_HAVE_MET = 1.5
+# exponents of distances by which multipliers are matched. One that passes another moves as far, in
+# sum, as two that follow each other: the first exponent does not tell them apart, the second one
+# takes them to have passed
+MATCHES = (1.0, 0.5)
+JUMP = (
+    1e-4  # relative change of the period at a change of stability, of two cycles on no one branch
 )
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Critical(EqualByValue):
+    """Values of a parameter at which a motion gains or loses stability: the one near the static
+    start, or steady sliding.
+
+    Attributes
+    ----------
+    parameters, name : the case, and the parameter
+    value : the least value computed at which the motion is unstable, or no cycle is found and stick-slip goes on; nan
+        if there is none. The lower bound, where that motion is unstable there already: it may be so below, too
+    border : the value above which the motion stays unstable up to the upper bound, the last crossing; nan if it is
+        stable there, or unstable at all values. Tongues of instability may lie below it
+    at_lower_bound : whether `value` is the lower bound, so that it is only known to be there or below
+    message : says so if `value` is the lower bound or nan; where steady sliding is unstable instead of a cycle; and
+        where the cycle near the static start jumps to another one; else ""
+    kind : the motion: "stick_slip", the cycle near the static start, or steady sliding or rest if there is no cycle;
+        or "sliding", steady sliding
+    crossings : shape (n,), all values at which stability was seen to change, ascending
+    unstable_above : bool, (n,), whether that motion is unstable just above each
+    jumps : those of the crossings at which the cycle near the static start becomes another one, whose period differs
+    values, growth_rate : shape (m,), the values computed, ascending, and growth rates of the cycle, or of steady
+        sliding (1/s; nan without). Where steady sliding takes the place of a cycle, `sliding_growth_rate` has its own
+    resolution : the largest step between neighbouring values computed. Narrower stretches of stability or of
+        instability may be missed, though they are looked for where multipliers meet
+
+    Examples
+    --------
+    The least unstable value may lie in a narrow tongue; from the border on, the motion stays unstable:
+
+    >>> import disc_model as dm
+    >>> light = dm.Parameters(N=385, Omega=15, mu_s=0.44, mu_k=0.24, m=0.1)
+    >>> found = dm.critical(light, "Omega", (12, 22), points=9)
+    >>> print(f"{found.value:.2f} and {found.border:.2f} rad/s")
+    12.00 and 18.79 rad/s
+    """
+
+    parameters: Parameters
+    name: str
+    crossings: Array
+    unstable_above: Mask
+    jumps: Array
+    values: Array
+    growth_rate: Array
+    sliding_growth_rate: Array
+    value: float
+    kind: str = STICK_SLIP
+
+    @property
+    def resolution(self) -> float:
+        return float(np.diff(self.values).max())
+
+    @property
+    def at_lower_bound(self) -> bool:
+        return bool(self.value == self.values[0])
+
+    @property
+    def border(self) -> float:
+        stays = len(self.crossings) and self.unstable_above[-1]
+        return float(self.crossings[-1]) if stays else math.nan
+
+    @property
+    def unstable(self) -> Array:
+        """The intervals in which that motion is unstable, shape (n_intervals, 2). Another one may
+        be stable there."""
+        edges = np.array([self.values[0], *self.crossings, self.values[-1]])
+        grows = np.array([self.at_lower_bound, *self.unstable_above])
+        return np.column_stack([edges[:-1], edges[1:]])[grows]
+
+    @property
+    def message(self) -> str:
+        said = []
+        if math.isnan(self.value):
+            of = "steady sliding has no growing mode" if self.kind == SLIDING else "it is stable"
+            said.append(f"{of} at all {len(self.values)} values computed")
+        elif self.at_lower_bound:
+            at_bound = value_with_unit(self.name, self.value)
+            said.append(f"already unstable at the lower bound, {at_bound}")
+        slides = self.values[self.sliding_growth_rate > 0]
+        if self.kind == STICK_SLIP and slides.size:
+            said.append(f"steady sliding is unstable, without a cycle, {self._from_to(slides)}")
+        if self.jumps.size:
+            said.append(
+                f"{counted(len(self.jumps), 'jump')} to another cycle, {self._from_to(self.jumps)}"
+            )
+        return "; ".join(said)
+
+    def _from_to(self, values: Array) -> str:
+        unit = unit_of_parameter(self.name)
+        return f"from {values[0]:.6g} to {values[-1]:.6g} {unit}".rstrip()
+
+    def __repr__(self) -> str:
+        unit = unit_of_parameter(self.name)
+        first = self.message or f"unstable from {self.value:.6g} {unit}".rstrip()
+        crossings = counted(len(self.crossings), "crossing")
+        steps = f"{len(self.values)} values, steps of at most {self.resolution:.2g} {unit}".rstrip()
+        return f"Critical({self.name}, {self.kind}: {first}, {crossings}, {steps})"
+
+    def to_dataset(self) -> xr.Dataset:
+        """All values computed, and the crossings, as a dataset, to save, or to handle by xarray and pandas.
+
+        Along the parameter, by its name: `growth_rate` and `sliding_growth_rate` (1/s). Along `crossing`:
+        `crossings` and `unstable_above`. Alone: `value`, `border` and `resolution`. Attributes:
+        `kind`, `message`, and the case's `parameters` in JSON.
+
+        Examples
+        --------
+        >>> import disc_model as dm
+        >>> found = dm.critical(dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
+        >>> dm.save(found, "critical.nc")
+        >>> dm.load("critical.nc")["growth_rate"].dims
+        ('mu_s',)
+        """
+        described = attributes_of_critical(self)
+        dims = {"crossings": "crossing", "unstable_above": "crossing"}
+        dims |= {"growth_rate": self.name, "sliding_growth_rate": self.name}
+        variables = {
+            name: xr.Variable(dims[name], getattr(self, name), described[name]) for name in dims
+        }
+        for name in ("value", "border", "resolution"):
+            variables[name] = xr.Variable((), getattr(self, name), described[name])
+        attrs = {
+            "kind": self.kind,
+            "message": self.message,
+            "name": self.name,
+            "parameters": self.parameters.canonical_json,
+            "versions": versions_text(),
+        }
+        along = xr.Variable(self.name, self.values, attributes_of_number(self.name))
+        return xr.Dataset(variables, {self.name: along}, attrs)
+
+    def plot(self, ax: Any = None, **look: Any) -> Any:
+        """Draw the growth rate over the parameter, shaded where the motion is unstable, on axes or in a
+        new figure; returns the axes. `look` is as in `FloquetResult.plot`."""
+        return drawings().critical(ax, self, **look)
+
+
+def attributes_of_critical(found: Critical) -> dict[str, dict[str, Any]]:
+    """Attributes of critical values by name; those in the unit of the parameter name it, and say in the
+    comment what it and the kind of motion are."""
+    number = attributes_of_number(found.name)
+    meant = {"parameter": number["long_name"], "motion": MOTIONS[found.kind]}
+    attributes = {name: known.texts() for name, known in OF_RESULTS["Critical"].items()}
+    for name in OF_PARAMETER:
+        own = attributes[name]
+        own["units"] = number["units"]
+        own["long_name"] = f"{own['long_name']} of {found.name}"
+        own["comment"] = own["comment"].format(**meant)
+    return attributes
 
 
 @compiling()
@@ -59,18 +243,17 @@ def critical(
     bounds : lowest and highest value; SI units, or texts with units
     points : number of evenly spaced values, which determines the `resolution`. With nine modes,
         the scan takes one or two seconds by default
-    precision : to which crossings are bisected; a millionth of the range if not given
+    precision : to which crossings are located; a millionth of the range if not given
     tol : as in `floquet`
     kind : "stick_slip" for the motion near the static start; "sliding" for steady sliding, which is unstable if a mode
         grows, and counts as unstable where it does not exist
-    progress : whether a bar on standard error shows how many values are done; those between the `points` are added to
-        their number as they are found to be needed
+    progress : whether a bar on standard error shows how many values are done
 
     Returns
     -------
     Critical
         `value`, `border`, `crossings`, and `resolution`, the largest step between values; a `message` where
-        the motion is unstable at the lower bound already, or nowhere.
+        the motion is unstable at the lower bound already, or nowhere, or where the cycle jumps.
 
     Raises
     ------
@@ -94,19 +277,15 @@ def critical(
     """
     of_bounds: list[Fault] = []
     ends = interval_in_si(name, bounds, of_bounds)
+    ascend = ends is not None or bool(of_bounds)
     counts = is_whole(points) and 2 <= points <= MOST_POINTS
     known = isinstance(kind, str) and kind in MOTIONS
     good = precision is None or (is_number(precision) and precision > 0)
     wrong = limits_faults("tol", tol, CYCLE_TOLERANCES) + violations(
-        (
-            ends is not None or bool(of_bounds),
-            "bounds",
-            bounds,
-            "must be two ascending finite numbers",
-        ),
+        (ascend, "bounds", bounds, "must be two ascending finite numbers"),
         (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
         (good, "precision", precision, "must be a number > 0"),
-        (known, "kind", kind, _rule_of_kind(kind)),
+        (known, "kind", kind, f"must be one of {', '.join(MOTIONS)}"),
         (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     raise_faults(foreign_case(case) or of_bounds + wrong + free_faults(case, [name]))
@@ -115,60 +294,180 @@ def critical(
     for value in values:
         case.replace(**{name: value})  # must be a case, which is found before any work is done
 
-    shortest = SHORTEST * (high - low)
-    if precision is not None:
-        shortest = float(precision)
-    scan = Scan(case, name, float(tol))
-    if kind == SLIDING:
-        scan = SlidingScan(case, name, float(tol))
-    _search(scan, values, shortest, progress)
-    return _result(scan, kind, shortest)
-
-
-def _search(scan: Scan, values: Sequence[float], shortest: float, progress: bool) -> None:
-    """Compute ascending values, and further ones where stability may change in between; changes are located
-    to an interval of length `shortest`."""
-    narrowest = max(shortest, NARROWEST * (values[-1] - values[0]))
+    shortest = float(precision or SHORTEST * (high - low))
+    make = SlidingScan if kind == SLIDING else Scan
     with progress_bar("critical", len(values), progress) as bar:
+        scan = make(case, name, float(tol), bar)
         for value in values:
-            scan.is_stable(value)
-            bar.advance()
-        scan.refine(narrowest, bar)
-        if not isinstance(scan, SlidingScan):
-            scan.located_changes(shortest)
+            scan.rate(value)
+        scan.refine(max(shortest, NARROWEST * (high - low)))
+        scan.locate(shortest)
+    return scan.found()
 
 
-def _rule_of_kind(kind: object) -> str:
-    """The rule that an unknown kind of motion breaks, and what to call for one of `floquet`."""
-    if isinstance(kind, str) and kind == SLIPPING:
-        return f"{RULE_OF_KIND}; cycles that never stick are followed by continue_cycle(..., kind='slipping')"
-    return RULE_OF_KIND
+class Scan:
+    """Motions near the static start by the value of one parameter, each computed once: cycles that
+    `find_cycle` finds."""
+
+    kind: ClassVar = STICK_SLIP
+
+    def __init__(self, p: Parameters, name: str, tol: float, bar: Bar) -> None:
+        self.p = p
+        self.name = name
+        self.tol = tol
+        self.bar = bar
+        self.motions: dict[float, Any] = {}
+
+    def at(self, x: float) -> Any:
+        """The motion at a value."""
+        if x not in self.motions:
+            self.motions[x] = self._motion(self.p.replace(**{self.name: x}))
+            self.bar.expect(max(0, len(self.motions) - (self.bar.total or 0)))
+            self.bar.advance()
+        return self.motions[x]
+
+    def _motion(self, case: Parameters) -> Any:
+        return find_cycle(case, self.tol)
+
+    def is_stable(self, x: float) -> bool:
+        """Whether small disturbances of the motion at a value die out."""
+        return self.at(x).motion in STABLE_CYCLES
+
+    def rate(self, x: float) -> float:
+        """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or of
+        another stability than its own rate, is 1 or -1."""
+        rate = float(self.at(x).growth_rate)
+        stable = self.is_stable(x)
+        return rate if math.isfinite(rate) and (rate < 0) == stable else 1.0 - 2.0 * stable
+
+    def refine(self, narrowest: float) -> None:
+        """Compute further values where the cycles beside them leave a change of stability in doubt,
+        none closer than `narrowest` to another one."""
+        examined = set[tuple[float, float]]()
+        for _ in range(ROUNDS):
+            gaps = set(pairwise(sorted(self.motions))) - examined
+            examined |= gaps
+            for low, high in sorted(gaps):
+                for share in _doubtful_shares(self.at(low).multipliers, self.at(high).multipliers):
+                    if min(share, 1 - share) * (high - low) > narrowest:
+                        self.at(low + share * (high - low))
+
+    def changes(self) -> list[tuple[float, float]]:
+        """Neighbouring values between which stability changes."""
+        pairs = pairwise(sorted(self.motions))
+        return [pair for pair in pairs if self.is_stable(pair[0]) != self.is_stable(pair[1])]
+
+    def locate(self, shortest: float) -> None:
+        """Compute values up to where each change of stability lies between two that are `shortest`
+        apart."""
+        wide = True
+        while wide:
+            wide = False
+            for low, high in self.changes():
+                if high - low > shortest * (1 + 1e-9) and low < 0.5 * (low + high) < high:
+                    brentq(self.rate, low, high, xtol=shortest / 2, rtol=1e-15)
+                    wide = True
+
+    def found(self) -> Critical:
+        """The result."""
+        changes = self.changes()
+        values = sorted(self.motions)
+        motions = [self.at(x) for x in values]
+        jumps = [high for low, high in changes if self._jumps(low, high)]
+        return Critical(
+            parameters=self.p,
+            name=self.name,
+            crossings=np.array([high for _, high in changes]),
+            unstable_above=np.array([self.is_stable(low) for low, _ in changes], dtype=bool),
+            jumps=np.array(jumps),
+            values=np.array(values),
+            growth_rate=np.array([motion.growth_rate for motion in motions]),
+            sliding_growth_rate=np.array([self._sliding_rate(motion) for motion in motions]),
+            value=next((x for x in values if not self.is_stable(x)), math.nan),
+            kind=self.kind,
+        )
+
+    def _jumps(self, low: float, high: float) -> bool:
+        """Whether the cycles on both sides of a change of stability are on no one branch."""
+        return abs(self.at(high).period / self.at(low).period - 1) > JUMP
+
+    def _sliding_rate(self, motion: Any) -> float:
+        """The growth rate of steady sliding, 1/s, if this takes the place of a cycle; else nan."""
+        slides = motion.motion in ("steady_sliding", "unstable_sliding")
+        return float(motion.sliding.growth_rate) if slides else math.nan
 
 
-def _result(scan: Scan, kind: str, shortest: float) -> Critical:
-    """What a scan has found, with changes of stability located to an interval of length
-    `shortest`."""
-    crossings, unstable_above = scan.located_changes(shortest)
-    computed = sorted(scan.motions)
-    first = next((value for value in computed if not scan.is_stable(value)), math.nan)
-    return Critical(
-        parameters=scan.p,
-        name=scan.name,
-        value=first,
-        crossings=np.array(crossings),
-        unstable_above=np.array(unstable_above, dtype=bool),
-        values=np.array(computed),
-        growth_rate=np.array([scan.motions[value].growth_rate for value in computed]),
-        resolution=float(np.diff(computed).max()),
-        kind=kind,
-        _sliding_growth_rate=np.array(
-            [_rate_of_sliding(scan.motions[value]) for value in computed]
-        ),
-    )
+class SlidingScan(Scan):
+    """Steady sliding by the value of one parameter."""
+
+    kind: ClassVar = SLIDING
+
+    def _motion(self, case: Parameters) -> Any:
+        return steady_sliding(case)
+
+    def is_stable(self, x: float) -> bool:
+        motion = self.at(x)
+        return motion.status.exists and not motion.growing.size
+
+    def refine(self, narrowest: float) -> None:
+        """Compute the greatest growth rates among stable neighbours, and the least ones among
+        unstable ones: of modes that meet, only one may grow for a stretch."""
+        known = sorted(self.motions)
+        for low, middle, high in zip(known, known[1:], known[2:], strict=False):
+            stable = {self.is_stable(x) for x in (low, middle, high)}
+            if len(stable) > 1:
+                continue
+            sign = -1.0 if stable == {True} else 1.0
+            ends = [sign * self._largest(x) for x in (low, middle, high)]
+            is_flat = ends[0] == ends[1] == ends[2]  # neutral at all three: there is no extreme
+            if ends[1] <= min(ends[0], ends[2]) and not is_flat:
+                minimize_scalar(
+                    lambda x, sign=sign: sign * self._largest(float(x)),
+                    bounds=(low, high),
+                    method="bounded",
+                    options={"xatol": narrowest},
+                )
+
+    def _largest(self, x: float) -> float:
+        """The growth rate at a value, 1/s, of modes that are not neutral, which hide what happens to
+        others; 0 if all are, nan without steady sliding."""
+        sliding = self.at(x)
+        rates = growth_rates(sliding.eigenvalues)
+        return float(rates[rates != 0].max() if rates.any() else sliding.growth_rate)
+
+    def _jumps(self, low: float, high: float) -> bool:
+        return False
+
+    def _sliding_rate(self, motion: Any) -> float:
+        return float(motion.growth_rate)
 
 
-def _rate_of_sliding(motion: FloquetResult | SteadySliding) -> float:
-    """The growth rate of steady sliding, 1/s, if this takes the place of a cycle; else nan."""
-    if isinstance(motion, FloquetResult) and motion.motion in SLIDING_MOTIONS:
-        return float(motion.sliding.growth_rate)
-    return math.nan
+def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:
+    """Shares of the way from one cycle to another at which stability may change, or the cycle
+    end, by their multipliers."""
+    if not (len(first) and len(second)):
+        return [0.5] if len(first) != len(second) else []
+    shares = set[float]()
+    for exponent in MATCHES:  # each beside the one that it becomes
+        distance = np.abs(first[:, None] - second[None, :])
+        rows, columns = linear_sum_assignment(distance**exponent)
+        shares |= _shares_of_change(first[rows], second[columns])
+    return sorted(shares)
+
+
+def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
+    """As `_doubtful_shares`, from multipliers that are matched."""
+    between = turns_of(before, after)
+    later = between.angles + between.turns
+    longest = float(np.abs(between.turns).max(initial=0))
+    shares = {each.share for each in passings(between) if 0 < each.share < 1}
+    # a pair that passes through the real axis looks like one that has turned back
+    for start, end in ((between.angles, later), (math.pi - between.angles, math.pi - later)):
+        way = start + end
+        may_have_met = (start > 0) & (end > 0) & (way <= MAY_HAVE_MET * longest)
+        shares.update((start[may_have_met] / way[may_have_met]).tolist())
+    slow = are_slow(before, after)
+    on_axis = [int(np.sum(slow & (each.imag == 0))) for each in (before, after)]
+    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
+        shares.add(0.5)
+    return shares

@@ -170,7 +170,7 @@ def _started(given: Any) -> Any:
     """A start of a motion: perturbations by name, and what `Start` has."""
     if not isinstance(given, Mapping):
         return given
-    kicks = {name: value for name, value in given.items() if name in ("u", "u_velocity", "f")}
+    kicks = {name: x for name, x in given.items() if name in ("u", "u_velocity", "f")}
     others = {name: value for name, value in given.items() if name not in kicks}
     return {**others, "perturbation": kicks} if kicks else others
 

@@ -262,7 +262,11 @@ def run_study(
     from disc_model.studies.study import load_study, parse_study
 
     named = isinstance(source, str | Path | Mapping)
-    require((named, "source", source, "must be the path of a study file, or a mapping"))
+    require(
+        (named, "source", source, "must be the path of a study file, or a mapping"),
+        (callable(map), "map", map, "must be a function, such as map of an executor"),
+        (isinstance(progress, bool), "progress", progress, "must be True or False"),
+    )
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])

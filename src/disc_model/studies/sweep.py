@@ -75,15 +75,26 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
+    table = isinstance(zip, Mapping | pd.DataFrame | None)
     require(
-        (callable(function), "function", function, "must be a function, such as disc_model.floquet")
+        (
+            callable(function),
+            "function",
+            function,
+            "must be a function, such as disc_model.floquet",
+        ),
+        (isinstance(over, Mapping | None), "over", over, "must be lists of values by name"),
+        (table, "zip", zip, "must be columns by name, or a pandas.DataFrame"),
+        (callable(map), "map", map, "must be a function, such as map of an executor"),
+        (isinstance(progress, bool), "progress", progress, "must be True or False"),
     )
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
     varied = {name: x for name, x in named.items() if is_of_case(name) and name not in arguments}
     options = {name: x for name, x in named.items() if name not in varied}
-    over = dict(over or {})
-    raise_faults([*_unknown([*options, *over], arguments)])
+    over = {str(name): x for name, x in (over or {}).items()}
+    raise_faults([*_unknown(options, arguments)])
+    raise_faults([each.inside(("over",)) for each in _unknown(over, arguments)])
     dims = _dimensions(case, varied, zip, over)
     points = expand(dims)
     rows = records(points)
@@ -152,7 +163,9 @@ def _dimensions(
         for name, values in over.items()
     }
     if zipped is not None:
-        columns = {str(name): _column(str(name), zipped[name], case, faults) for name in zipped}
+        wrong: list[Fault] = []
+        columns = {str(name): _column(str(name), zipped[name], case, wrong) for name in zipped}
+        faults += [each.inside(("zip",)) for each in wrong]
         lengths = {*map(len, columns.values())}
         if len(lengths) != 1:
             faults.append(

@@ -1,4 +1,4 @@
-"""Kernels without `merging`: numba compiles them by itself, to the same results."""
+"""Kernels without `merging` and `blocks`: numba compiles them by itself, to the same results."""
 
 import os
 import subprocess
@@ -11,7 +11,13 @@ from disc_model.engine.jit import PLAIN
 from tests.processes import run
 
 KERNELS = """
+from typing import NamedTuple
 from disc_model.engine.jit import RULES, helper, inlined, kernel
+from disc_model.engine.jit.packing import packed
+class Pair(NamedTuple):
+    first: float
+    second: float
+Pair = packed()(Pair)
 @inlined
 def half(x):
     return 0.5 * x
@@ -19,9 +25,9 @@ def half(x):
 def quarter(x):
     return half(half(x))
 @kernel
-def eighth(x):
-    return half(quarter(x))
-print(eighth(8.0), "pipeline_class" in RULES)
+def eighth(pair):
+    return half(quarter(pair.first)) + pair.second
+print(eighth(Pair(8.0, 1.0)), "pipeline_class" in RULES, hasattr(Pair, "address"))
 """
 MOTION = """
 import disc_model as dm
@@ -40,18 +46,22 @@ def answer(tmp_path: Path, code: str, **environment: str) -> subprocess.Complete
     return run(sys.executable, script, NUMBA_CACHE_DIR=str(path), **environment)
 
 
-def test_kernels_are_merged_unless_it_is_switched_off(tmp_path: Path) -> None:
-    assert answer(tmp_path, KERNELS).stdout == "1.0 True\n"
-    assert answer(tmp_path, KERNELS, **{PLAIN: "1"}).stdout == "1.0 False\n"
-
-
-def test_without_the_parts_of_numba_that_merging_needs_kernels_work_and_it_is_said_once(
-    tmp_path: Path,
+@pytest.mark.parametrize(
+    ("missing", "environment", "expected"),
+    [
+        ("", {}, "2.0 True True"),
+        ("", {PLAIN: "1"}, "2.0 False False"),
+        ("merging", {}, "2.0 False True"),
+        ("blocks", {}, "2.0 True False"),
+    ],
+)
+def test_without_the_parts_of_numba_that_it_needs_kernels_work_and_it_is_said_once(
+    tmp_path: Path, missing: str, environment: dict[str, str], expected: str
 ) -> None:
-    missing = "import sys; sys.modules['disc_model.engine.jit.merging'] = None\n"
-    done = answer(tmp_path, missing + KERNELS)
-    assert done.stdout == "1.0 False\n"
-    assert done.stderr.count("otherwise than expected") == 1
+    hide = f"import sys; sys.modules['disc_model.engine.jit.{missing}'] = None\n"
+    done = answer(tmp_path, (hide if missing else "") + KERNELS, **environment)
+    assert done.stdout == f"{expected}\n"
+    assert done.stderr.count("otherwise than expected") == bool(missing)
 
 
 @pytest.mark.slow

@@ -15,17 +15,14 @@ from workflow.paper.measures import views
 
 @script
 def main(csv: str, md: str, html: str, *inputs: str) -> None:
-    made = [path for path in inputs if path.endswith(".csv")]
-    cases = [path for path in inputs if path not in made]
-    tables = {Path(path).stem: pd.read_csv(path) for path in made}
+    tables = {Path(path).stem: pd.read_csv(path) for path in inputs if path.endswith(".csv")}
+    cases = [path for path in inputs if not path.endswith(".csv")]
     table = check_claims(views(load_cases(cases)), tables)
-    table.assign(
-        **{name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")}
-    ).to_csv(csv, index=False)
+    links = {
+        name: [", ".join(each.values()) for each in table[name]] for name in ("figures", "data")
+    }
+    table.assign(**links).to_csv(csv, index=False)
+    page = ("", summary(table), table)
     for path in (md, html):
-        write_page(
-            path,
-            "The paper's statements, judged",
-            ("", summary(table), table),
-            template=Path(ledger.__file__),
-        )
+        title = "The paper's statements, judged"
+        write_page(path, title, page, template=Path(ledger.__file__))

@@ -18,7 +18,7 @@ from filelock import FileLock
 from numba.core import event
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, _CacheLocator
 
-from disc_model.sources import cache_folder, code_hash
+from disc_model.provenance import cache_folder, code_hash
 
 
 @functools.cache

@@ -6,33 +6,28 @@ the free parameters; the Jacobian of F by both comes from the variational equati
 two cycles meet, is a regular point of the curve F = 0.  Distances mix x, over the norm of the
 static deflection, with q, over the parameters' scales.
 
-`curve` predicts and corrects points of any curve, and tests whether a step stays on it; `problem`
-is F, and `first_cycle` a zero of it; `spectrum` follows multipliers from point to point.  In one
-parameter `tracing` takes a step, `course` both ways from a cycle, `special` locates special points,
-`ends` finds the reason for which a branch ends, and `cycles` does all of it; `arguments` reads what
-it is asked, and `found` makes a `Branch` of the result.
-`borders` follows borders of stability.
+`curve` predicts and corrects points of any curve, tests whether a step stays on it, and follows
+multipliers; `cycles` is F, a branch in one parameter and its special points, `borders` those of
+stability in two; `branch` is the result, and `arguments` reads what is asked.
 """
 
-from disc_model.stability.continuation.arguments import free_faults, interval_in_si
-from disc_model.stability.continuation.borders import BORDER, Kind, continue_border
-from disc_model.stability.continuation.branch import Branch
-from disc_model.stability.continuation.course import UNLOCATED
-from disc_model.stability.continuation.curve import StepControl
-from disc_model.stability.continuation.cycles import continue_cycle
-from disc_model.stability.continuation.problem import CycleProblem
-from disc_model.stability.continuation.special_point import SpecialPoint
+from disc_model.stability.continuation.arguments import free_faults, interval_in_si, values_in_si
+from disc_model.stability.continuation.borders import NeutralCurves, StabilityCurve, neutral_curves
+from disc_model.stability.continuation.branch import Branch, SpecialPoint, continue_cycle
+from disc_model.stability.continuation.curve import StepControl, are_slow, passings, turns_of
 
 __all__ = [
-    "BORDER",
-    "UNLOCATED",
     "Branch",
-    "CycleProblem",
-    "Kind",
+    "NeutralCurves",
     "SpecialPoint",
+    "StabilityCurve",
     "StepControl",
-    "continue_border",
+    "are_slow",
     "continue_cycle",
     "free_faults",
     "interval_in_si",
+    "neutral_curves",
+    "passings",
+    "turns_of",
+    "values_in_si",
 ]

@@ -8,13 +8,27 @@ import numpy as np
 
 from disc_model.errors import Fault, raise_faults, require, suggestion, violations
 from disc_model.mode_units import column_of, mode_number_in_si
-from disc_model.parameters import RATIOS, Parameters, foreign_case
+from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import is_finite_array
-from disc_model.stability.continuation.special_kinds import CHANGES, LABELS
 from disc_model.units import in_si, is_number, is_quantity, number
 
 UNSET = ("damping_ratio",)  # numbers that are None in a case without them
 ROUNDING = 1e-9  # of a value, over the scale or the span of its parameter
+LABELS: dict[str, str] = {
+    "fold": "LP",
+    "period_doubling": "PD",
+    "neimark_sacker": "TR",
+    "branch_point": "BP",
+    "grazing": "GR",
+    "hopf": "HB",
+    "end": "EP",
+    "max_points": "EP",
+    "lost": "EP",
+}
+"""Kinds of special points, and their labels in AUTO and COCO."""
+CHANGES = ("fold", "period_doubling", "neimark_sacker")
+"""Kinds of special points that are located to rounding, and at which a multiplier crosses the unit
+circle."""
 STOPS = f"must be None, or one or several of {', '.join(CHANGES)}, or of their labels"
 """The rule of the special points at which a branch shall stop."""
 
@@ -51,38 +65,23 @@ def values_in_si(
         if isinstance(values, list | tuple):
             converted = [mode_number_in_si(name, value, found) for value in values]
     else:
-        converted = _numbers(in_si(values, _unit_of(name), found, ()))
+        unit = ""
+        if isinstance(name, str):
+            unit = Parameters.unit(name)
+        converted = _numbers(in_si(values, unit, found, ()))
     if faults is not None:
         faults += [Fault((argument,), each.value, each.rule) for each in found]
     return converted
-
-
-def _unit_of(name: Any) -> str:
-    """The SI unit of a parameter, "1" of a ratio; "" for what is neither."""
-    if not isinstance(name, str):
-        return ""
-    return "1" if name in RATIOS else Parameters.unit(name)
 
 
 def _numbers(values: Any) -> Any:
     """Values in which texts that are numbers, such as "0.3", are these."""
     if not isinstance(values, list | tuple):
         return values
-    found = []
-    for value in values:
-        try:
-            found.append(number(value) if isinstance(value, str) else value)
-        except ValueError:
-            return values
-    return found
-
-
-def several(values: Any) -> Any:
-    """Values as a list, of which a single one may be given alone; as they are if they are neither."""
-    if isinstance(values, str) or is_number(values) or is_quantity(values):
-        return [values]
-    is_list = isinstance(values, Sequence | np.ndarray) and np.ndim(values) > 0
-    return list(values) if is_list else values
+    try:
+        return [number(value) if isinstance(value, str) else value for value in values]
+    except ValueError:
+        return values
 
 
 def read_values(
@@ -96,9 +95,10 @@ def read_values(
     of_bounds = list[Fault]()
     of_values = list[Fault]()
     span = interval_in_si(name, bounds, of_bounds)
-    values = several(values)
-    listed = isinstance(values, list)
-    wanted: Any = values_in_si(name, values, of_values) if listed else None
+    if isinstance(values, str) or is_number(values) or is_quantity(values):
+        values = [values]
+    listed = isinstance(values, Sequence | np.ndarray)
+    wanted: Any = values_in_si(name, list(values), of_values) if listed else None
     ascend = span is not None or bool(of_bounds)
     numbers = wanted == [] or is_finite_array(wanted) or bool(of_values)
     faults = violations(
@@ -117,8 +117,7 @@ def _check_within(
     """Raise `ParameterError` unless the case, and values as given and in SI units, lie within
     bounds."""
     slack = ROUNDING * (span[1] - span[0])  # ratios are rounded
-    least = span[0] - slack
-    greatest = span[1] + slack
+    least, greatest = span[0] - slack, span[1] + slack
     start = case.numbers[name]
     outside = [given for given, value in wanted.items() if not least <= value <= greatest]
     unit = case.unit(name).removeprefix("1")
@@ -138,6 +137,4 @@ def stop_kinds(stop_at: object) -> frozenset[str] | None:
     given = [stop_at] if isinstance(stop_at, str) else stop_at
     if not isinstance(given, Sequence) or not all(isinstance(x, str) for x in given):
         return None
-    if not given or not known.keys() >= set(given):
-        return None
-    return frozenset(known[x] for x in given)
+    return frozenset(known[x] for x in given) if given and known.keys() >= set(given) else None

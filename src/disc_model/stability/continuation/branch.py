@@ -1,61 +1,144 @@
-"""What a continuation returns: the cycles of a branch, its special points, and why it ends."""
+"""What a continuation returns: the dataset of a branch, its cycles along `point` and its special points
+along `special`."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
 
-from disc_model.arrays import Array, ComplexArray, Indices, Mask
-from disc_model.data.variables import OF_RESULTS, attributes_of_number, unit_of_parameter
-from disc_model.display import counted, drawings
-from disc_model.errors import Fault, raise_faults, require, rule_of_choice
-from disc_model.parameters import Parameters, Quantity
-from disc_model.simulation.states import State, is_finite
-from disc_model.sources import versions_text
-from disc_model.stability.continuation.arguments import ROUNDING, values_in_si
-from disc_model.stability.continuation.data import (
-    POINTS,
-    SPECIAL,
-    VARIABLES,
-    Columns,
-    StoredBranch,
-    stored_extremes,
+from disc_model.arrays import Array, Mask
+from disc_model.data.columns import with_complex_values, with_real_parts
+from disc_model.data.swept_branches import branch_of_sweep, is_of_sweep
+from disc_model.data.variables import (
+    COORDINATES,
+    OF_RESULTS,
+    attributes_of_number,
+    unit_of_parameter,
 )
-from disc_model.stability.continuation.special_kinds import CHANGES
-from disc_model.stability.continuation.special_point import SpecialPoint, stored_special_points
-from disc_model.stability.return_map import MapFactory, ReturnMap, leading_direction
+from disc_model.display import counted, drawings, progress_bar
+from disc_model.engine.jit.cache import compiling
+from disc_model.errors import (
+    Fault,
+    raise_faults,
+    require,
+    rule_of_choice,
+    violations,
+    with_known_names,
+)
+from disc_model.parameters import Parameters, Quantity
+from disc_model.provenance import versions_text
+from disc_model.simulation.states import State, is_finite
+from disc_model.stability.continuation.arguments import (
+    CHANGES,
+    LABELS,
+    ROUNDING,
+    STOPS,
+    read_values,
+    stop_kinds,
+    values_in_si,
+)
+from disc_model.stability.continuation.curve import CurvePoint, StepControl
+from disc_model.stability.continuation.cycles import (
+    CLOSED,
+    GRAZING,
+    HOPF,
+    LOST,
+    MOST_POINTS,
+    PERIOD_DOUBLING,
+    SAME_VALUE,
+    STOPPED,
+    Course,
+    Entry,
+    Search,
+    first_cycle,
+    growth_rate,
+    leading,
+    parameter_scale,
+)
+from disc_model.stability.cycle import STICK_SLIP, guess_faults, multipliers
 from disc_model.stability.segments import extremes_of_cycle
-from disc_model.units import in_si
+from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
 
 if TYPE_CHECKING:
     import pandas as pd
+
+VARIABLES = ("growth_rate", "period", "stick_fraction", "range", "u_min", "u_max")
+"""What is known of each cycle of a branch, and of each special point; the last three by simulation."""
+SHOWN_ENDS = (GRAZING, HOPF, PERIOD_DOUBLING, MOST_POINTS, LOST)
+"""Ends that are special points of a kind of their own."""
+NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at a special point
+STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
+"""Values of a cycle's state on the section, at time 0."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SpecialPoint:
+    """A point of a branch at which the number or the stability of cycles changes, or its end: one along
+    `special` of the branch's dataset, whose variables are its attributes.
+
+    Attributes
+    ----------
+    kind : "fold", two cycles meet; "period_doubling", a multiplier is -1; "neimark_sacker", a complex pair of
+        multipliers has modulus one; "grazing", a switch is touched, and an event appears or vanishes; "hopf", the
+        cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
+        "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
+    label : of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
+    period : s; stick_fraction; growth_rate : 1/s; range, u_min, u_max : m
+    multiplier : the one that is critical; at a grazing and at an end, the leading one
+    after : number of the point of the branch before it, or at it
+    changes_stability : whether the cycle gains or loses stability there
+    """
+
+    branch: Branch
+    number: int
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("_"):
+            raise AttributeError(name)
+        return self.branch.variable(f"special_{name}")[self.number].item()
+
+    @property
+    def values(self) -> Array:
+        """The free parameters, SI units, shape (n_parameters,)."""
+        names = self.branch.parameters
+        return np.array([getattr(self, name) for name in names])
+
+    @property
+    def case(self) -> Parameters:
+        """The case with the values of this point."""
+        return self.branch.case_of(self.values)
+
+    @property
+    def state(self) -> State:
+        """The cycle's state on the section, at time 0, to simulate and draw."""
+        return self.branch.state_of(self.number, "special_")
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{value:.9g}" for value in self.values)
+        return f"SpecialPoint({self.kind} at {values}, period {self.period:.6g} s)"
 
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Branch:
     """Cycles along a curve, their special points, and why it ends: what `continue_cycle` returns.
 
+    The variables of its dataset are attributes, as arrays.
+
     Attributes
     ----------
-    parameters : names of the free parameters
-    values : shape (n_points, n_parameters), in SI units
+    data : the dataset, without the heights of `to_dataset`
     period : s; stick_fraction; growth_rate : 1/s; each (n_points,)
+    stable : bool, (n_points,), whether disturbances decay
     multipliers : complex, (n_points, n), largest modulus first
     diameters : int, (n_points,), nodal diameters of the modes with most energy in the leading multiplier's eigenvector
-    separations : int, (n_points,), number of separations in a period
-    releases : int, (n_points,), number of releases of stick in a period: twice as many beyond a period doubling
-    points : (n_points, n), on the section, in the coordinates of the return map for the case followed
-    folds : (n_folds, n_parameters), values at which the first parameter turns, located to rounding; only on a branch
-        in one parameter
-    ended : reason for which the branch ends; of both ends if they differ, that of the first point first
-    case : whose cycle is followed; its own values of the free parameters do not count
-    special : the special points in their order along the branch; `special_points` is their table
-    not_reached : those of the `values` asked for at which the branch has no cycle, in SI units
+    separations, releases : int, (n_points,), in a period: twice as many releases beyond a period doubling
+    range, u_min, u_max : m, (n_points,), of the slider's height over static equilibrium in a period; each cycle is
+        simulated for a period when they are first asked for
 
     Examples
     --------
@@ -65,61 +148,86 @@ class Branch:
     SpecialPoint(fold at 15.094912, period 0.0147969 s)
     """
 
-    parameters: tuple[str, ...]
-    values: Array = field(repr=False)
-    period: Array = field(repr=False)
-    stick_fraction: Array = field(repr=False)
-    growth_rate: Array = field(repr=False)
-    multipliers: ComplexArray = field(repr=False)
-    diameters: Indices = field(repr=False)
-    separations: Indices = field(repr=False)
-    releases: Indices = field(repr=False)
-    points: Array = field(repr=False)
-    folds: Array
-    ended: str
-    case: Parameters = field(repr=False)
-    special: tuple[SpecialPoint, ...] = ()
-    not_reached: Array = field(default_factory=lambda: np.zeros(0))
-    _make_map: MapFactory = ReturnMap
-    variables: ClassVar = VARIABLES
+    data: xr.Dataset
+
+    def __getattr__(self, name: str) -> Array:
+        if name.startswith("_") or name == "data":
+            raise AttributeError(name)
+        return self.variable(name)
+
+    def variable(self, name: str) -> Array:
+        """A variable of the dataset."""
+        data = self.data
+        if name.removeprefix("special_") in ("range", "u_min", "u_max"):
+            data = self._complete
+        if name not in data.variables:
+            raise AttributeError(f"a branch has no {name}")
+        return np.asarray(data[name].values)
 
     @property
-    def stable(self) -> Mask:
-        """Whether each cycle is stable: disturbances decay; shape (n_points,)."""
-        return self.growth_rate < 0
+    def parameters(self) -> tuple[str, ...]:
+        """Names of the free parameters."""
+        return tuple(str(self.data.attrs["free_parameters"]).split(", "))
+
+    @property
+    def case(self) -> Parameters:
+        """The case whose cycle is followed; its own values of the free parameters do not count."""
+        return Parameters.model_validate_json(self.data.attrs["parameters"])
+
+    @property
+    def ended(self) -> str:
+        """Why the branch ends: "bound", of the parameter; "closed", it is back at its start; "stopped", at
+        the first of the points asked for; "grazing", a switch is touched, and no cycle continues it; "hopf",
+        the cycle shrinks to steady sliding; "period_doubling", it becomes one of half the period; "limit", of
+        what makes a case; "max_points"; or "lost", no step succeeds. Of both ends if they differ, that of the
+        first point first."""
+        return str(self.data.attrs["ended"])
+
+    @property
+    def not_reached(self) -> Array:
+        """Those of the `values` asked for at which the branch has no cycle, in SI units."""
+        text = str(self.data.attrs.get("not_reached", ""))
+        return np.array([float(value) for value in text.split(", ") if value])
+
+    @property
+    def values(self) -> Array:
+        """The free parameters, shape (n_points, n_parameters), in SI units."""
+        return np.column_stack([self.variable(name) for name in self.parameters])
+
+    @property
+    def special(self) -> tuple[SpecialPoint, ...]:
+        """The special points in their order along the branch; `special_points` is their table."""
+        return tuple(SpecialPoint(self, i) for i in range(self.data.sizes["special"]))
+
+    @property
+    def changes(self) -> list[SpecialPoint]:
+        """The special points at which a multiplier crosses the unit circle."""
+        return [each for each in self.special if each.kind in CHANGES]
+
+    @property
+    def folds(self) -> Array:
+        """Values at which the first parameter turns, located to rounding, shape (n_folds, n_parameters)."""
+        folds = [each.values for each in self.special if each.kind == "fold"]
+        return np.array(folds).reshape(-1, len(self.parameters))
 
     def __len__(self) -> int:
-        return len(self.period)
+        return int(self.data.sizes["point"])
 
     def __repr__(self) -> str:
-        reached = np.vstack([self.values, *(special.values for special in self.special)])
         spans = []
-        for name, values in zip(self.parameters, reached.T, strict=True):
+        for name in self.parameters:
+            values = np.concatenate([self.variable(name), self.variable(f"special_{name}")])
             unit = unit_of_parameter(name)
             spans.append(f"{name} from {values.min():.6g} to {values.max():.6g} {unit}".rstrip())
         folds = counted(len(self.folds), "fold")
-        return f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; {self._end_text()})"
-
-    def _end_text(self) -> str:
-        """Why the branch ends, and which of the values asked for it has not reached."""
-        text = f"ended: {self.ended}"
-        if not len(self.not_reached):
-            return text
         missed = ", ".join(f"{value:.6g}" for value in self.not_reached)
-        unit = unit_of_parameter(self.parameters[0])
-        return f"{text}; not reached: {self.parameters[0]} = {missed} {unit}".rstrip()
+        text = f"Branch({len(self)} cycles, {', '.join(spans)}, {folds}; ended: {self.ended}"
+        return f"{text}; not reached: {missed})" if missed else f"{text})"
 
     @property
     def special_points(self) -> pd.DataFrame:
-        """The special points as a table, in their order along the branch.
-
-        Columns: `kind` and `label` (AUTO's LP, PD, TR, BP, HB and EP; GR for a grazing), the parameters
-        by their names (SI units), `growth_rate` (1/s), `period` (s), `stick_fraction`, of the slider's
-        height in a period `range`, and the extremes over static equilibrium `u_min` and `u_max` (m),
-        `multiplier`, `after` (number of the branch's point before it) and `state`, a `State` of the
-        cycle to simulate and draw, of which the printed table shows time and phase. Its method `to_csv`
-        writes a file, with the same words for a state, and with units in the heads; ``attrs["units"]``
-        has them by the names of the columns.
+        """The special points as a table: their `kind` and `label`, the parameters by their names (SI
+        units), the other variables along `special`, and `state`, a `State` of the cycle.
 
         Examples
         --------
@@ -131,22 +239,28 @@ class Branch:
         1  fold    LP  15.094912
         2   end    EP  14.800000
         """
-        from disc_model.stability.continuation.special_table import special_table
+        import pandas as pd
 
-        columns: dict[str, list[object]] = {
-            "kind": [special.kind for special in self.special],
-            "label": [special.label for special in self.special],
-        }
-        for i, name in enumerate(self.parameters):
-            columns[name] = [float(special.values[i]) for special in self.special]
-        for name in VARIABLES:
-            columns[name] = [getattr(special, name) for special in self.special]
-        columns["multiplier"] = [special.multiplier for special in self.special]
-        columns["after"] = [special.after for special in self.special]
-        columns["state"] = [special.state for special in self.special]
-        described = {name: attributes_of_number(name) for name in self.parameters}
-        described |= {name: known.attributes for name, known in VARIABLES.items()}
-        return special_table(columns, described)
+        names = ("kind", "label", *self.parameters, *VARIABLES, "multiplier", "after")
+        columns: dict[str, Any] = {name: self.variable(f"special_{name}") for name in names}
+        columns["state"] = [each.state for each in self.special]
+        return pd.DataFrame(columns)
+
+    @cached_property
+    def _complete(self) -> xr.Dataset:
+        """The dataset with the heights of the slider, for which each cycle is simulated."""
+        heights = dict[str, xr.Variable]()
+        for dim, begin in (("point", ""), ("special", "special_")):
+            periods = self.variable(f"{begin}period")
+            values = np.column_stack([self.variable(begin + name) for name in self.parameters])
+            rows = []
+            for i, period in enumerate(periods.tolist()):
+                state = self.state_of(i, begin)
+                rows.append(extremes_of_cycle(self.case_of(values[i]), state, period))
+            low, high = np.reshape(rows, (-1, 2)).T
+            columns = {"range": high - low, "u_min": low, "u_max": high}
+            heights |= _variables(dim, begin, columns, np.ones(len(rows), dtype=bool))
+        return self.data.assign(heights)
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
@@ -154,7 +268,7 @@ class Branch:
         Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
         `stick_fraction`, `range`, `u_min` and `u_max` (m, for which each cycle is simulated for a period),
         `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
-        `multipliers`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
+        `multipliers_real` and `multipliers_imag`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
         `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
         `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
         `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,
@@ -171,16 +285,15 @@ class Branch:
         >>> dm.load("branch.nc").identical(data)
         True
         """
-        return _dataset_of(self)
+        return with_real_parts(self._complete)
 
     @classmethod
     def from_dataset(cls, data: xr.Dataset) -> Branch:
         """The branch of a dataset that `to_dataset` has made, also one that was saved and loaded, to
-        plot, and to start again from its cycles. Numbers differ by rounding at most.
+        plot, and to start again from its cycles.
 
-        Of a sweep of branches, `data` is one point, such as ``swept.sel(N=300)``.
-
-        Raises `ParameterError` if it is another dataset, or a point of a sweep that has failed.
+        Of a sweep of branches, `data` is one point, such as ``swept.sel(N=300)``. Raises
+        `ParameterError` if it is another dataset, or a point of a sweep that has failed.
 
         Examples
         --------
@@ -191,32 +304,18 @@ class Branch:
         >>> branch.plot("period").get_xlabel()
         'Speed Ω (rad/s)'
         >>> dm.continue_cycle(branch.case_at(-1), "Omega", (14.7, 14.9), guess=branch.state(-1))
-        Branch(... cycles, Omega from 14.7 to 14.9 rad/s, 0 folds; ended: ...)
+        Branch(... cycles, Omega from 14.7 to 14.9 rad/s, 0 folds; ended: bound)
         """
-        stored = StoredBranch(data)
-        data = stored.data
-        special = stored_special_points(stored)
-        folds = [each.values for each in special if each.kind == "fold"]
-        branch = cls(
-            parameters=stored.parameters,
-            values=stored.values(),
-            period=data["period"].values,
-            stick_fraction=data["stick_fraction"].values,
-            growth_rate=data["growth_rate"].values,
-            multipliers=data["multipliers"].values.astype(complex),
-            diameters=data["diameters"].values,
-            separations=data["separations"].values,
-            releases=data["releases"].values,
-            points=stored.points(),
-            folds=np.array(folds).reshape(-1, len(stored.parameters)),
-            ended=stored.ended,
-            case=stored.case,
-            special=special,
-            not_reached=stored.not_reached,
-            _make_map=stored.make_map,
-        )
-        # which take a simulation of each cycle
-        vars(branch)["_extremes"] = stored_extremes(data)
+        if is_of_sweep(data):
+            data = branch_of_sweep(data)
+        names = ["multipliers_real", "releases", "special_kind", "u_max", "a", "special_a"]
+        known = isinstance(data, xr.Dataset) and all(name in data for name in names)
+        known = known and {"ended", "parameters", "free_parameters"} <= set(data.attrs)
+        rule = "must be a dataset of Branch.to_dataset, or a point of a sweep, whole and unchanged"
+        require((known, "data", type(data).__name__, rule))
+        whole = with_complex_values(data)
+        branch = cls(whole)
+        vars(branch)["_complete"] = whole  # whose heights take a simulation of each cycle
         return branch
 
     def at(self, value: Quantity) -> list[int]:
@@ -224,40 +323,31 @@ class Branch:
         along the branch; none if the branch passes it between two cycles or not at all.
 
         Raises `ParameterError` if it is no number.
-
-        Examples
-        --------
-        >>> import disc_model as dm
-        >>> case = dm.Parameters(N=385, Omega=14.9)
-        >>> branch = dm.continue_cycle(case, "Omega", (14.8, 15.2), values=["143 rpm"])
-        >>> branch.growth_rate[branch.at("143 rpm")].round(3).tolist()
-        [-0.105, 0.576]
         """
         name = self.parameters[0]
         faults = list[Fault]()
         [wanted] = values_in_si(name, [value], faults, "value")
         raise_faults(faults)
-        rule = "must be one finite number, such as branch.values[0, 0]"
-        require((is_finite(wanted), "value", value, rule))
-        apart = np.abs(self.values[:, 0] - wanted)
+        require((is_finite(wanted), "value", value, "must be one finite number"))
+        apart = np.abs(self.variable(name) - wanted)
         return np.flatnonzero(apart <= ROUNDING * abs(wanted)).tolist()
 
-    def case_at(self, i: int) -> Parameters:
-        """The case of the i-th cycle: the case followed with this cycle's values of the free
-        parameters."""
-        values = self.values[self._number(i)].tolist()
-        return self.case.replace(**dict(zip(self.parameters, values, strict=True)))
+    def case_of(self, values: Array) -> Parameters:
+        """The case followed with some values of the free parameters, in SI units."""
+        return self.case.replace(**dict(zip(self.parameters, values.tolist(), strict=True)))
 
-    def state(self, i: int, push: float | str = 0.0) -> State:
+    def case_at(self, i: int) -> Parameters:
+        """The case of the i-th cycle."""
+        return self.case_of(self.values[i])
+
+    def state_of(self, i: int, begin: str = "") -> State:
+        """The state of the i-th cycle, or with the beginning "special_" that of a special point."""
+        row = {name: self.variable(begin + name)[i].tolist() for name in STATE}
+        return State(time=0.0, **row)
+
+    def state(self, i: int) -> State:
         """The state of the i-th cycle on the section, at the end of stick or, without stick, where
         the spring is longest, and at time 0, to simulate and draw; the cycle may be unstable.
-
-        Simulated for a period, the modal coordinates return to those of this state within 1e-7 of
-        the largest, times the leading multiplier. A `push`, such as 0.01 or "-1 %", moves the state
-        along the eigenvector of that multiplier, in which an unstable cycle is left soonest: by this
-        share of the disc's static deflection, both in terms of energy, and for a positive push in
-        the sense that stretches the spring in the plane. Raises `ParameterError` if there is no such
-        cycle.
 
         Examples
         --------
@@ -268,88 +358,25 @@ class Branch:
         >>> run = dm.simulate(branch.case_at(-1), branch.period[-1], initial_state=branch.state(-1))
         >>> float(abs(run.final_state.u / branch.state(-1).u - 1)) < 1e-10
         True
-        >>> for push in (0.01, -0.01):  # on both sides of an unstable cycle
-        ...     run = dm.simulate(branch.case_at(-1), 60, initial_state=branch.state(-1, push))
-        ...     print(push, run.statistics["n_separations"] > 0)
-        0.01 True
-        -0.01 False
         """
-        i = self._number(i)
-        faults: list[Fault] = []
-        share: Any = in_si(push, "1", faults, ("push",))
-        raise_faults(faults)
-        require((is_finite(share), "push", push, "must be a finite number"))
-        own = self._make_map(self.case_at(i))
-        reference = self._make_map(self.case)
-        point = self.points[i] / reference.scale * own.scale
-        if share and own.size:
-            direction = leading_direction(own, point, float(self.period[i]))
-            point = point + share * own.deflection * direction
-        return own.state(point)
-
-    @cached_property
-    def _extremes(self) -> Array:
-        """`u_min` and `u_max` of each cycle, shape (n_points, 2)."""
-        extremes = []
-        for i, period in enumerate(self.period.tolist()):
-            extremes.append(extremes_of_cycle(self.case_at(i), self.state(i), period))
-        return np.array(extremes)
-
-    @property
-    def u_min(self) -> Array:
-        """Least heights of the slider over static equilibrium in a period, m, shape (n_points,); each
-        cycle is simulated for a period when they, `u_max` or `range` are asked for."""
-        return self._extremes[:, 0]
-
-    @property
-    def u_max(self) -> Array:
-        """Greatest heights of the slider over static equilibrium in a period, m, shape (n_points,)."""
-        return self._extremes[:, 1]
-
-    @property
-    def range(self) -> Array:
-        """Ranges of the slider's height over a period, m, shape (n_points,)."""
-        return self.u_max - self.u_min
-
-    @property
-    def changes(self) -> list[SpecialPoint]:
-        """The special points at which a multiplier crosses the unit circle, in their order."""
-        return [special for special in self.special if special.kind in CHANGES]
+        return self.state_of(i)
 
     def refined(self, name: str) -> Array:
-        """One of `variables`, or `values`, at the points of the branch and, in their places between
-        these, at its `changes`; shape (n_points + n_changes, ...), in SI units."""
+        """A variable, or `values`, at the points of the branch and, in their places between these, at
+        its `changes`; shape (n_points + n_changes, ...), in SI units."""
+        changes = self.changes
+        located = [getattr(each, name) for each in changes]
         own = np.asarray(getattr(self, name))
-        places = [special.after + 1 for special in self.changes]
-        if not places:
+        if not located:
             return own
-        located = [getattr(special, name) for special in self.changes]
-        return np.insert(own, places, located, axis=0)
+        return np.insert(own, [each.after + 1 for each in changes], located, axis=0)
 
     def refined_growth_rate(self) -> Array:
         """As `refined("growth_rate")`, 1/s, and exactly 0 where the cycle gains or loses stability."""
         growth = self.refined("growth_rate").copy()
-        changing = [special.changes_stability for special in self.changes]
-        after = np.array([special.after for special in self.changes], dtype=int)
-        growth[(after + 1 + np.arange(len(after)))[changing]] = 0.0
-
-        # a branch that ends at a special point has it as one of its points, too
-        numbers = np.arange(len(self))
-        places = numbers + np.searchsorted(after, numbers)
-        periods = [special.period for special in self.changes if special.changes_stability]
-        growth[places[np.isin(self.period, periods)]] = 0.0
+        periods = [each.period for each in self.changes if each.changes_stability]
+        growth[np.isin(self.refined("period"), periods)] = 0.0
         return growth
-
-    def _number(self, i: int) -> int:
-        """A number of a cycle, checked, counted from the first one."""
-        number: Any
-        try:
-            number = range(len(self))[i]
-        except (TypeError, IndexError):
-            number = None
-        rule = f"must be the number of a cycle, from {-len(self)} to {len(self) - 1}"
-        require((isinstance(number, int), "i", i, rule))  # a slice gives several
-        return int(number)
 
     def plot(
         self,
@@ -363,14 +390,9 @@ class Branch:
         (extremes over static equilibrium) over the parameter, thick where the cycle is stable, and
         the special points; returns the axes.
 
-        Stability changes at special points, which are located to rounding; in the bends of a very
-        stiff contact it may do so between two points, and the line is thin there. A branch in two
-        parameters is drawn as the second over the first. Periods are in ms and heights in mm, unless
-        `units` says otherwise of a parameter, such as ``{"Omega": "rpm"}``.
-
-        Further branches on the same `ax` have a colour each. Their usual name is the case; `look` has
-        options of matplotlib, such as ``label="upper sheet"``, or ``linestyle="--"`` for dashes where
-        the cycle is unstable. Raises `ParameterError` if `y` is another name.
+        Periods are in ms and heights in mm, unless `units` says otherwise of a parameter, such as
+        ``{"Omega": "rpm"}``. Further branches on the same `ax` have a colour each; `look` has options of
+        matplotlib, such as ``label="upper sheet"``. Raises `ParameterError` if `y` is another name.
 
         Examples
         --------
@@ -378,47 +400,197 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        known = isinstance(y, str) and y in self.variables
-        require((known, "y", y, rule_of_choice(y, self.variables)))
+        known = isinstance(y, str) and y in VARIABLES
+        require((known, "y", y, rule_of_choice(y, VARIABLES)))
         return drawings().branch(ax, self, y, units, **look)
 
 
-def _dataset_of(branch: Branch) -> xr.Dataset:
-    """A branch as a dataset, as `Branch.to_dataset` describes it."""
-    cycles = Columns("point", "")
-    cycles.add_parameters(branch.parameters, branch.values)
-    cycles.add(VARIABLES, lambda name: getattr(branch, name))
-    own = {
-        "largest_multiplier": np.abs(branch.multipliers).max(axis=1, initial=0.0),
-        "stable": branch.stable,
-        "separations": branch.separations,
-        "releases": branch.releases,
-        "diameters": branch.diameters,
-        "multipliers": branch.multipliers,
-    }
-    cycles.add(POINTS, own.__getitem__)
-    cycles.add_states([branch.state(i) for i in range(len(branch))])
+# ---- What a continuation has found, in SI units
 
-    special = Columns("special", "special_")
-    values = [each.values for each in branch.special]
-    special.add_parameters(branch.parameters, np.reshape(values, (-1, len(branch.parameters))))
-    special.add(
-        (*VARIABLES, *SPECIAL), lambda name: [getattr(each, name) for each in branch.special]
+
+def branch_of(course: Course, exact: Sequence[float] = (), wanted: Sequence[float] = ()) -> Branch:
+    """The branch of a course. Values of the parameter that scaling has moved by its rounding from
+    one of some `exact` or `wanted` ones are these."""
+    problem = course.problem
+    entries = _with_ends(course)
+    kinds = np.array([entry.kind for entry in entries])
+    is_special = kinds != ""
+    points = [entry.point for entry in entries]
+    values = np.array([problem.values(point) for point in points])
+    for value in (*exact, *wanted):
+        near = np.abs(values - value) <= SAME_VALUE * abs(value)
+        values[near & ~is_special[:, None]] = value
+    period = np.array([point.orbit.period for point in points])
+    every = np.array([multipliers(point.jacobian) for point in points])
+    growth = np.array(
+        [growth_rate(each[0], time) for each, time in zip(every, period, strict=True)]
     )
-    special.add_states([each.state for each in branch.special])
+    states = [problem.state(point.z) for point in points]
+    both: dict[str, Any] = dict(zip(problem.names, values.T, strict=True))
+    both |= {
+        "growth_rate": growth,
+        "period": period,
+        "stick_fraction": np.array([point.orbit.stick_time for point in points]) / period,
+    }
+    both |= {name: np.array([getattr(state, name) for state in states]) for name in STATE}
+    of_cycles = {
+        "largest_multiplier": np.abs(every).max(axis=1, initial=0.0),
+        "stable": growth < 0,
+        "multipliers": every,
+        "separations": np.array([point.orbit.counts.separations for point in points]),
+        "releases": np.array([point.orbit.counts.releases for point in points]),
+        "diameters": np.array([problem.leading_diameters(point) for point in points]),
+    }
+    neutral = np.abs(growth * period) <= NEUTRAL
+    of_special = {
+        "kind": kinds,
+        "label": np.array([LABELS.get(kind, "") for kind in kinds]),
+        "multiplier": np.array([entry.multiplier for entry in entries], dtype=complex),
+        "after": np.maximum(np.cumsum(~is_special) - 1, 0),
+        "changes_stability": neutral & np.isin(kinds, CHANGES),
+    }
+    data = xr.Dataset(
+        _variables("point", "", both | of_cycles, ~is_special)
+        | _variables("special", "special_", both | of_special, is_special),
+        attrs={
+            "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
+            "parameters": problem.base.canonical_json,
+            "free_parameters": ", ".join(problem.names),
+            "versions": versions_text(),
+        },
+    )
+    along = values[~is_special, 0]
+    slack = ROUNDING * problem.scales[0]
+    missed = [value for value in wanted if np.abs(along - value).min() > slack]
+    if missed:
+        data.attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in missed)
+    for dim in ("point", "special"):
+        number = np.arange(data.sizes[dim])
+        data[dim] = xr.Variable(dim, number, OF_RESULTS["Branch"][dim].attributes)
+    return Branch(data.set_coords([*problem.names, *(f"special_{name}" for name in problem.names)]))
 
+
+def _with_ends(course: Course) -> list[Entry]:
+    """The points and special points of a course, its ends among the latter; one that closes, stops or
+    begins at a special point has that instead."""
+    entries = list(course.entries)
+    first, last = entries[0], entries[-1]
+    if course.last not in (CLOSED, STOPPED):
+        entries.append(_end_of(course.last, last))
+    if not (first.kind or course.last == CLOSED or course.first == STOPPED):
+        entries.insert(1, _end_of(course.first, first))
+    return entries
+
+
+def _end_of(end: str, entry: Entry) -> Entry:
+    """The end of a branch as a special point; without a reason it is the start."""
+    kind = end if end in SHOWN_ENDS else "end"
+    return Entry(entry.point, kind, leading(entry.point))
+
+
+def _variables(
+    dim: str, begin: str, columns: Mapping[str, Array], rows: Mask
+) -> dict[str, xr.Variable]:
+    """Some rows of columns along a dimension as variables, whose names have a beginning; a second dimension
+    is that of the multipliers or modes."""
     known = OF_RESULTS["Branch"]
-    numbers = {
-        "point": ("point", np.arange(len(branch)), known["point"].attributes),
-        "special": ("special", np.arange(len(branch.special)), known["special"].attributes),
-    }
-    attrs: dict[str, Any] = {
-        "ended": branch.ended,
-        "parameters": branch.case.canonical_json,
-        "free_parameters": ", ".join(branch.parameters),
-        "versions": versions_text(),
-    }
-    if len(branch.not_reached):
-        attrs["not_reached"] = ", ".join(f"{value:.15g}" for value in branch.not_reached)
-    coordinates = {**numbers, **cycles.coordinates, **special.coordinates}
-    return xr.Dataset({**cycles.variables, **special.variables}, coordinates, attrs)
+    variables = {}
+    for name, column in columns.items():
+        second = "mode" if name in COORDINATES else "multiplier"
+        attrs = known[name].attributes if name in known else attributes_of_number(name)
+        variables[begin + name] = xr.Variable((dim, second)[: column.ndim], column[rows], attrs)
+    return variables
+
+
+# ---- The function
+
+
+CYCLE = StepControl()
+
+
+@compiling()
+@with_known_names
+def continue_cycle(  # noqa: PLR0913
+    case: Parameters,
+    name: str,
+    bounds: tuple[Quantity, Quantity],
+    *,
+    direction: int = 0,
+    guess: State | None = None,
+    releases: int = 1,
+    tol: float = 1e-12,
+    steps: StepControl = CYCLE,
+    values: Sequence[Quantity] = (),
+    stop_at: str | Sequence[str] | None = None,
+    kind: str = STICK_SLIP,
+    progress: bool = False,
+) -> Branch:
+    """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
+
+    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with
+    its impacts it is followed as long as the motion depends continuously on the parameter. Where a
+    switch is grazed, the return map jumps, and the branch ends. A branch that closes ends where it
+    began.
+
+    Parameters
+    ----------
+    case : case whose cycle is followed; its value of the parameter must lie within the bounds
+    name : the free parameter, one of `Parameters.numbers`
+    bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
+    direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
+    guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
+        begins there is followed, one way
+    steps : length and number of the steps
+    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
+        those that it never passes are its `not_reached`
+    stop_at : "fold", "period_doubling" or "neimark_sacker", or the label "LP", "PD" or "TR", to end at the first such
+        point, in each direction; several of them to end at the first of any
+    kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
+        the Hopf point of steady sliding to where it touches zero slip speed
+    progress : whether standard error shows how many cycles are found, and at which value of the parameter
+
+    Returns
+    -------
+    Branch
+        The cycles in their order along the curve; its folds and other special points; and in `ended` why it ends.
+
+    Raises
+    ------
+    ParameterError
+        If an argument breaks a rule, or no cycle is found to start from.
+
+    Examples
+    --------
+    The fold of the cycle at 385 N:
+
+    >>> import disc_model as dm
+    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
+    >>> branch
+    Branch(... cycles, Omega from 14.8 to 15.09... rad/s, 1 fold; ended: bound)
+    >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
+    15.094912 rad/s
+    >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()
+    [-0.1055, 0.5751]
+    """
+    ways = is_number(direction) and direction in (-1, 0, 1)
+    stops = stop_kinds(stop_at)
+    wrong = violations(
+        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
+        (ways, "direction", direction, "must be -1, 0 or 1"),
+        (stops is not None, "stop_at", stop_at, STOPS),
+        (isinstance(progress, bool), "progress", progress, "must be True or False"),
+    )
+    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
+    span, wanted = read_values(case, name, bounds, values, wrong)
+    scale = steps.scale or parameter_scale(case, name, max(map(abs, span)))
+    problem, cycle = first_cycle(case, name, scale, float(tol), guess, releases, kind)
+    with progress_bar("continue_cycle", None, progress) as bar:
+
+        def tell(point: CurvePoint) -> None:
+            bar.describe(f"continue_cycle at {problem.words(point)}")
+            bar.advance()
+
+        search = Search(problem, steps, span, stops or frozenset(), tell)
+        course = search.follow(problem.start(cycle), int(direction))
+        course = search.with_values(course, wanted)
+    return branch_of(course, (*span, case.numbers[name]), wanted)

@@ -1,14 +1,18 @@
-"""Points of a curve F(z) = 0 by prediction and correction, and the test that a step stays on it.
+"""Pseudo-arclength: points of a curve F(z) = 0 by prediction and correction, the test that a step
+stays on it, and the multipliers of its cycles, followed from point to point.
 
 F has one row less than z has entries.  A step predicts on the cubic through the former point, and
-corrects within a plane; `check_step` then compares both points as those of a
-smooth curve.  The sense of the tangent is that of the sign of det [F'; tangent], which is constant
-along a curve of regular points: a corrector that has come to another part of the curve often shows
-the other sign.
+corrects within a plane; `check_step` then compares both points as those of a smooth curve.  The
+sign of det [F'; tangent] is constant along a curve of regular points: a corrector that has come to
+another part of the curve often shows the other one.
+
+A multiplier keeps its eigenvector while its angle turns.  The vector thus tells the sense in which
+it turned, which the set of multipliers, symmetric about the real axis, does not.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -16,10 +20,11 @@ from typing import Annotated, NamedTuple, Protocol, Self
 
 import numpy as np
 from pydantic import Field, model_validator
+from scipy.optimize import linear_sum_assignment
 
+from disc_model.arrays import Array, ComplexArray, Indices, Mask
 from disc_model.errors import DiscModelError, require
-from disc_model.stability.continuation.spectrum import Spectrum, spectrum_of
-from disc_model.stability.return_map import Array, Orbit, newton_step, rounding
+from disc_model.stability.return_map import Orbit, newton_step, rounding
 from disc_model.units import Count, Finite, Positive, Strict
 
 MOST_CORRECTIONS = 14  # of Newton's method with Broyden's updates, which takes 3 to 5
@@ -34,10 +39,10 @@ DEFECT = 0.02
 # the last correction of a point whose residual is limited by rounding; a residual that is as small
 # but no zero, as beside a narrow fold, leads to corrections a hundred times as large
 UNCERTAIN = 1e-7
-LAST_CORRECTIONS = 3
 DIVERGES = "Newton's method does not converge"
 FARTHEST_PREDICTION = 2  # length of a step that is predicted from the former one, over that
 FARTHEST = 0.5  # of a single corrector's way, relative to the step, before it is given up
+STRONGLY_DAMPED = 0.5  # modulus below which a multiplier causes neither a resonance nor a loss
 
 
 class Rejected(DiscModelError):
@@ -55,8 +60,7 @@ class StepControl(Strict):
     step, longest, shortest : arclength of the first, the longest and the shortest step
     max_points : largest number of points in each direction
     scale : value of the parameter that counts as one in the arclength; by default its own, or a tenth of the larger
-        bound if that is more. With a `contact_compliance` in m/N it is a hundred times that, `step` is
-        a hundredth, and `longest` a tenth. For one parameter only
+        bound if that is more. For one parameter only
     growth, easy, sharpest : factor by which a step grows if the cosine of the angle between successive tangents exceeds
         `easy`; below `sharpest` the step is shortened
     beyond : whether a branch in one parameter ends at the first point beyond a bound, instead of at the bound
@@ -66,7 +70,7 @@ class StepControl(Strict):
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=14.9)
     >>> dm.continue_cycle(case, "Omega", (14.8, 15.2), steps=dm.StepControl(max_points=3)).ended
-    'the bound Omega = 14.8 rad/s was reached; max_points=3 were computed'
+    'bound; max_points'
     """
 
     step: Positive = 0.02
@@ -99,15 +103,10 @@ class Evaluation(NamedTuple):
 
 
 class Problem(Protocol):
-    """F, whose zeros form the curve. Both methods raise `Rejected` where F has no value.
+    """F, whose zeros form the curve, to a relative tolerance `tol`. Both methods raise `Rejected` where
+    F has no value."""
 
-    n : number of rows of F; tol : relative tolerance of its values; exact : length of a last
-        correction after which derivatives are not computed anew
-    """
-
-    n: int
     tol: float
-    exact: float
 
     def residual(self, z: Array) -> Array:
         """F at z, which costs little."""
@@ -155,6 +154,11 @@ class CurvePoint:
         """The same point of a curve that is followed in the other sense."""
         return replace(self, tangent=-self.tangent, orientation=-self.orientation)
 
+    def turned(self, direction: int) -> CurvePoint:
+        """The same point of a curve that is followed in the direction of the tangent (1), or against
+        it (-1)."""
+        return self if direction > 0 else self.reversed()
+
 
 def solve(
     problem: Problem, guess: Array, rows: Array, matrix: Array, radius: float = np.inf
@@ -198,30 +202,12 @@ def solve(
     else:
         raise Rejected(DIVERGES)
 
-    return _settle(problem, z, guess, rows, radius)
-
-
-def _settle(
-    problem: Problem, z: Array, guess: Array, rows: Array, radius: float
-) -> tuple[Array, Evaluation]:
-    """The solution next to z, and F there or, if a single short correction suffices, at z; the other
-    arguments are those of `solve`."""
-    # one more correction, now with the derivatives at this point, which are needed anyhow; further
-    # ones where these change within a short way, as on a stiff contact
-    last = np.inf
-    for _ in range(LAST_CORRECTIONS):
-        found = problem.evaluate(z)
-        left = np.concatenate([found.residual, rows @ (z - guess)])
-        step = newton_step(np.vstack([found.by, rows]), left)
-        length = float(np.linalg.norm(step))
-        if length > last:  # by rounding
-            break
-        z = z - step
-        if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
-            raise Rejected("the corrector moves too far")
-        if length <= problem.exact:
-            break
-        last = length
+    # one more correction, now with the derivatives at this point, which are needed anyhow
+    found = problem.evaluate(z)
+    left = np.concatenate([found.residual, rows @ (z - guess)])
+    z = z - newton_step(np.vstack([found.by, rows]), left)
+    if not np.linalg.norm(z - guess) <= radius:  # as where two branches cross
+        raise Rejected("the corrector moves too far")
     return z, found
 
 
@@ -267,21 +253,17 @@ def interpolate(before: CurvePoint, after: CurvePoint, share: float) -> Guess:
 
 
 def check_step(
-    before: CurvePoint,
-    after: CurvePoint,
-    sharpest: float,
-    largest_defect: float = DEFECT,
-    slack: float = 0.0,
+    before: CurvePoint, after: CurvePoint, sharpest: float, largest_defect: float = DEFECT
 ) -> None:
     """Raise `Rejected` unless two points are neighbours on a smooth curve: the tangents enclose an
     angle of a cosine of at least `sharpest`, and the chord differs from their mean by no more than
-    `largest_defect` of its length and a `slack`."""
+    `largest_defect` of its length."""
     chord = after.z - before.z
     length = float(np.linalg.norm(chord))
     if float(before.tangent @ after.tangent) < sharpest:
         raise Rejected("the curve bends too sharply")
     defect = chord - length / 2 * (before.tangent + after.tangent)
-    if np.linalg.norm(defect) > largest_defect * length + slack:
+    if np.linalg.norm(defect) > largest_defect * length:
         raise Rejected("the curve bends within the step")
 
 
@@ -315,3 +297,113 @@ def follow_curve(
         if float(points[-1].tangent @ points[-2].tangent) > steps.easy:
             ds = min(steps.longest, steps.growth * ds)
     return points, None
+
+
+# ---- Multipliers along a curve
+
+
+class Spectrum(NamedTuple):
+    """Eigenvalues of the return map's Jacobian, (n,); right eigenvectors as columns, and left ones
+    as rows with the product one, (n, n) each."""
+
+    values: ComplexArray
+    right: ComplexArray
+    left: ComplexArray
+
+
+class Passing(NamedTuple):
+    """A resonance that is passed between two points: the sum or the difference of the angles of two
+    multipliers comes to a multiple of 2 pi.
+
+    share : of the way at which it is passed, if angles change evenly
+    distance : of that sum or difference from the resonance at the nearer point, rad
+    width : the sum of the distances of both moduli from one there: within it the resonance shows
+    forced : whether a multiplier passes 1, where the cycle itself responds
+    """
+
+    share: float
+    distance: float
+    width: float
+    forced: bool
+
+
+def spectrum_of(jacobian: Array) -> Spectrum:
+    """The spectrum of a Jacobian (n, n)."""
+    values, right = np.linalg.eig(jacobian)
+    right = right.astype(complex)
+    try:
+        left = np.linalg.inv(right)
+    except np.linalg.LinAlgError:  # two multipliers with one eigenvector, as where a pair parts
+        left = np.linalg.pinv(right)
+    return Spectrum(values.astype(complex), right, left)
+
+
+def follow_multipliers(before: Spectrum, after: Spectrum) -> Indices:
+    """Numbers of the multipliers `after` that continue those `before`, by their eigenvectors."""
+    resemblance = np.abs(before.left @ after.right)
+    return np.asarray(linear_sum_assignment(-resemblance)[1])
+
+
+class Turns(NamedTuple):
+    """Those multipliers of one point of modulus above `STRONGLY_DAMPED` and positive imaginary
+    part, their angles, by which angle each turns up to another point, at most pi, and the distances
+    of their moduli from one at both."""
+
+    angles: Array
+    turns: Array
+    damping: Array
+    later_damping: Array
+
+
+def turns_between(before: Spectrum, after: Spectrum) -> Turns:
+    """How multipliers turn between two points."""
+    return turns_of(before.values, after.values[follow_multipliers(before, after)])
+
+
+def turns_of(multipliers: ComplexArray, successors: ComplexArray) -> Turns:
+    """How multipliers turn, each beside the one that it becomes."""
+    followed = are_slow(multipliers, successors) & (multipliers.imag > 0)
+    values = multipliers[followed]
+    later = successors[followed]
+    return Turns(
+        angles=np.angle(values),
+        turns=np.angle(later / values),
+        damping=np.abs(1 - np.abs(values)),
+        later_damping=np.abs(1 - np.abs(later)),
+    )
+
+
+def are_slow(multipliers: ComplexArray, successors: ComplexArray) -> Mask:
+    """Whether multipliers, and those that they become, are damped so little that they may cause a
+    loss of stability."""
+    return np.asarray(np.minimum(np.abs(multipliers), np.abs(successors)) > STRONGLY_DAMPED)
+
+
+def passings(between: Turns) -> list[Passing]:
+    """The resonances that are passed between two points, in their order.
+
+    The sum of an angle with itself comes to a multiple of 2 pi where a multiplier meets its
+    conjugate, at 1 or at -1.
+    """
+    first, second = np.triu_indices(len(between.angles))
+    different = first != second
+    found = list[Passing]()
+    for sign, i, j in ((1, first, second), (-1, first[different], second[different])):
+        starts = (between.angles[i] + sign * between.angles[j]) / math.tau
+        changes = (between.turns[i] + sign * between.turns[j]) / math.tau
+        levels = np.maximum(np.floor(starts), np.floor(starts + changes))
+        for k in np.flatnonzero(np.floor(starts) != np.floor(starts + changes)):
+            distances = math.tau * np.abs(
+                [levels[k] - starts[k], levels[k] - starts[k] - changes[k]]
+            )
+            at_end = int(distances[1] < distances[0])
+            damping = (between.damping, between.later_damping)[at_end]
+            found.append(
+                Passing(
+                    share=float((levels[k] - starts[k]) / changes[k]),
+                    distance=float(distances[at_end]),
+                    width=float(damping[i[k]] + damping[j[k]]),
+                    forced=bool(i[k] == j[k] and levels[k] % 2 == 0),
+                )
+            )
+    return sorted(found)

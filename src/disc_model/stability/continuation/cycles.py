@@ -1,130 +1,948 @@
-"""`continue_cycle`: a cycle followed in one parameter, both ways from a case."""
+"""Cycles along a branch in one parameter: the equations of a cycle, steps from one to the next, the
+special points between them, and both ways from a case to where the branch ends.
 
-from collections.abc import Sequence
+F(x, q) = R(x, q) - x of a return map R: its zeros are cycles, as a curve or surface over the free
+parameters q.  The Jacobian of F by both comes from the variational equations, so that a fold, where
+two cycles meet, is a regular point of the curve.
 
-from disc_model.display import progress_bar
-from disc_model.engine.jit.cache import compiling
-from disc_model.errors import violations, with_known_names
-from disc_model.parameters import Parameters, Quantity
+A step is accepted only if nothing suggests a jump to another branch or another part of this one:
+the corrector stays near the prediction, both points lie on one smooth curve, the orientation and
+the order of events are the same, and no resonance has passed unseen.  Where a multiplier passes 1,
+the cycle may respond by a peak that is much narrower than a step, with folds on its flanks; where
+two others resonate, it may be unstable within a narrow tongue.  So a point is computed on each
+resonance, and must lie where the step leads to expect it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+from scipy.optimize import newton as root_by_secants
+
+from disc_model.arrays import Array
+from disc_model.data.variables import value_with_unit
+from disc_model.errors import Fault, ModeError, ParameterError
+from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.continuation.arguments import STOPS, read_values, stop_kinds
-from disc_model.stability.continuation.branch import Branch
-from disc_model.stability.continuation.course import Search
-from disc_model.stability.continuation.curve import CurvePoint, StepControl
-from disc_model.stability.continuation.first_cycle import first_cycle
-from disc_model.stability.continuation.found import branch_of
-from disc_model.stability.continuation.problem import parameter_scale, stretch_of
-from disc_model.stability.cycle import STICK_SLIP, guess_faults
-from disc_model.units import CYCLE_TOLERANCES, is_number, limits_faults
+from disc_model.stability.continuation.curve import (
+    DRIFT,
+    FARTHEST,
+    CurvePoint,
+    Evaluation,
+    Guess,
+    Passing,
+    Rejected,
+    StepControl,
+    check_step,
+    curve_point,
+    follow_curve,
+    follow_multipliers,
+    interpolate,
+    passings,
+    predict,
+    solve,
+    spectrum_of,
+    turns_between,
+)
+from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle
+from disc_model.stability.return_map import (
+    ENDS,
+    PARAMETERS,
+    Counts,
+    Orbit,
+    ReturnMap,
+    newton,
+    newton_step,
+)
+from disc_model.stability.slipping_cycle import find_slipping_cycle
+from disc_model.stability.slipping_map import SlippingMap
 
-CYCLE = StepControl()
+# typical values of parameters whose value in Table 1 is missing or 0
+USUAL = {
+    "Omega": 20.0,
+    "N": 300.0,
+    "c": 0.5,
+    "c_p": 0.5,
+    "contact_compliance": 1e-8,
+    "contact_arc": 0.4,
+    "damping_ratio": 1e-3,
+    "friction_decay": 1.0,
+    "viscous_friction": 0.01,
+}
+SMALLEST = 0.2  # of a parameter's scale, over its typical value
+SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
+DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
+
+FASTEST_TURN = 1.2  # rad, of a multiplier within a step: its sense would be in doubt beyond pi
+RESONANT = 2.0  # distance from a resonance at which it shows, over its width
+NARROWEST = 1e-5  # width of a resonance of undamped multipliers, rad
+MOST_TONGUES = 6  # resonances within a step, but forced ones, that are looked at
+DEEPEST = 6  # points on one resonance, each where the former ones predict it
+PEAK = 0.01  # distance of such a point from where it is expected that shows a peak, over the step
+SMALLEST_PEAK = 1e-5  # the same, over the static deflection
+# Arclength of a step within which the order of events may change, or the orientation, and the curve
+# may have a corner, as where a switch that is just touched changes nothing else: at a jump of the
+# map no corrector comes to a point so near.
+CORNER = 1e-5
+PRECISION = 1e-11  # of the share of a step at which a point is located
+EVEN = 0.5  # least slope over the largest one, of a curve without folds between two points
+STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
+
+FOLD = "fold"
+PERIOD_DOUBLING = "period_doubling"
+NEIMARK_SACKER = "neimark_sacker"
+GRAZING = "grazing"
+BRANCH_POINT = "branch_point"
+BOUND = "bound"
+CLOSED = "closed"
+STOPPED = "stopped"
+HOPF = "hopf"
+LIMIT = "limit"
+MOST_POINTS = "max_points"
+LOST = "lost"
+ON_CIRCLE = 1e-6  # largest difference of a critical multiplier's modulus from one
+SAME_POINT = 1e-7  # distance of two computations of one point of a branch, over the deflection
+BESIDE_HOPF = 1e-3  # distance from a Hopf point within which no other special point is listed
+SAME_VALUE = 1e-12  # relative difference of two values of a parameter that count as one
+BEYOND = (
+    1e-6,
+    1e-5,
+    1e-4,
+)  # arclengths beyond the last cycle, which is within the shortest step of a jump
+SAME_TIMES = (
+    5e-3  # change of a motion's period and stick there, over the period, without another event
+)
+STEEPEST = 1e4  # leading multiplier beside a grazing release, towards which it grows without bounds
+
+# largest distance, over the deflection, of a cycle from itself half a period later that is looked at
+# as one of half the period: at a doubling, Newton's method comes to a double zero
+SAME_HALVES = 1e-3
+NEAR_DOUBLING = 0.02  # distance from -1 of the multiplier from which a branch is sought there
+# the first change of the parameter in the search for a doubling, and the last one, over its scale; how
+# far a doubling may be from the cycle beside which it is sought
+BESIDE = 1e-6
+ROUNDING = 1e-12
+FARTHEST_DOUBLING = 0.2
+# distances of a branch's first cycle from the doubling, over the deflection: the branch may end nearer
+DEPARTURES = (5e-3, 1e-3, 2e-4)
 
 
-@compiling()
-@with_known_names
-def continue_cycle(  # noqa: PLR0913
-    case: Parameters,
+# ---- The equations
+
+
+def parameter_scale(p: Parameters, name: str, farthest: float = 0.0) -> float:
+    """The change of a parameter that counts as one: its value, a fifth of a typical one, or a tenth
+    of the `farthest` value to which it is followed, whichever is most."""
+    value = abs(p.numbers[name])
+    usual = USUAL.get(name, DEFAULTS.get(name))
+    typical = SMALLEST * usual if isinstance(usual, float) else 0.0
+    return max(value, typical, SMALLEST_OF_SPAN * abs(farthest)) or 1.0
+
+
+class CycleProblem:
+    """F of the cycles of a case, in the free parameters `names`.
+
+    Unknowns are z = (x / size, q / scales), with the norm of the static deflection as size. With an
+    `order` of events cycles may lose contact, and have as many releases in a period; `scale`
+    replaces a parameter's own. Points x of the section are in the coordinates of the case `base`;
+    those of another case differ from them where the disc's frequencies do.
+    """
+
+    def __init__(
+        self,
+        base: Parameters,
+        names: tuple[str, ...],
+        scale: float | None,
+        tol: float,
+        order: Counts | None = None,
+        make_map: Callable[..., Any] | None = None,
+    ) -> None:
+        self.base = base
+        self.names = names
+        self.tol = tol
+        self.order = order
+        self.make_map = make_map or ReturnMap
+        self.reference = self.make_map(base, tol)
+        self.n = self.reference.size
+        self.size = self.reference.deflection
+        self.scales = np.array([scale or parameter_scale(base, name) for name in names])
+        self._differentiable = tuple(name for name in names if name in PARAMETERS)
+        self._map: Any = None  # the map of the parameters last used
+        self._values: tuple[float, ...] = ()
+
+    def values(self, point: CurvePoint) -> Array:
+        """The free parameters at a point."""
+        return np.asarray(point.z[self.n :] * self.scales)
+
+    def case(self, z: Array) -> Parameters:
+        """The case at a point; raises `ParameterError` where there is none."""
+        values = (z[self.n :] * self.scales).tolist()
+        return self.base.replace(**dict(zip(self.names, values, strict=True)))
+
+    def words(self, point: CurvePoint) -> str:
+        """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
+        return ", ".join(map(value_with_unit, self.names, self.values(point).tolist()))
+
+    def map_at(self, z: Array) -> Any:
+        """The return map of the case at a point."""
+        values = tuple(z[self.n :].tolist())
+        if self._map is None or values != self._values:
+            self._map = self._make_map(z)
+            self._values = values
+        return self._map
+
+    def _make_map(self, z: Array) -> Any:
+        try:
+            p = self.case(z)
+            missing = min(p.Omega, p.N, p.k_p) <= 0
+            if missing:
+                raise Rejected("the drive, the preload or the in-plane spring vanishes")
+            patient = self.order is not None
+            return self.make_map(p, self.tol, self._differentiable, patient=patient)
+        except (ParameterError, ModeError) as fault:
+            raise Rejected(str(fault)) from None
+
+    def section_point(self, z: Array) -> Array:
+        """The point of the section, in the coordinates of the map at z."""
+        return np.asarray(z[: self.n] * self.size / self._turn(self.map_at(z)))
+
+    def state(self, z: Array) -> State:
+        """The state of the point on the section."""
+        return self.map_at(z).state(self.section_point(z))
+
+    def _turn(self, section_map: Any) -> Array:
+        """Factors from the coordinates of a map to those of the reference."""
+        return self.reference.scale / section_map.scale
+
+    def follow(self, z: Array, *, tangent: bool, releases: int | None = None) -> Orbit:
+        """The motion from a point to its return, or to another number of releases, whatever its
+        end."""
+        if releases is None:
+            releases = self.order.releases if self.order else 1
+        return self.map_at(z).evaluate(
+            self.section_point(z),
+            releases=releases,
+            tangent=tangent,
+            may_separate=self.order is not None,
+        )
+
+    def _return(
+        self, z: Array, *, tangent: bool, releases: int | None = None
+    ) -> tuple[Orbit, Array]:
+        """The motion from a point to its return, or to another number of releases, and F."""
+        orbit = self.follow(z, tangent=tangent, releases=releases)
+        if not orbit.returned:
+            raise Rejected(ENDS[orbit.outcome])
+        return orbit, (orbit.end - orbit.start) * self._turn(self.map_at(z)) / self.size
+
+    def residual(self, z: Array, releases: int | None = None) -> Array:
+        """F at z, of cycles with another number of releases if there is one."""
+        return self._return(z, tangent=False, releases=releases)[1]
+
+    def evaluate(self, z: Array, releases: int | None = None) -> Evaluation:
+        """F at z, with its derivatives, of cycles with another number of releases if there is
+        one."""
+        orbit, residual = self._return(z, tangent=True, releases=releases)
+        turn = self._turn(self.map_at(z))
+        jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
+        by_parameters = np.zeros((self.n, len(self.names)))
+        column = 0
+        for i, name in enumerate(self.names):
+            if name in self._differentiable:
+                by_parameters[:, i] = orbit.by[:, column] * turn / self.size * self.scales[i]
+                column += 1
+            else:
+                by_parameters[:, i] = self._difference(z, residual, i, releases)
+        by = np.hstack([jacobian - np.eye(self.n), by_parameters])
+        if not (np.all(np.isfinite(by)) and np.all(np.isfinite(residual))):
+            raise Rejected("the variational equations are singular: a switch is grazed")
+        return Evaluation(residual, by, orbit, jacobian)
+
+    def _difference(self, z: Array, here: Array, i: int, releases: int | None) -> Array:
+        """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of
+        orbits: on both sides of z, or on one at a limit of the parameter, such as 0."""
+        move = np.zeros(len(z))
+        move[self.n + i] = DIFFERENCE
+        sides = [side for side in (1, -1) if self._is_case(z + side * move)]
+        if len(sides) == 2:
+            rise = self.residual(z + move, releases) - self.residual(z - move, releases)
+            return np.asarray(rise / (2 * DIFFERENCE))
+        side = sides[0]
+        near = self.residual(z + side * move, releases)
+        far = self.residual(z + 2 * side * move, releases)
+        return np.asarray(side * (4 * near - 3 * here - far) / (2 * DIFFERENCE))
+
+    def _is_case(self, z: Array) -> bool:
+        """Whether the parameters of z are those of a case."""
+        try:
+            self.case(z)
+        except ParameterError:
+            return False
+        return True
+
+    def place(self, x: Array) -> Array:
+        """z of a point of the section of the case `base`."""
+        values = np.array([self.base.numbers[name] for name in self.names])
+        return np.concatenate([x / self.size, values / self.scales])
+
+    def place_of(self, cycle: FloquetResult) -> Array:
+        """z of a cycle of the case `base`; raises `ParameterError` if it cannot be followed."""
+        if cycle.state is None or (cycle.releases > 1 and not self.order):
+            rule = f"must have a cycle, but the search ended with {cycle.message}"
+            fault = Fault(("case",), "", f"{rule}; {self._another_start}")
+            if self.order:
+                fault = Fault(("guess",), "", f"must lie near a cycle, but {cycle.message}")
+            raise ParameterError(fault)
+        return self.place(self.reference.point(cycle.state))
+
+    @property
+    def _another_start(self) -> str:
+        """What to do where a case has no cycle to start from."""
+        return f"start from another value of {' or '.join(self.names)}, or give a guess"
+
+    def moved_to(self, z: Array, x: Array) -> Array:
+        """z at the point x of the section, in the coordinates of the map at z."""
+        return np.concatenate([x * self._turn(self.map_at(z)) / self.size, z[self.n :]])
+
+    def start(self, cycle: FloquetResult) -> CurvePoint:
+        """A cycle of the case `base` as a point of the curve in one parameter, which rises along the
+        tangent; raises `ParameterError` if it cannot be followed."""
+        z = self.place_of(cycle)
+        rising = parameter_row(len(z), 1.0)
+        try:
+            found = self.evaluate(z)
+        except Rejected as lost:
+            rule = f"must have a cycle that can be followed, but at its state {lost}"
+            fault = Fault(("case",), "", f"{rule}; {self._another_start}")
+            raise ParameterError(fault) from None
+        left = np.append(found.residual, 0.0)
+        return curve_point(z - newton_step(np.vstack([found.by, rising]), left), found, rising)
+
+    def leading_diameters(self, point: CurvePoint) -> int:
+        """Nodal diameters of the modes with most energy in the leading multiplier's eigenvector; -1
+        on a rigid disc."""
+        spectrum = point.spectrum
+        diameters = self.reference.diameters
+        if not len(diameters):
+            return -1
+        leading = int(np.argmax(np.abs(spectrum.values)))
+        energy = np.abs(spectrum.right[: len(diameters), leading]) ** 2
+        return int(np.argmax(np.bincount(diameters, energy)))
+
+
+def growth_rate(multiplier: complex, period: float) -> float:
+    """Growth rate of a multiplier, 1/s."""
+    return math.log(abs(multiplier)) / period if multiplier else -math.inf
+
+
+def leading(point: CurvePoint) -> complex:
+    """The multiplier of largest modulus; 0 on a section of a single point."""
+    values = point.spectrum.values
+    return complex(values[np.argmax(np.abs(values))]) if values.size else 0j
+
+
+def nearest(point: CurvePoint, value: complex) -> complex:
+    """The multiplier nearest to a value."""
+    values = point.spectrum.values
+    return complex(values[np.argmin(np.abs(values - value))])
+
+
+# ---- Steps
+
+
+class BranchTracer:
+    """Steps along the curve of a `CycleProblem` in one parameter, which end at the scaled bounds
+    `low` and `high` of the parameter where they would pass them."""
+
+    def __init__(
+        self, problem: CycleProblem, steps: StepControl, low: float = -np.inf, high: float = np.inf
+    ) -> None:
+        self.problem = problem
+        self.steps = steps
+        self.low = low
+        self.high = high
+
+    def advance(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
+        """The points of a step of arclength ds beyond the last of some, resonances within it
+        included; raises `Rejected` if a shorter step is needed."""
+        current = points[-1]
+        former = points[-2] if len(points) > 1 else None
+        guess = predict(former, current, ds)
+        row = _plane(current.tangent)
+        value = float(guess.z[-1])
+        bound = min(max(value, self.low), self.high)
+        if bound != value:
+            ds *= (bound - current.value) / (value - current.value)
+            guess = predict(former, current, ds)
+            guess.z[-1] = bound
+            row = parameter_row(len(row), current.slope)
+        ahead = self._solve(guess, current, row, FARTHEST * ds)
+        if ds > CORNER and np.linalg.norm(ahead.z - guess.z) > DRIFT * ds:
+            raise Rejected("the corrector moves far")
+        self._check(current, ahead)
+        return [*self._resonances(current, ahead, DEEPEST), ahead]
+
+    def between(self, before: CurvePoint, after: CurvePoint, share: float) -> CurvePoint:
+        """The point of the curve at a share of the way between two neighbours."""
+        guess = interpolate(before, after, share)
+        return self._near(before, after, guess, _plane_between(before, after))
+
+    def at_value(self, before: CurvePoint, after: CurvePoint, value: float) -> CurvePoint | None:
+        """The point of the curve between two neighbours with a given scaled value of the parameter,
+        which lies between theirs; None if it cannot be computed."""
+
+        def excess(share: float) -> float:
+            return float(interpolate(before, after, share).z[-1]) - value
+
+        guess = interpolate(before, after, float(brentq(excess, 0.0, 1.0)))
+        guess.z[-1] = value
+        row = parameter_row(len(guess.z), after.value - before.value)
+        try:
+            return self._near(before, after, guess, row)
+        except Rejected:  # as beside a fold
+            return self.locate(before, after, lambda point: point.value - value)
+
+    def locate(
+        self, before: CurvePoint, after: CurvePoint, test: Callable[[CurvePoint], float]
+    ) -> CurvePoint | None:
+        """The point between two neighbours where a test function vanishes; None if it has the same
+        sign at both, or the curve cannot be followed to the point."""
+        known = {0.0: before, 1.0: after}
+
+        def value(share: float) -> float:
+            if share not in known:
+                known[share] = self.between(before, after, share)
+            return test(known[share])
+
+        if value(0.0) * value(1.0) > 0:
+            return None
+        try:
+            root = float(brentq(value, 0.0, 1.0, xtol=PRECISION, rtol=4 * np.finfo(float).eps))
+            return known.get(root) or self.between(before, after, root)
+        except Rejected:
+            return None
+
+    def _near(self, before: CurvePoint, after: CurvePoint, guess: Guess, row: Array) -> CurvePoint:
+        chord = after.z - before.z
+        radius = max(FARTHEST * float(np.linalg.norm(chord)), 1e-6)
+        found = self._solve(guess, before, row, radius)
+        return found if float(found.tangent @ chord) >= 0 else found.reversed()
+
+    def _solve(self, guess: Guess, nearby: CurvePoint, row: Array, radius: float) -> CurvePoint:
+        """The point of the curve in the plane through a guess, with the sense of a point nearby."""
+        matrix = np.vstack([guess.by, row])
+        z, found = solve(self.problem, guess.z, row[None, :], matrix, radius)
+        point = curve_point(z, found, row)
+        same_sense = float(point.tangent @ nearby.tangent) >= 0
+        return point if same_sense else point.reversed()
+
+    def _check(self, before: CurvePoint, after: CurvePoint) -> None:
+        """Raise `Rejected` unless two points are neighbours on one part of the branch."""
+        if np.linalg.norm(after.z - before.z) <= CORNER:
+            check_step(before, after, self.steps.sharpest, FARTHEST)
+            return
+        check_step(before, after, self.steps.sharpest)
+        if after.orientation != before.orientation:
+            raise Rejected("the orientation of the curve changes")
+        if after.orbit.counts != before.orbit.counts:
+            raise Rejected("the order of events changes")
+
+    def _resonances(self, before: CurvePoint, after: CurvePoint, deepest: int) -> list[CurvePoint]:
+        """Points on the resonances between two neighbours; raises `Rejected` where one shows a peak
+        of the branch, or a forced one cannot be located."""
+        between = turns_between(before.spectrum, after.spectrum)
+        if np.abs(between.turns).max(initial=0.0) > FASTEST_TURN:
+            raise Rejected("a multiplier turns too fast")
+        unseen = _unseen(passings(between))
+        if not unseen:
+            return []
+        if deepest == 0:
+            if any(each.forced for each in unseen):
+                raise Rejected("a resonance cannot be located")
+            return []
+        expected = interpolate(before, after, unseen[0].share)
+        length = float(np.linalg.norm(after.z - before.z))
+        there = self._solve(expected, before, _plane(before.tangent), FARTHEST * length)
+        if np.linalg.norm(there.z - expected.z) > max(PEAK * length, SMALLEST_PEAK):
+            raise Rejected("the branch has a peak within the step")
+        self._check(before, there)
+        self._check(there, after)
+        return [
+            *self._resonances(before, there, deepest - 1),
+            there,
+            *self._resonances(there, after, deepest - 1),
+        ]
+
+
+def parameter_row(width: int, sense: float) -> Array:
+    """The unit vector of the parameter, which is the last of `width` entries, with the sign of
+    `sense`."""
+    row = np.zeros(width)
+    row[-1] = 1.0 if sense >= 0 else -1.0
+    return row
+
+
+def _plane(tangent: Array) -> Array:
+    """Normal of the plane in which a step ends: that of a fixed parameter where the curve is not
+    steep, because a map of new parameters costs more than an orbit."""
+    if abs(tangent[-1]) < STEEP:
+        return tangent
+    return parameter_row(len(tangent), float(tangent[-1]))
+
+
+def _plane_between(before: CurvePoint, after: CurvePoint) -> Array:
+    """Normal of the planes in which points between two neighbours lie: that of a fixed parameter
+    where the curve is steep all the way, and that of the chord elsewhere, as round a fold."""
+    chord = after.z - before.z
+    along = chord / np.linalg.norm(chord)
+    slopes = float(np.sign(along[-1])) * np.array([before.slope, along[-1], after.slope])
+    if slopes.min() > max(STEEP, EVEN * slopes.max()):
+        return parameter_row(len(along), float(along[-1]))
+    return np.asarray(along, dtype=float)
+
+
+def _unseen(passed: list[Passing]) -> list[Passing]:
+    """Those resonances within a step that neither of its ends is near enough to show: all forced
+    ones and, of the others, those of the least damped multipliers."""
+    hidden = [each for each in passed if each.distance > RESONANT * max(each.width, NARROWEST)]
+    others = sorted(each.width for each in hidden if not each.forced)
+    widest = others[MOST_TONGUES - 1] if len(others) > MOST_TONGUES else np.inf
+    return [each for each in hidden if each.forced or each.width <= widest]
+
+
+# ---- Special points: a test function changes sign between two points, and its root is located
+
+
+class Entry(NamedTuple):
+    """A point along a branch or, if it has a kind, a special one between two of these, with its
+    critical multiplier."""
+
+    point: CurvePoint
+    kind: str = ""
+    multiplier: complex = 0j
+
+
+def special_between(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> list[Entry]:
+    """The special points between two neighbours of a branch, in their order; raises `Rejected` if a
+    fold between them cannot be computed."""
+    found = list(_found_between(tracer, before, after))
+    return sorted(found, key=lambda each: float((each.point.z - before.z) @ before.tangent))
+
+
+def _found_between(tracer: BranchTracer, before: CurvePoint, after: CurvePoint) -> Iterator[Entry]:
+    """The special points between two neighbours."""
+    if after.orbit.counts != before.orbit.counts:
+        yield Entry(before, GRAZING, leading(before))
+        return
+    knots = [before, after]
+    if before.slope * after.slope < 0:
+        fold = tracer.locate(before, after, lambda point: point.slope)
+        if fold is None:
+            raise Rejected(f"a fold near {tracer.problem.words(before)} cannot be located")
+        knots.insert(1, fold)
+        yield Entry(fold, FOLD, 1.0 + 0j)
+    elif before.orientation != after.orientation:
+        yield Entry(before, BRANCH_POINT, 1.0 + 0j)
+    if _doubling_test(before) * _doubling_test(after) < 0:
+        doubled = tracer.locate(before, after, _doubling_test)
+        if doubled is not None and abs(nearest(doubled, -1.0) + 1) < ON_CIRCLE:
+            yield Entry(doubled, PERIOD_DOUBLING, nearest(doubled, -1.0))
+    # a pair that crosses the circle before a fold often is two real multipliers at the fold
+    for first, last in pairwise(knots):
+        yield from _neimark_sackers(tracer, first, last)
+
+
+def _doubling_test(point: CurvePoint) -> float:
+    """det (J + I), which changes sign where a real multiplier passes -1; without the factors of
+    multipliers that are far away."""
+    factors = 1 + point.spectrum.values
+    return float(np.prod(factors / np.maximum(np.abs(factors), 1.0)).real)
+
+
+def _neimark_sackers(
+    tracer: BranchTracer, before: CurvePoint, after: CurvePoint
+) -> Iterator[Entry]:
+    """The points between two neighbours where a pair of complex multipliers crosses the unit
+    circle."""
+    for follower in _crossing_pairs(before, after):
+        point = tracer.locate(before, after, follower.excess)
+        if point is None:
+            continue
+        critical = follower.multiplier(point)
+        if abs(abs(critical) - 1) < ON_CIRCLE and critical.imag != 0:
+            yield Entry(point, NEIMARK_SACKER, complex(critical.real, abs(critical.imag)))
+
+
+def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[_Follower]:
+    """The pairs that are complex at one of two neighbours at least, and may have crossed the unit
+    circle at the other."""
+    successors = follow_multipliers(before.spectrum, after.spectrum)
+    for i, multiplier in enumerate(before.spectrum.values):
+        j = int(successors[i])
+        successor = complex(after.spectrum.values[j])
+        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
+        if multiplier.imag > 0 and (successor.imag == 0 or crosses):
+            yield _Follower(before, i)
+        elif multiplier.imag == 0 and successor.imag > 0:
+            yield _Follower(after, j)
+
+
+class _Follower:
+    """The multiplier of a point that continues the i-th one of another, which is complex."""
+
+    def __init__(self, start: CurvePoint, i: int) -> None:
+        self.start = start
+        self.i = i
+        values = start.spectrum.values
+        self.conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
+
+    def multiplier(self, point: CurvePoint) -> complex:
+        return self._successor(point, self.i)
+
+    def _successor(self, point: CurvePoint, i: int) -> complex:
+        """The multiplier of another point that continues the i-th one."""
+        j = follow_multipliers(self.start.spectrum, point.spectrum)[i]
+        return complex(point.spectrum.values[j])
+
+    def excess(self, point: CurvePoint) -> float:
+        """By how much its modulus exceeds one; the mean modulus of both multipliers where the pair
+        has become two real ones."""
+        followed = self.multiplier(point)
+        if followed.imag != 0:
+            return abs(followed) - 1
+        other = self._successor(point, self.conjugate)
+        return abs(followed * other) ** 0.5 - 1
+
+
+# ---- Period doublings seen from the cycle of twice the period. A cycle of an even number of
+# ---- releases shrinks there to one of half as many, and its curve goes on along the same cycles,
+# ---- half a period later: a branch begins and ends there
+
+
+def releases_in_half(problem: CycleProblem) -> int:
+    """Releases in half a period of the problem's cycles; 0 if a period has an odd number."""
+    if problem.order is None or problem.order.releases % 2:
+        return 0
+    return problem.order.releases // 2
+
+
+def half_a_period_on(problem: CycleProblem, z: Array) -> Array:
+    """The way on the section from a cycle of an even number of releases to itself half a period
+    later, (n,), over the deflection; raises `Rejected` without a return."""
+    return problem.residual(z, releases_in_half(problem))
+
+
+def comes_to_doubling(problem: CycleProblem, before: CurvePoint, after: CurvePoint) -> bool:
+    """Whether a branch of cycles of an even number of releases comes to a period doubling at the
+    second of two neighbours: both are the same cycles, half a period apart, or the second one hardly
+    differs from itself half a period later."""
+    if not releases_in_half(problem):
+        return False
+    try:
+        first = half_a_period_on(problem, before.z)
+        second = half_a_period_on(problem, after.z)
+    except Rejected:
+        return False
+    nearly = np.linalg.norm(second) < min(SAME_HALVES, float(np.linalg.norm(first)))
+    return float(first @ second) < 0 or bool(nearly)
+
+
+def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | None:
+    """The period doubling beside a cycle of twice the period, where that of half the releases has the
+    multiplier -1; None if it is not found.
+
+    The shorter cycle is regular there, while F of the longer one has a double zero.
+    """
+    z = near.z.copy()
+    z[: problem.n] += half_a_period_on(problem, near.z) / 2
+
+    def excess(value: float) -> float:
+        """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
+        then the shorter cycle there."""
+        nonlocal z
+        z[-1] = value
+        orbit = _shorter_cycle(problem, z)
+        if orbit is None:
+            raise Rejected("the shorter cycle is not found")
+        z = problem.moved_to(z, orbit.start)
+        values = spectrum_of(orbit.jacobian).values
+        return float(np.real(values[np.argmin(np.abs(values + 1))] + 1))
+
+    try:
+        value = root_by_secants(excess, near.value, x1=near.value + BESIDE, tol=ROUNDING)
+        excess(value)
+        found = problem.evaluate(z)
+    except (Rejected, RuntimeError):  # which scipy raises where a search does not converge
+        return None
+    if np.linalg.norm(z - near.z) > FARTHEST_DOUBLING:
+        return None
+    return curve_point(z, found, near.tangent)
+
+
+def _shorter_cycle(problem: CycleProblem, z: Array) -> Orbit | None:
+    """The orbit of the shorter cycle near a point of the longer one's problem; None if it is not
+    found."""
+    start = problem.section_point(z)
+    half = releases_in_half(problem)
+    return newton(problem.map_at(z), start, releases=half, may_separate=True)
+
+
+def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | None:
+    """The first cycle of a branch that begins at a period doubling, near a cycle of half as many
+    releases, with the tangent away from it; None if the start is no such cycle.
+
+    Raises `ParameterError` if the start is one of half as many releases, and not at a doubling.
+    """
+    half = releases_in_half(problem)
+    if not half or np.linalg.norm(half_a_period_on(problem, start.z)) > SAME_HALVES:
+        return None
+    # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
+    z = start.z
+    orbit = _shorter_cycle(problem, z)
+    if orbit is not None:
+        z = problem.moved_to(z, orbit.start)
+    shorter = problem.evaluate(z, half)
+    spectrum = spectrum_of(shorter.jacobian)
+    critical = int(np.argmin(np.abs(spectrum.values + 1)))
+    if abs(spectrum.values[critical] + 1) > NEAR_DOUBLING:
+        rule = f"must be {half}: the cycle at this state repeats after half as many"
+        raise ParameterError(Fault(("releases",), str(2 * half), rule))
+
+    # along the eigenvector, and across the branch of half the period, on which the plane has no cycle
+    away = np.append(np.real(spectrum.right[:, critical]), 0.0)
+    away /= np.linalg.norm(away)
+    along = np.linalg.svd(shorter.by)[2][-1]
+    row = away - (away @ along) * along
+    row /= np.linalg.norm(row)
+    for distance in DEPARTURES:
+        guess = z + distance * away
+        try:
+            matrix = np.vstack([problem.evaluate(guess).by, row])
+            return curve_point(*solve(problem, guess, row[None, :], matrix, distance), row)
+        except Rejected:
+            continue
+    raise ParameterError("no cycle of twice the period is near the period doubling")
+
+
+# ---- The course of a branch
+
+
+@dataclass
+class Course:
+    """The points of a branch, special ones between them, and why it ends, in a word: at its first
+    point, if it was followed both ways, and at its last."""
+
+    problem: CycleProblem
+    entries: list[Entry]
+    first: str
+    last: str
+
+    @property
+    def points(self) -> list[CurvePoint]:
+        return [entry.point for entry in self.entries if not entry.kind]
+
+
+@dataclass
+class Search:
+    """The search for a branch of a problem in one parameter, between the bounds of a span, up to
+    the first special point of one of the kinds `stop_at` if there is one. It tells of each point that is
+    found along the branch."""
+
+    problem: CycleProblem
+    steps: StepControl
+    span: tuple[float, float]
+    stop_at: frozenset[str] = frozenset()
+    tell: Callable[[CurvePoint], object] = field(default=lambda _: None)
+
+    def __post_init__(self) -> None:
+        self.low, self.high = (bound / self.problem.scales[0] for bound in self.span)
+        limits = (-np.inf, np.inf) if self.steps.beyond else (self.low, self.high)
+        self.tracer = BranchTracer(self.problem, self.steps, *limits)
+
+    def follow(self, start: CurvePoint, direction: int = 0) -> Course:
+        """The branch from a point on: both ways, or with rising (1) or falling (-1) values alone; one
+        way from a period doubling, at which the branch of twice the period begins."""
+        departure = leave_doubling(self.problem, start)
+        if departure is not None:
+            entries, last = self._one_way(departure)
+            doubling = Entry(start, PERIOD_DOUBLING, 1.0 + 0j)
+            return Course(self.problem, [doubling, *entries], PERIOD_DOUBLING, last)
+        if direction:
+            entries, last = self._one_way(start.turned(direction))
+            return Course(self.problem, entries, "", last)
+        back, first = self._one_way(start.reversed())
+        if first == CLOSED:
+            return Course(self.problem, back, "", first)
+        entries, last = self._one_way(start)
+        behind = [each._replace(point=each.point.reversed()) for each in reversed(back)]
+        return Course(self.problem, [*behind, *entries[1:]], first, last)
+
+    def _one_way(self, start: CurvePoint) -> tuple[list[Entry], str]:
+        """The branch from a point along its tangent, and why it ends."""
+        way = _Way(self, start)
+        end = self.bound_at(start)
+        if not end:
+            points, rejected = follow_curve(start, self.tracer.advance, self.steps, way)
+            end = way.end
+            if not end and rejected is not None:
+                end = _loss(self.problem, points[-1], rejected)
+        entries = way.entries
+        if end == HOPF:
+            last = entries[-1].point.z
+            far = [np.linalg.norm(each.point.z - last) > BESIDE_HOPF for each in entries]
+            entries = [
+                each for each, is_far in zip(entries, far, strict=True) if is_far or not each.kind
+            ]
+        return entries, end or MOST_POINTS
+
+    def bound_at(self, point: CurvePoint) -> str:
+        """The end of the branch at a point that is at a bound, on the way out, or beyond it; else
+        ""."""
+        if self.steps.beyond:
+            leaves = not self.low <= point.value <= self.high
+        else:
+            below = point.slope < 0 and point.value <= self.low + _margin(self.low)
+            leaves = below or (point.slope > 0 and point.value >= self.high - _margin(self.high))
+        return BOUND if leaves else ""
+
+    def closes(self, before: CurvePoint, after: CurvePoint, known: CurvePoint) -> bool:
+        """Whether the curve between two neighbours passes through a known point in its sense."""
+        chord = after.z - before.z
+        length = float(np.linalg.norm(chord))
+        share = float((known.z - before.z) @ chord) / length**2
+        if not 0 < share <= 1 or float(known.tangent @ chord) < 0:
+            return False
+        expected = interpolate(before, after, share)
+        if np.linalg.norm(expected.z - known.z) > PEAK * length:
+            return False
+        try:
+            there = self.tracer.between(before, after, share)
+        except Rejected:
+            return False
+        away = there.z - known.z
+        across = away - (away @ there.tangent) * there.tangent
+        return float(np.linalg.norm(across)) < SAME_POINT
+
+    def with_values(self, course: Course, wanted: Sequence[float]) -> Course:
+        """The course with a point at each of some values, in SI units, wherever it passes one."""
+        scaled = sorted(value / self.problem.scales[0] for value in wanted)
+        entries = course.entries[:1]
+        for before, after in pairwise(course.entries):
+            first, last = before.point, after.point
+            low, high = sorted([first.value, last.value])
+            passed = [x for x in scaled if low + _margin(low) < x < high - _margin(high)]
+            for value in passed if first.value < last.value else reversed(passed):
+                point = self.tracer.at_value(first, last, value)
+                if point is not None:
+                    entries.append(Entry(point))
+            entries.append(after)
+            if after.kind and any(abs(last.value - x) <= _margin(x) for x in scaled):
+                entries.append(Entry(last))
+        return Course(self.problem, entries, course.first, course.last)
+
+
+class _Way:
+    """The way of a branch from a point on: it takes each new point with the special ones before it,
+    tells whether that is the last one, and keeps why."""
+
+    def __init__(self, search: Search, start: CurvePoint) -> None:
+        self.search = search
+        self.entries = [Entry(start)]
+        self.end = ""
+
+    def __call__(self, points: list[CurvePoint]) -> bool:
+        search = self.search
+        before, new = points[-2:]
+        search.tell(new)
+        if len(points) > 3 and search.closes(before, new, points[0]):
+            new = points[0]
+            self.end = CLOSED
+        elif comes_to_doubling(search.problem, before, new):
+            self.end = PERIOD_DOUBLING
+            doubling = locate_doubling(search.problem, before)
+            if doubling is not None:
+                self.entries.append(Entry(doubling))
+            return True
+        try:
+            found = special_between(search.tracer, before, new)
+        except Rejected:
+            self.end = LOST
+            return True
+        self._take(before, found, new)
+        return bool(self.end)
+
+    def _take(self, before: CurvePoint, found: list[Entry], new: CurvePoint) -> None:
+        """Take the special points before a new one, and that one itself, as far as the branch goes."""
+        search = self.search
+        for each in found:
+            value = each.point.value
+            if each.kind == FOLD and not (
+                search.low <= value <= search.high or search.steps.beyond
+            ):
+                bound = min(max(value, search.low), search.high)
+                at_bound = search.tracer.at_value(before, each.point, bound)
+                if at_bound is not None:
+                    self.entries.append(Entry(at_bound))
+                self.end = BOUND
+                return
+            self.entries.append(each)
+            if each.kind in search.stop_at:
+                self.entries.append(Entry(each.point))
+                self.end = STOPPED
+                return
+        self.entries.append(Entry(new))
+        self.end = self.end or search.bound_at(new)
+
+
+def _margin(value: float) -> float:
+    """Largest difference of scaled values that count as equal."""
+    return SAME_VALUE * max(1.0, abs(value))
+
+
+def _loss(problem: CycleProblem, last: CurvePoint, rejected: Rejected) -> str:
+    """Why a curve cannot be followed beyond a point at which even the shortest step was rejected.
+
+    Where the return map is discontinuous, no cycle continues the branch. A switch is grazed there: just
+    beyond, the motion has other events than the cycle, at other times, or no return.
+    """
+    if str(rejected) == "vanished":  # of cycles that slip all the time
+        return HOPF
+    for distance in BEYOND:
+        try:
+            motion = problem.follow(last.z + distance * last.tangent, tangent=False)
+        except Rejected:
+            return LIMIT
+        same = motion.returned and motion.counts == last.orbit.counts
+        moved = abs(motion.period - last.orbit.period) + abs(
+            motion.stick_time - last.orbit.stick_time
+        )
+        if not same or moved > SAME_TIMES * last.orbit.period:
+            return GRAZING
+    return GRAZING if abs(leading(last)) > STEEPEST else LOST
+
+
+def first_cycle(
+    p: Parameters,
     name: str,
-    bounds: tuple[Quantity, Quantity],
-    *,
-    direction: int = 0,
+    scale: float | None,
+    tol: float,
     guess: State | None = None,
     releases: int = 1,
-    tol: float = 1e-12,
-    steps: StepControl = CYCLE,
-    values: Sequence[Quantity] = (),
-    stop_at: str | Sequence[str] | None = None,
     kind: str = STICK_SLIP,
-    progress: bool = False,
-) -> Branch:
-    """Follow a cycle in one parameter by pseudo-arclength, through folds, until it leaves `bounds`.
-
-    The branch goes both ways from the case. From a state `guess` the cycle may lose contact; with
-    its impacts it is followed as long as the motion depends continuously on the parameter. Where a
-    switch is grazed, the return map jumps: the branch ends, and says which event appears or
-    vanishes there. A branch that closes ends where it began.
-
-    Parameters
-    ----------
-    case : case whose cycle is followed; its value of the parameter must lie within the bounds
-    name : the free parameter, one of `Parameters.numbers`
-    bounds : values of the parameter between which the cycle is followed; SI units, or texts with units
-    direction : 0 for both ways; 1 to begin with increasing values alone, -1 with decreasing ones
-    guess, releases, tol : as in `floquet`; with the state of a period doubling and twice its releases, the branch that
-        begins there is followed, one way
-    steps : length and number of the steps
-    values : of the parameter, within the bounds; the branch has a cycle at exactly each of them, as often as it passes;
-        those that it never passes are its `not_reached`
-    stop_at : "fold", "period_doubling" or "neimark_sacker", or the label "LP", "PD" or "TR", to end at the first such
-        point, in each direction; several of them to end at the first of any
-    kind : "stick_slip"; or "slipping" for the cycle of `floquet(case, kind="slipping")`, which slips all the time, from
-        the Hopf point of steady sliding to where it touches zero slip speed
-    progress : whether standard error shows how many cycles are found, and at which value of the parameter; how many
-        there will be is not known
-
-    Returns
-    -------
-    Branch
-        The cycles in their order along the curve; its folds and other special points; and in `ended` why it ends; if
-        for two reasons, that of its first point, then that of its last.
-
-    Raises
-    ------
-    ParameterError
-        If an argument breaks a rule, or no cycle is found to start from.
-
-    Examples
-    --------
-    The fold of the cycle at 385 N:
-
-    >>> import disc_model as dm
-    >>> branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2), values=[15.0])
-    >>> branch
-    Branch(... cycles, Omega from 14.8 to 15.09... rad/s, 1 fold; ended: the bound Omega = 14.8 rad/s was reached)
-    >>> print(f"{branch.folds[0, 0]:.6f} rad/s")
-    15.094912 rad/s
-    >>> branch.growth_rate[branch.at(15.0)].round(4).tolist()
-    [-0.1055, 0.5751]
-    """
-    ways = is_number(direction) and direction in (-1, 0, 1)
-    stops = stop_kinds(stop_at)
-    wrong = violations(
-        (isinstance(steps, StepControl), "steps", steps, "must be StepControl"),
-        (ways, "direction", direction, "must be -1, 0 or 1"),
-        (stops is not None, "stop_at", stop_at, STOPS),
-        (isinstance(progress, bool), "progress", progress, "must be True or False"),
-    )
-    wrong += limits_faults("tol", tol, CYCLE_TOLERANCES) + guess_faults(guess, releases, kind)
-    span, wanted = read_values(case, name, bounds, values, wrong)
-    tol = float(tol)
-    start = case.numbers[name]
-
-    scale, steps = _scaled(case, name, span, steps)
-    problem, cycle = first_cycle(case, (name,), scale, tol, guess, releases, kind)
-    with progress_bar("continue_cycle", None, progress) as bar:
-
-        def tell(point: CurvePoint) -> None:
-            bar.describe(f"continue_cycle at {problem.words(point)}")
-            bar.advance()
-
-        search = Search(problem, steps, span, stops or frozenset(), tell)
-        course = search.follow_cycle(cycle, int(direction))
-        course = search.with_values(course, wanted)
-    return branch_of(problem, course, (*span, start), wanted)
-
-
-def _scaled(
-    case: Parameters, name: str, span: tuple[float, float], steps: StepControl
-) -> tuple[float, StepControl]:
-    """The scale of the free parameter, and steps in its arclength."""
-    if steps.scale is not None:
-        return steps.scale, steps
-    stretch = stretch_of(case, name)
-    first = steps.step / stretch
-    shorter = {
-        "step": first,
-        "longest": steps.longest / stretch**0.5,
-        "shortest": min(steps.shortest, first),
-    }
-    scale = stretch * parameter_scale(case, name, max(map(abs, span)))
-    return scale, steps.replace(**shorter)
+) -> tuple[CycleProblem, FloquetResult]:
+    """The problem of the cycles of a kind in a free parameter, and the cycle of the case `p` from which
+    they are followed; the other arguments are those of `CycleProblem` and `disc_model.floquet`."""
+    if kind == SLIPPING:
+        slipping = find_slipping_cycle(p, tol, guess)
+        return CycleProblem(p, (name,), scale, tol, make_map=SlippingMap), slipping
+    cycle = find_cycle(p, tol, guess, releases)
+    order = None
+    if guess is not None:
+        order = Counts(*(getattr(cycle, event) for event in Counts._fields))
+    return CycleProblem(p, (name,), scale, tol, order), cycle

@@ -19,8 +19,8 @@ import numpy as np
 import xarray as xr
 from pydantic import Field
 
+from disc_model.analysis.frequency_jumps import frequency_jumps
 from disc_model.arrays import Array, Mask
-from disc_model.data.frequency_jumps import frequency_jumps
 from disc_model.data.variables import OF_QUANTITIES, message_of
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import BETWEEN, NUMERICAL, found, listed, quantity, values_between

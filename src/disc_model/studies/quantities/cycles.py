@@ -29,7 +29,7 @@ from disc_model.units import Count, CycleTolerance, Finite, Positive, Real, Seco
 
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
-    from disc_model.stability.curves import StabilityCurve
+    from disc_model.stability.continuation import StabilityCurve
 
 CYCLE = "The stick-slip cycle itself, stable or not."
 FROM_START = "The motion from the static start, near which no stick-slip cycle was found."
@@ -181,7 +181,7 @@ def neutral_curves(
     max_curves : room for that many curves
     tol : tolerance of cycles: relative residual of the return map
     """
-    from disc_model.stability.curves import neutral_curves as curves_of
+    from disc_model.stability.continuation import neutral_curves as curves_of
 
     beyond = margin * (lines[-1] - lines[0])
     plane = {x: bounds, y: (lines[0] - beyond, lines[-1] + beyond)}

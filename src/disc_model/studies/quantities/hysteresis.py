@@ -11,7 +11,6 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.coded import words
-from disc_model.data.swept_speeds import SPEED, doubtful_contact, edges_along, swept_speeds
 from disc_model.data.variables import (
     OF_QUANTITIES,
     WORDS,
@@ -21,6 +20,12 @@ from disc_model.data.variables import (
 )
 from disc_model.errors import require
 from disc_model.parameters import Parameters
+from disc_model.studies.quantities.swept_speeds import (
+    SPEED,
+    doubtful_contact,
+    edges_along,
+    swept_speeds,
+)
 from disc_model.studies.quantity import BETWEEN, Free, Rules, found, quantity, values_between
 from disc_model.units import Finite, Positive, Seconds, Tolerance, Unit
 

@@ -80,7 +80,7 @@ def _measure(run: Result) -> dict[str, Any]:
     """Columns of a stretch of motion; none if contact is not lost."""
     from disc_model.analysis.classify import separation_location
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
-    from disc_model.analysis.spectra import main_vibration, share_at
+    from disc_model.analysis.spectra import main_vibration, vibration_at
 
     count = run.statistics["n_separations"]
     if not count:
@@ -104,7 +104,7 @@ def _measure(run: Result) -> dict[str, Any]:
         "flight_excess": excess_of_flights(apart),
         "vibration_frequency": vibration.frequency,
         "vibration_share": vibration.share,
-        "force_share": share_at(time, samples["P"].values, vibration.frequency),
+        "force_share": vibration_at(time, samples["P"].values, vibration.frequency).share,
         "separation_rate": count / duration,
         "separation_fraction": apart,
         "stick_fraction": run.statistics["time_stick"] / duration,

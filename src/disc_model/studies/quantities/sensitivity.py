@@ -119,7 +119,7 @@ def sensitivity(
         remarks = []
         try:
             sample = case.replace(**dict(zip(names, values.tolist(), strict=True)))
-            remarks.append(_cycle(sample, tol, row))
+            remarks.append(evaluate_cycle(sample, tol, row))
             if i < simulated_samples:
                 remarks.append(_outcome(sample, horizon, times, motion_tol, row))
         except NUMERICAL as error:
@@ -160,7 +160,7 @@ def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, see
     return np.transpose(columns)
 
 
-def _cycle(case: Parameters, tol: float, row: dict[str, Any]) -> str:
+def evaluate_cycle(case: Parameters, tol: float, row: dict[str, Any]) -> str:
     """Add the cycle of a sample; returns a message."""
     from disc_model.stability.cycle import find_cycle
 

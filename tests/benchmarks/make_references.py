@@ -1,0 +1,120 @@
+"""Compute the right answers of the benchmark (extra ``bench``), in minutes.
+
+Run from the repository's root::
+
+    python -m tests.benchmarks.make_references
+
+None is found by the engine: scenes by the long-double Taylor series of tests/references, the rigid
+disc in closed form, and answers by heyoka at two tolerances, whose difference is stored as their
+error. The states at which motions start are the engine's, because any state would do there.
+"""
+
+import json
+import math
+from itertools import accumulate
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks import answers
+from benchmarks.methods import METHODS
+from benchmarks.scenes import problem, stated, stored
+from disc_model.errors import script
+from disc_model.simulation.api import simulate
+from tests.references import stored as references
+from tests.references.make_stored_references import decimal, repeated
+from tests.references.taylor import problem_of
+
+DATA = Path("benchmarks/data")
+TOLERANCES = (1e-13, 1e-15)
+STARTS = {"settled": (answers.SETTLED, 250.0), "growing": (answers.GROWING, 100.0)}
+"""Cases, and times in s of the states at which motions start."""
+
+
+def scene(name):
+    """Return the answer of a scene: event times, kinds and the state at the end."""
+    task = problem(name)
+    p = task.parameters
+    start = references.reference_state(task.start, p)
+    run, difference = repeated(problem_of(p), start, task.t_end)
+    final = references.engine_state(references.rounded(run.state()), p)
+    return {
+        "parameters": stated(p),
+        "t_end": task.t_end,
+        "largest_difference_to_check_run": difference,
+        "kinds": [event["kind"] for event in run.events],
+        "times": [decimal(event["time"]) for event in run.events],
+        "final": references.as_json(final),
+    }
+
+
+def rigid_cycle():
+    """Return stick-slip on a rigid disc from a relaxed spring, up to its third event.
+
+    The contact force is N, and there is no damping. At E = 1e20 Pa the disc's remaining flexibility,
+    k psi^2/omega^2, is 3e-9: this is exact to about that.
+    """
+    task = problem("rigid")
+    p = task.parameters
+    omega = math.sqrt(p.k_p / p.m)
+    held = p.mu_s * p.N / (p.k_p * p.r_0)
+    slipping = p.mu_k * p.N / (p.k_p * p.r_0)
+    excess = held - slipping
+    slip = 2.0 / omega * (math.pi - math.atan(excess * omega / p.Omega))
+    stick = (held - (slipping - excess)) / p.Omega
+    times = [*accumulate([held / p.Omega, slip, stick])]
+
+    since = omega * (task.t_end - times[-1])
+    psi = slipping + excess * math.cos(since) + p.Omega / omega * math.sin(since)
+    f = p.Omega + excess * omega * math.sin(since) - p.Omega * math.cos(since)
+    final = task.start.replace(time=task.t_end, phase="slip", direction=1, psi=psi, f=f)
+    return {
+        "parameters": stated(p),
+        "t_end": task.t_end,
+        "largest_difference_to_check_run": 1e-9 * task.t_end,
+        "kinds": ["stick_to_slip", "slip_to_stick", "stick_to_slip"],
+        "times": [f"{t:.25f}" for t in times],
+        "final": references.as_json(final),
+    }
+
+
+def answers_by_heyoka():
+    """Return the answer to each question, with the difference of two tolerances as its error."""
+    found = []
+    for tol in TOLERANCES:
+        values = {}
+        for ask in answers.ASKED:
+            further = (2e-4,) if ask is answers.onset else ()
+            values |= ask(
+                lambda task, _, tol=tol: METHODS["heyoka"].solve(task, tol), np.inf, *further
+            )[0]
+        found.append(values)
+    loose, tight = found
+    by = f"heyoka at tolerances {TOLERANCES[0]:g} and {TOLERANCES[1]:g}"
+    return {
+        name: {
+            "value": value,
+            "error": max(abs(value - loose[name]), 1e-4 * (name == "onset")),
+            "by": by,
+        }
+        for name, value in tight.items()
+    }
+
+
+def write(name, content):
+    """Write a file of the benchmark's data, and forget what it held."""
+    Path(DATA, f"{name}.json").write_text(json.dumps(content, indent=1) + "\n", encoding="utf-8")
+    stored.cache_clear()
+
+
+@script
+def main():
+    """Write all files."""
+    right = {name: scene(name) for name in ("stick_slip", "separating", "many_modes")}
+    write("benchmark_reference", {**right, "rigid": rigid_cycle()})
+    states = {
+        name: references.as_json(simulate(p, time, tol=1e-14).final_state)
+        for name, (p, time) in STARTS.items()
+    }
+    write("answers", {"starts": states})
+    write("answers", {"starts": states, "references": answers_by_heyoka()})
