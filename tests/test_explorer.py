@@ -16,10 +16,8 @@ from disc_model.explorer import page, study_contents
 from disc_model.figures.looks import LOOKS
 from disc_model.figures.shown import shown
 from disc_model.studies.motions import SAMPLES
-from disc_model.studies.quantity import HOMES
 from tests import needs
-from tests.studies.conftest import computed
-from tests.studies.test_quantities import grid
+from tests.figures.examples import EXAMPLES, KINDS_OF_STUDIES
 from tests.workflow.browser import browser
 
 LARGEST = 10e6  # bytes, of a page of 45 studies
@@ -223,9 +221,9 @@ def test_motions_say_what_they_are_and_those_that_failed_are_left_out() -> None:
 
 @pytest.mark.slow
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", HOMES)
+@pytest.mark.parametrize("name", [each.__name__ for each in KINDS_OF_STUDIES])
 def test_every_variable_of_a_quantity_is_on_the_page(name: str) -> None:
-    study = computed(**grid(name))
+    study: Any = EXAMPLES[name]().inputs["study"]
     contents = unpacked(study_contents(name, study, None, STATED))
     on_page = {variable for group in contents["groups"] for variable in group["points"]}
     assert {variable for variable, x in study.items() if x.size} <= on_page

@@ -15,8 +15,8 @@ GOLDEN = (5**0.5 - 1) / 2
 J = np.arange(3000)
 
 
-def logistic(r: float) -> np.ndarray:
-    x = np.full(3000, 0.3)
+def logistic(r: float, size: int = 3000) -> np.ndarray:
+    x = np.full(size, 0.3)
     for i in range(1, x.size):
         x[i] = r * x[i - 1] * (1 - x[i - 1])
     return x[750:]

@@ -18,7 +18,7 @@ from disc_model.stability.cycle import (
     find_cycle,
     run_through_once,
 )
-from disc_model.stability.linear_motion import CloseReturn, find_cycle_near
+from disc_model.stability.follower import CloseReturn, find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
 from tests.validation.test_random_cases import drawn_case

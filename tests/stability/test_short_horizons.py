@@ -1,6 +1,5 @@
 """Attractors of motions that are followed for a short time, in which a kick's transient has not ended."""
 
-from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -8,9 +7,7 @@ import pytest
 
 from disc_model import Disc, Parameters, basins
 from disc_model.data.variables import Outcome
-from disc_model.simulation.states import State, static_start
-from disc_model.stability.attractors import Basins
-from disc_model.stability.outcome import Attractor
+from disc_model.stability.follower import Attractor
 from tests.stability.test_attractor import basins_without_motions, stretch
 
 PAD: dict[str, Any] = {"r_0": 0.1, "k": 1e6, "k_p": 1e6, "c_p": 50, "m": 0.5}
@@ -52,46 +49,3 @@ def test_an_equilibrium_is_one_attractor_whatever_came_before(
     known = basins_without_motions()
     assert known._same(Attractor(*first), Attractor(*second)) is same
     assert known._same(Attractor(*second), Attractor(*first)) is same
-
-
-@pytest.mark.compiled
-def test_a_cycle_is_described_without_the_transient_before_it() -> None:
-    """A motion that loses contact before it follows the quiet cycle."""
-    found = Basins(Parameters(N=385, Omega=14), 5.0)
-    assert found.cycle is not None
-    near = found.cycle
-    after_kick: Any = SimpleNamespace(steady=False, segments=[LOSES])
-    assert found._segment_on(near, after_kick).separation_rate == 0
-    steady: Any = SimpleNamespace(steady=True, segments=[LOSES])
-    assert found._segment_on(near, steady) is LOSES
-
-
-def ends_of_legs(horizon: float, monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """The times up to which a motion is simulated that settles on nothing."""
-    ends: list[float] = []
-
-    def simulate(state: State, end: float) -> Any:
-        ends.append(end)
-        status = SimpleNamespace(complete=True)
-        return SimpleNamespace(
-            status=status, final_state=SimpleNamespace(time=end), first_separation=np.nan
-        )
-
-    followed = basins_without_motions(near=0.0)
-    followed.horizon = horizon
-    monkeypatch.setattr(followed, "_simulate_leg", simulate)
-    monkeypatch.setattr(followed, "_settled_on", lambda *_: None)
-    monkeypatch.setattr("disc_model.stability.attractors.segment_of", lambda _: SLIDES)
-    followed.follow(static_start(Parameters(N=385, Omega=14)))
-    return ends
-
-
-@pytest.mark.parametrize(
-    ("horizon", "ends"),
-    [(3.0, [3.0]), (8.0, [8.0]), (15.0, [5.0, 10.0, 15.0]), (15.1, [5.1, 10.1, 15.1])],
-)
-def test_the_last_leg_is_as_long_as_the_others(
-    horizon: float, ends: list[float], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """One of 0.1 s showed no separation of a motion that separates again and again."""
-    assert ends_of_legs(horizon, monkeypatch) == pytest.approx(ends)

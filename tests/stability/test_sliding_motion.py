@@ -7,10 +7,9 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
 from disc_model.simulation.case import Window
 from disc_model.simulation.states import perturb
-from disc_model.stability.outcome import find_outcome
+from disc_model.stability.follower import approaches_sliding, departs_from_sliding, find_outcome
 from disc_model.stability.segments import shares, slips_on
 from disc_model.stability.sliding import height_of_slider, steady_sliding
-from disc_model.stability.sliding_motion import approaches_sliding, departs_from_sliding
 
 pytestmark = pytest.mark.compiled
 

@@ -1,14 +1,12 @@
 """Cycles that slip all the time, of a block against an independent method, and of a disc."""
 
 import math
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 import disc_model as dm
 from disc_model.data.variables import CycleStatus
-from disc_model.stability import slipping_cycle
 from tests.references import block
 from tests.refusals import refusal
 from tests.stability.test_block import END_OF_STICK_SLIP, JUMP, RIG
@@ -145,36 +143,6 @@ def test_wrong_requests_are_named(options, fault) -> None:
 def test_a_branch_needs_a_cycle_to_begin_with() -> None:
     with refusal("case: must have a cycle, but the search ended with"):
         dm.continue_cycle(RIG.replace(Omega=2.5), "Omega", (1, 3), kind="slipping")
-
-
-@pytest.mark.parametrize(("zero", "stops"), [(0.01, 1.0), (0.0111, 0.0112)])
-def test_a_cycle_is_between_a_distance_that_grows_and_one_that_decays(
-    zero: float, stops: float
-) -> None:
-    """Also where the slider stops not far beyond it, where nothing is known."""
-
-    def growth(distance: float) -> float:
-        if distance > stops:
-            return math.nan
-        return math.log(distance / zero)
-
-    found = slipping_cycle._bracket(growth, 1e-3)
-    assert found is not None
-    low, high = found
-    assert low < zero < high <= 1.25 * low * (1 + 1e-12)
-    assert slipping_cycle._bracket(growth, 2 * stops) is None
-    assert slipping_cycle._bracket(lambda distance: 1e-12 * growth(distance), 1e-3) is None
-
-
-def test_the_least_damped_oscillation_comes_first() -> None:
-    jacobian = np.zeros((5, 5))
-    jacobian[:2, :2] = [[-0.5, 3.0], [-3.0, -0.5]]
-    jacobian[2:4, 2:4] = [[-0.1, 2.0], [-2.0, -0.1]]
-    jacobian[4, 4] = 1.0  # grows without oscillating
-    shapes = [*slipping_cycle._oscillations(SimpleNamespace(jacobian=jacobian))]
-    assert len(shapes) == 2
-    assert np.abs(shapes[0][2:4]).min() > 0.5
-    assert np.abs(shapes[1][:2]).min() > 0.5
 
 
 def test_without_preload_no_cycle_slips_even_if_contact_is_kept() -> None:

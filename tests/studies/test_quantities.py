@@ -19,8 +19,7 @@ from disc_model.data.variables import OF_QUANTITIES, CycleStatus, Outcome
 from disc_model.errors import Status
 from disc_model.parameters import Parameters
 from disc_model.stability import attractors
-from disc_model.stability.linear_motion import NearCycle
-from disc_model.stability.outcome import Attractor, OutcomeResult
+from disc_model.stability.follower import Attractor, NearCycle, OutcomeResult
 from disc_model.studies.quantity import HOMES, Range, quantity_of
 from tests.refusals import refusal
 from tests.stability.test_attractor import stretch
@@ -288,7 +287,7 @@ def test_every_crossing_is_found_and_bisected(
     crossings: list[tuple[float, str]],
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving(first))
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving(first))
     found = dm.critical_speed(P, (12, 15), horizons, step=0.5)
     assert found["critical_speed"].values == pytest.approx(speeds, nan_ok=True)
     for i, (speed, kind) in enumerate(crossings):
@@ -310,7 +309,7 @@ CRITICAL = [
 def test_a_critical_speed_that_is_not_between_the_bounds_says_why(
     horizon: Any, speed: float, said: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving({speed: 10.0}))
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving({speed: 10.0}))
     found = dm.critical_speed(P, (12, 15), horizon)
     assert message_of(found).endswith(said)
     assert bool(message_of(found)) == bool(said)
@@ -324,7 +323,7 @@ def test_the_precision_follows_the_step(
 ) -> None:
     """To 0.1 rad/s, or the next smaller part of the step."""
     monkeypatch.setattr(
-        "disc_model.stability.outcome.find_outcome", moving({13 + step / 100: 10.0})
+        "disc_model.stability.follower.find_outcome", moving({13 + step / 100: 10.0})
     )
     found = dm.critical_speed(P, (13 - 2 * step, 13 + 2 * step), step=step)
     part = step / math.ceil(step / 0.1 - 1e-9)
@@ -334,7 +333,7 @@ def test_the_precision_follows_the_step(
 
 def test_what_has_no_room_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     alternating = {2: math.inf, 3: 1.0, 4: math.inf, 5: 1.0, 6: math.inf}
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", moving(alternating))
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving(alternating))
     found = dm.critical_speed(P, (2, 6), step=1, precision=1, max_crossings=3)
     assert found["n_crossings"] == 4
     assert message_of(found).startswith("4 were found along crossing_number, which has room for 3")
@@ -656,8 +655,8 @@ def test_a_plane_says_how_outcomes_are_known_and_what_joins_cycles(
         return SimpleNamespace(start=guess) if variable == "other_cycles" else None
 
     separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
-    monkeypatch.setattr("disc_model.stability.linear_motion.cycle_of_static_start", search)
-    monkeypatch.setattr("disc_model.stability.outcome.find_outcome", lambda *_, **__: separation)
+    monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", search)
+    monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: separation)
     monkeypatch.setattr("disc_model.stability.return_map.newton", newton)
     monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
     axes = {"N": [100.0], "Omega": [1.0 + i for i in range(len(starts))]}

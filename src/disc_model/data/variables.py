@@ -27,10 +27,10 @@ UNKNOWN_OUTCOMES = ("undecided", "failed")
 
 
 class Outcome(enum.StrEnum):
-    """Outcome of a motion, in the words of all datasets; `disc_model.stability.outcome` gives the
+    """Outcome of a motion, in the words of all datasets; `disc_model.stability.follower` gives the
     criteria."""
 
-    STICK_SLIP = "stick_slip"  # the stable cycle of the static start: within `thresholds.NEAR`, or that of `floquet`
+    STICK_SLIP = "stick_slip"  # the stable cycle of the static start: within `follower.NEAR`, or that of `floquet`
     OTHER_CYCLE = "other_cycle"  # another stable cycle in contact
     SEPARATING = "separating"  # a stable cycle that loses contact
     QUASI_PERIODIC = "quasi_periodic"  # a motion on an attractor that is regular and aperiodic

@@ -8,9 +8,8 @@ without exponents.
 import math
 import sys
 from collections.abc import Iterator, Sequence
-from copy import copy
-from dataclasses import dataclass, field, replace
-from itertools import chain, pairwise
+from dataclasses import replace
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -31,29 +30,49 @@ from disc_model.disc.plate import mode_arrays, tangential_amplitudes
 from disc_model.engine.record import LOSS_OF_CONTACT, STICK_TO_SLIP
 from disc_model.parameters import Parameters
 from disc_model.simulation.api import simulate
-from disc_model.simulation.case import Window
 from disc_model.simulation.result import Result
 from disc_model.simulation.states import State, perturb, slip_rate, static_start
-from disc_model.stability import thresholds
 from disc_model.stability.cycle import may_stick_and_slip
-from disc_model.stability.linear_motion import (
+from disc_model.stability.follower import (
+    FIRST_LEG,
+    LARGEST_PERIOD,
+    NEAR,
+    SAME_POINT,
+    Attractor,
     NearCycle,
+    OutcomeResult,
+    close_return,
     cycle_of_static_start,
-    find_close_return,
     find_cycle_near,
+    find_equilibrium,
 )
 from disc_model.stability.lyapunov import CLEAR, CONVERGED, lyapunov_exponents
-from disc_model.stability.outcome import Attractor, OutcomeResult, find_equilibrium
-from disc_model.stability.return_map import Array, ReturnMap
+from disc_model.stability.return_map import ReturnMap
 from disc_model.stability.segments import (
+    ANGLE,
+    KIND,
+    TIME,
     Segment,
     event_times,
     final_segment,
+    late_window,
     segment_of,
-    switch_angles,
 )
-from disc_model.stability.sliding_motion import segment_of_sliding
+from disc_model.stability.sliding import height_of_slider, steady_sliding
 
+# legs over which a motion approaches a known attractor, and is steady on another one
+NEARING, SETTLING = 4, 8
+STEADY = 1e-3  # largest relative change of the range over these without a drift
+# largest relative change of ranges, rates and shares over 40 s of a settled motion: aperiodic ones
+# vary by half of it
+VARIATION = 0.01
+# s over which intervals of a motion that never sticks must repeat to `CLOSES`: at 100 Hz that shows
+# rates of `SLOWEST`, as a record of 200 s does that is known to 1 %
+REPETITION = 40.0
+SAME = 0.05  # segments that differ by less are of one attractor; the rest of a drift may reach half of it
+SMALLEST = 1e-3  # range, over the static deflection, below which ranges count as equal
+# downward, over the static deflection, from which attractors are sought
+OWN_STARTS = (0.0, 0.25, 0.5, 1.0, 2.0)
 EQUILIBRIA = {Outcome.AT_REST, Outcome.STEADY_SLIDING}
 """Kinds of which a case has one attractor."""
 
@@ -87,7 +106,7 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
     if equilibrium is not None:
         return Arrival(Settling(Settled.SETTLED, least=0.0, since=now), equilibrium)
 
-    near = cycle_reached(p, leg, most)
+    near = _cycle_reached(p, leg, most)
     if near is not None and near.follows_cycle:  # of stable cycles only
         proof = Settling(Settled.SETTLED, near.cycle.growth_rate, least=0.0, since=now)
         return Arrival(proof, near=near)
@@ -97,8 +116,9 @@ def arrival(p: Parameters, legs: Sequence[Result], most: int = sys.maxsize) -> A
     repeats = repetition_in_slip(legs)
     if repeats is not None:
         return Arrival(repeats)
-    times, angles = np.hstack([switch_angles(leg) for leg in legs])
-    return Arrival(settling(times, angles))
+    rows = np.vstack([leg.event_rows for leg in legs])
+    switches = rows[np.isin(rows[:, KIND], (STICK_TO_SLIP, LOSS_OF_CONTACT))]
+    return Arrival(settling(switches[:, TIME], switches[:, ANGLE]))
 
 
 def repetition_in_slip(legs: Sequence[Result]) -> Settling | None:
@@ -106,44 +126,40 @@ def repetition_in_slip(legs: Sequence[Result]) -> Settling | None:
     last `REPETITION` s of its legs: it does not come to the section of the return map, so that
     multipliers cannot tell. None for any other motion."""
     end = legs[-1].final_state.time
-    since = end - thresholds.REPETITION
+    since = end - REPETITION
     releases = np.hstack([event_times(leg, STICK_TO_SLIP) for leg in legs])
     losses = np.hstack([event_times(leg, LOSS_OF_CONTACT) for leg in legs])
     intervals = np.diff(losses[losses > since])
-    sticks = bool(np.any(releases > since))
-    if sticks or len(intervals) < FEWEST:
+    if np.any(releases > since) or len(intervals) < FEWEST:
         return None
 
     # from before the record to its end
-    goes_on = end - losses[-1] <= 2 * intervals.max()
+    goes_on = losses[0] <= since and end - losses[-1] <= 2 * intervals.max()
     period = shortest_period(intervals)
-    if losses[0] > since or not goes_on or not period:
+    if not goes_on or not period:
         return None
 
     # not only from each to the next: a drift takes many periods
-    spreads = [float(np.ptp(intervals[i::period])) for i in range(period)]
-    if max(spreads) > CLOSES:
+    if max(float(np.ptp(intervals[i::period])) for i in range(period)) > CLOSES:
         return None
     visible = CLOSES / (STILL * float(intervals.mean()))  # relative, as for other records
-    return Settling(Settled.SETTLED, least=visible / thresholds.REPETITION, since=since)
+    return Settling(Settled.SETTLED, least=visible / REPETITION, since=since)
 
 
-def cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
+def _cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     """The cycle near the end of a simulated motion, recorded with its events; the cycle may lose
     contact. Periods of up to half the releases of the last `FIRST_LEG` are tried, or of the whole
     leg if a slow motion has none there, and of up to `most` releases."""
     times = event_times(leg, STICK_TO_SLIP)
-    late = times > leg.final_state.time - thresholds.FIRST_LEG
-    releases = int(late.sum()) or len(times)
+    releases = int(np.sum(times > leg.final_state.time - FIRST_LEG)) or len(times)
     if not releases or not may_stick_and_slip(p):
         return None
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(leg.final_state)
     if not release.reached:
         return None
-    longest_period = max(1, min(most, releases // 2))
-    close_return = find_close_return(map_, release.x, longest_period)
-    return find_cycle_near(map_, release, close_return)
+    change, period = close_return(map_, release.x, max(1, min(most, releases // 2)))
+    return find_cycle_near(map_, release, change, period)
 
 
 def sweep(
@@ -169,9 +185,7 @@ def sweep(
     down = [(1, i) for i in reversed(range(len(values)))]
     for step in up + down:
         case = p.replace(**{name: values[step[1]]})
-        begin = 0.0
-        if state is not None:
-            begin = state.time
+        begin = 0.0 if state is None else state.time
 
         # the stay at this value, doubled until the motion has settled
         stay = dwell
@@ -200,7 +214,7 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     """Regularity of the motion from a state, by its separations, or else its releases, and by its
     largest exponent but that along the motion: zero on a torus, positive in chaos, negative on a
     cycle, however long its period."""
-    duration = thresholds.SETTLING * thresholds.FIRST_LEG
+    duration = SETTLING * FIRST_LEG
     run = simulate(p, state.time + duration, tol=tol, initial_state=state)
     times = run.events["time"].to_numpy(dtype=float)
     kinds = run.events["kind"].to_numpy()
@@ -238,19 +252,6 @@ def regularity(p: Parameters, state: State, tol: float) -> Motion:
     return Motion(Outcome.IRREGULAR if rate > 0 else periodic)
 
 
-@dataclass
-class _FollowedMotion:
-    """What is known of a motion that is followed: its legs and their segments, the time of its
-    first separation (s), the least distance from the stick-slip cycle at which it was tested, and
-    whether its last segments were steady."""
-
-    legs: list[Result] = field(default_factory=list)
-    segments: list[Segment] = field(default_factory=list)
-    first_separation: float = math.nan
-    least_tested: float = math.inf
-    steady: bool = False
-
-
 class Basins:
     """The attractors of a case, `known` in the order in which they were found: the stick-slip cycle, and
     those reached from `OWN_STARTS` and from later starts.
@@ -272,200 +273,156 @@ class Basins:
         self.tol = tol
         modes = mode_arrays(p)
         self.static = p.N * float(np.sum(modes.psi**2 / modes.omega**2))
-        self.smallest = max(thresholds.SMALLEST * self.static, sys.float_info.min)
+        self.smallest = max(SMALLEST * self.static, sys.float_info.min)
         self.map = ReturnMap(p, patient=True)
         self.cycle: NearCycle | None = None
         self.known: list[Attractor] = []
-        self._find_quiet_cycle()
-        for kick in thresholds.OWN_STARTS:
+        near_start = cycle_of_static_start(p)
+        if isinstance(near_start, NearCycle) and near_start.cycle.stable:
+            self.cycle = near_start
+            self.known.append(self._periodic(near_start, self._segment_of_cycle(near_start)))
+        for kick in OWN_STARTS:
             start = static_start(p)
-            if kick:
-                start = perturb(p, start, u=-kick * self.static)
-            self.follow(start)
-
-    def copy(self) -> "Basins":
-        """The same, to follow other starts from: what they find is not added to this one."""
-        other = copy(self)
-        other.known = [*self.known]
-        return other
-
-    def _find_quiet_cycle(self) -> None:
-        """Add the cycle near the static start to `known`, if it is stable."""
-        near = cycle_of_static_start(self.p)
-        if isinstance(near, NearCycle) and near.cycle.stable:
-            assert near.cycle.state is not None
-            self.cycle = near
-            leg = self._simulate_leg(near.cycle.state, thresholds.FIRST_LEG)
-            self.known.append(self._periodic(near, segment_of(leg)))
+            self.follow(perturb(p, start, u=-kick * self.static) if kick else start)
 
     def follow(self, state: State) -> OutcomeResult:
         """Outcome of the motion from a state at time 0; a new attractor is added to `known`."""
-        motion = _FollowedMotion()
-        while True:
+        legs = list[Result]()
+        segments = list[Segment]()
+        first_separation = math.nan
+        steady = False
+        attractor = None
+        while attractor is None and state.time < self.horizon:
             # a leg; the first takes what the others, which are of one length, leave of the horizon
-            later_legs = (self.horizon - state.time) // thresholds.FIRST_LEG - 1
-            end = self.horizon - max(later_legs, 0) * thresholds.FIRST_LEG
-            leg = self._simulate_leg(state, end)
+            later_legs = (self.horizon - state.time) // FIRST_LEG - 1
+            leg = self._simulate_leg(state, self.horizon - max(later_legs, 0) * FIRST_LEG)
             state = leg.final_state
-            if math.isnan(motion.first_separation):
-                motion.first_separation = leg.first_separation
+            if math.isnan(first_separation):
+                first_separation = leg.first_separation
             if not leg.status.complete:
                 return OutcomeResult(
-                    None, state.time, first_separation=motion.first_separation, failed=leg
+                    None, state.time, first_separation=first_separation, failed=leg
                 )
-            motion.legs.append(leg)
-            motion.segments.append(segment_of(leg))
+            legs.append(leg)
+            segments.append(segment_of(leg))
+            was_steady = steady
+            steady = self._is_steady(segments)
 
-            # an attractor that the motion approaches, or else one on which it has settled; looked
-            # for when the motion becomes steady, and at the horizon
-            was_steady = motion.steady
-            motion.steady = self._is_steady(motion.segments)
-            over = state.time >= self.horizon
-            attractor = None
+            # an attractor that the motion approaches
             if self.near:
-                attractor = self._approached(motion, state)
-            becomes_steady = motion.steady and not was_steady
-            if attractor is None and (over or (self.near and becomes_steady)):
-                attractor = self._settled_on(motion, over)
+                attractor = self._approached_by_range(segments)
+                if self._near_quiet_cycle(segments[-1], state):
+                    attractor = self.known[0]
 
-            # the outcome
-            if attractor is not None or over:
-                kind = Outcome.UNDECIDED if attractor is None else attractor.kind
-                return OutcomeResult(
-                    kind, state.time, attractor=attractor, first_separation=motion.first_separation
-                )
+            # or one on which it is, when it becomes steady, and at the horizon
+            over = state.time >= self.horizon
+            becomes_steady = bool(self.near) and steady and not was_steady
+            if attractor is None and (over or becomes_steady):
+                attractor = self._settled_on(legs, segments[-1], steady=steady, over=over)
+        kind = Outcome.UNDECIDED if attractor is None else attractor.kind
+        return OutcomeResult(
+            kind, state.time, attractor=attractor, first_separation=first_separation
+        )
 
     def _simulate_leg(self, state: State, end: float) -> Result:
         # the range is taken over thirty oscillations or more
-        window = Window(start=max(end - 0.5, state.time), stop=end, rate=thresholds.SAMPLING_RATE)
-        return simulate(self.p, end, {"late": window}, tol=self.tol, initial_state=state)
+        window = late_window(max(end - 0.5, state.time), end)
+        return simulate(self.p, end, window, tol=self.tol, initial_state=state)
+
+    def _segment_of_cycle(self, near: NearCycle) -> Segment:
+        """A segment of a motion on a cycle."""
+        state = near.cycle.state
+        assert state is not None
+        return segment_of(self._simulate_leg(state, state.time + FIRST_LEG))
 
     def _difference(self, first: Segment, second: Segment) -> float:
         """Largest difference of ranges, rates and shares, relative to the larger one or to a
         floor."""
-        first_range = max(first.range, self.smallest)
-        second_range = max(second.range, self.smallest)
-        compared = [
-            (first_range, second_range, self.smallest),
-            (first.separation_rate, second.separation_rate, 2 / thresholds.FIRST_LEG),
-            (first.stick_fraction, second.stick_fraction, thresholds.SAME),
-            (first.separation_fraction, second.separation_fraction, thresholds.SAME),
-        ]
-        return max(abs(a - b) / max(a, b, floor) for a, b, floor in compared)
+        floors = {
+            "range": self.smallest,
+            "separation_rate": 2 / FIRST_LEG,
+            "stick_fraction": SAME,
+            "separation_fraction": SAME,
+        }
+        apart = []
+        for name, floor in floors.items():
+            a, b = getattr(first, name), getattr(second, name)
+            if name == "range":
+                a, b = max(a, floor), max(b, floor)
+            apart.append(abs(a - b) / max(a, b, floor))
+        return float(max(apart))
 
-    def _near_quiet_cycle(self, segments: Sequence[Segment], state: State) -> tuple[Array, float]:
-        """A point of a motion on the section, and its distance from the stick-slip cycle; infinite
-        unless it is near."""
-        nowhere = self.map.static, math.inf
-        last = segments[-1]
+    def _near_quiet_cycle(self, last: Segment, state: State) -> bool:
+        """Whether a motion follows the stick-slip cycle, as its multipliers predict."""
         near = self.cycle
-        if near is None or last.separation_rate > 0 or last.range > segments[0].range:
-            return nowhere
+        if near is None or last.separation_rate > 0:
+            return False
         release = self.map.next_release(state)
         if not release.reached:
-            return nowhere
-        others = self.map.returns(release.x, near.cycle.releases - 1)
-        for point in chain([release.x], others):
-            distance = float(np.linalg.norm(point - near.x))
-            if distance <= thresholds.NEAR * self.map.deflection:
-                return point, distance
-        return nowhere
+            return False
+        for x in (release.x, *self.map.returns(release.x, near.cycle.releases - 1)):
+            if np.linalg.norm(x - near.x) <= NEAR * self.map.deflection:
+                return near.follows_multipliers(x)
+        return False
 
-    def _approached(self, motion: _FollowedMotion, state: State) -> Attractor | None:
-        """The known attractor that the motion approaches before it has settled; None if there is
-        none."""
-        # tested only nearer to the stick-slip cycle than ever before
-        x, distance = self._near_quiet_cycle(motion.segments, state)
-        is_nearer = distance < motion.least_tested
-        motion.least_tested = min(distance, motion.least_tested)
-        if self.cycle is not None and is_nearer and self.cycle.follows_multipliers(x):
-            return self.known[0]
-        ranges = [segment.range for segment in motion.segments[-thresholds.NEARING :]]
-        return self._approached_by_range(ranges)
-
-    def _approached_by_range(self, ranges: Sequence[float]) -> Attractor | None:
+    def _approached_by_range(self, segments: Sequence[Segment]) -> Attractor | None:
         """The attractor, other than the stick-slip cycle, whose range of the height those of the last
-        legs (m) approach; None if that is not clear, as on a rigid disc, whose height never
-        changes."""
-        if self.static == 0:
-            return None
+        legs approach; None if that is not clear, as on a rigid disc, whose height never changes."""
+        ranges = [segment.range for segment in segments[-NEARING:]]
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.STICK_SLIP]
-        if len(ranges) < thresholds.NEARING or not others:
+        if self.static == 0 or len(ranges) < NEARING or not others:
             return None
 
         # it must be near, and no other one nearly as near
         last = [_relative_difference(ranges[-1], each.segment.range) for each in others]
-        nearest = int(np.argmin(last))
-        distance = last[nearest]
-        rivals = last[:nearest] + last[nearest + 1 :]
-        if distance > self.near or min(rivals, default=math.inf) <= 2 * self.near:
+        distance, *rivals = sorted(last)
+        if distance > self.near or (rivals and rivals[0] <= 2 * self.near):
             return None
 
-        # it must be approached from leg to leg, ever more slowly
-        end = others[nearest].segment.range
-        distances = [_relative_difference(value, end) for value in ranges]
-        for earlier, later in pairwise(distances):
-            if later >= earlier and later > thresholds.VARIATION:
-                return None
-        slows = _rest_of_drift(ranges) <= (2 * distance + thresholds.VARIATION) * ranges[-1]
-        return others[nearest] if slows else None
+        # it must be approached from leg to leg
+        nearest = others[last.index(distance)]
+        distances = [_relative_difference(value, nearest.segment.range) for value in ranges]
+        parts = any(b >= a and b > VARIATION for a, b in pairwise(distances))
+        return None if parts else nearest
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
-        """Whether the last segments differ so little, and drift so slowly, that a motion may have
-        settled."""
-        last = segments[-thresholds.SETTLING :]
-        if len(last) < thresholds.SETTLING:
+        """Whether the last segments differ so little that a motion may have settled."""
+        *others, last = segments[-SETTLING:]
+        if len(others) < SETTLING - 1:
             return False
-        largest = max(self._difference(segment, last[-1]) for segment in last[:-1])
-        if largest > thresholds.VARIATION:
-            return False
-        ranges = [max(segment.range, self.smallest) for segment in last]
-        stays = abs(ranges[-1] - ranges[0]) <= thresholds.STEADY * ranges[-1]
-        return stays or _rest_of_drift(ranges) <= thresholds.SAME / 2 * ranges[-1]
+        drift = abs(last.range - others[0].range) / max(last.range, self.smallest)
+        largest = max(self._difference(segment, last) for segment in others)
+        return largest <= VARIATION and drift <= STEADY
 
-    def _settled_on(self, motion: _FollowedMotion, over: bool) -> Attractor | None:
+    def _settled_on(
+        self, legs: Sequence[Result], last: Segment, *, steady: bool, over: bool
+    ) -> Attractor | None:
         """The attractor on which a motion is, if that is proven, the whole record has settled and
         is `over`, or the last legs are as steady as those on a known attractor; None near an
         unstable cycle."""
-        reached = arrival(self.p, motion.legs, thresholds.LARGEST_PERIOD)
+        reached = arrival(self.p, legs, LARGEST_PERIOD)
         if not reached.settled and reached.settling.least == 0:  # by multipliers
             return None
-        attractor = Attractor(reached.calm or Outcome.UNDECIDED, motion.segments[-1])
+        attractor = Attractor(reached.calm or Outcome.UNDECIDED, last)
         if reached.calm is Outcome.STEADY_SLIDING:
-            attractor = Attractor(Outcome.STEADY_SLIDING, segment_of_sliding(self.p))
+            attractor = Attractor(Outcome.STEADY_SLIDING, _segment_of_sliding(self.p))
         elif reached.near is not None:
-            attractor = self._periodic(reached.near, self._segment_on(reached.near, motion))
+            # segments of a motion that is not steady have a transient
+            segment = last if steady else self._segment_of_cycle(reached.near)
+            attractor = self._periodic(reached.near, segment)
 
-        same = self._known_as(attractor)
         is_proven = attractor.kind is not Outcome.UNDECIDED
-        has_settled = over and reached.settled
-        if same is not None:
-            is_on_it = is_proven or has_settled or motion.steady
-            return same if is_on_it else None
-        if not (is_proven or has_settled):
-            return None
-
-        # a new one
-        if not is_proven:
-            end = motion.legs[-1].final_state
-            attractor = replace(attractor, kind=regularity(self.p, end, self.tol).kind)
-        self.known.append(attractor)
-        return attractor
-
-    def _segment_on(self, near: NearCycle, motion: _FollowedMotion) -> Segment:
-        """A segment on the cycle that a motion follows: the last one of a steady motion, otherwise
-        one from the cycle itself, since those of the motion have a transient."""
-        state = near.cycle.state
-        if motion.steady or state is None:
-            return motion.segments[-1]
-        return segment_of(self._simulate_leg(state, state.time + thresholds.FIRST_LEG))
-
-    def _known_as(self, attractor: Attractor) -> Attractor | None:
-        """The known attractor that is the same as another one; None if there is none."""
+        is_on_it = is_proven or (over and reached.settled)
         for known in self.known:
             if self._same(attractor, known):
-                return known
-        return None
+                return known if is_on_it or steady else None
+        if not is_on_it:
+            return None
+        if not is_proven:
+            kind = regularity(self.p, legs[-1].final_state, self.tol).kind
+            attractor = replace(attractor, kind=kind)
+        self.known.append(attractor)
+        return attractor
 
     def _same(self, first: Attractor, second: Attractor) -> bool:
         """Whether two attractors are the same: equilibria by their kinds, periodic ones by their
@@ -475,21 +432,25 @@ class Basins:
             return len(kinds) == 1
         if first.points is not None and second.points is not None:
             apart = float(np.linalg.norm(second.points - first.points[0], axis=1).min())
-            return apart <= thresholds.SAME_POINT * self.map.deflection
-        return self._difference(first.segment, second.segment) <= thresholds.SAME
+            return apart <= SAME_POINT * self.map.deflection
+        return self._difference(first.segment, second.segment) <= SAME
 
     def _periodic(self, near: NearCycle, segment: Segment) -> Attractor:
         """A cycle as an attractor, with a segment of a motion on it."""
         cycle = near.cycle
-        points = [near.x, *near.map.returns(near.x, cycle.releases - 1, may_separate=True)]
+        others = near.map.returns(near.x, cycle.releases - 1, may_separate=True)
+        points = np.array([near.x, *others])
         return Attractor(
-            kind=near.kind,
-            segment=segment,
-            period=cycle.period,
-            releases=cycle.releases,
-            growth_rate=cycle.growth_rate,
-            points=np.array(points),
+            near.kind, segment, cycle.period, cycle.releases, cycle.growth_rate, points
         )
+
+
+def _segment_of_sliding(p: Parameters) -> Segment:
+    """The segment of steady sliding itself, without the transient of a motion that approaches it."""
+    sliding = steady_sliding(p)
+    P = sliding.contact_force
+    height = float(height_of_slider(p, sliding) - static_start(p).u)
+    return Segment(P, P, height, height, 0.0, 1.0, 0.0, 0.0)
 
 
 def random_perturbation(p: Parameters, state: State, energy: float, key: Sequence[int]) -> State:
@@ -527,16 +488,3 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
 def _relative_difference(first: float, second: float) -> float:
     """Difference of two ranges over the larger one."""
     return abs(first - second) / max(first, second, sys.float_info.min)
-
-
-def _rest_of_drift(values: Sequence[float]) -> float:
-    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do
-    not decrease."""
-    changes = np.diff(values[-4:])
-    before = abs(changes[-2])
-    last = abs(changes[-1])
-    if not (np.all(changes > 0) or np.all(changes < 0)):
-        return 0.0
-    if not last < before:
-        return math.inf
-    return float(last**2 / (before - last))

@@ -7,7 +7,7 @@ because stick resets f to 0.
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -19,7 +19,7 @@ from disc_model.display import Summarised, counted, drawings, number_text
 from disc_model.errors import DiscModelError, violations
 from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
-from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, SectionMap, newton
+from disc_model.stability.return_map import ENDS, Orbit, ReturnMap, newton
 from disc_model.stability.sliding import SteadySliding, steady_sliding
 from disc_model.units import is_whole
 
@@ -28,15 +28,9 @@ SLIPPING = "slipping"
 KINDS = (STICK_SLIP, SLIPPING)
 """Kinds of cycles, by whether they stick."""
 RETURNS_TRIED = (1, 2, 3)  # numbers of releases in a period of the cycles that are sought
-MOST_RELEASES = (
-    60  # after which it is looked whether a motion repeats: paper's cases have periods of up to 45
-)
-REPEATS = (
-    1e-3  # distance after a period, over the static deflection, of a motion that nearly has settled
-)
 SAME_POINT = 1e-7  # distance of two computations of one point, over its norm
-TRANSIENT = 60  # returns simulated from the static start before Newton's method is tried again
-LONG_TRANSIENT = 300  # as many where none was found, but the motion nearly repeats
+# returns simulated from the static start before it is tried again; the latter if it nearly repeats
+TRANSIENTS = (60, 300)
 NEAR_REPEAT = (
     0.03  # distance after a return, over the static deflection, of a motion that nearly repeats
 )
@@ -220,36 +214,8 @@ def find_cycle(
     solution = newton(map_, x, releases=releases, may_separate=from_state)
     if solution is None:
         without = f"no cycle with {counted(releases, 'release')} near the given state"
-        if from_state:
-            without += f"; {_repetition(map_, x)}"
         return no_cycle(p, tol, CycleStatus.NO_CYCLE, without)
-    return _noting_repetition(map_, cycle_of(map_, solution), solution.start)
-
-
-def _noting_repetition(map_: ReturnMap, cycle: FloquetResult, x: Array) -> FloquetResult:
-    """A cycle from a point of the section; its message says so if it repeats after fewer releases
-    than it was sought with."""
-    rounding = SAME_POINT * float(np.linalg.norm(x))
-    fewer = cycle.releases - 1
-    for releases, point in enumerate(map_.returns(x, fewer, may_separate=True), 1):
-        if np.linalg.norm(point - x) <= rounding:
-            repeats = (
-                f"it repeats after {counted(releases, 'release')}: find it with releases={releases}"
-            )
-            return replace(cycle, message=f"{cycle.message}; {repeats}")
-    return cycle
-
-
-def _repetition(map_: ReturnMap, x: Array) -> str:
-    """After how many releases the motion from a point of the section repeats, in words."""
-    for releases, point in enumerate(map_.returns(x, MOST_RELEASES, may_separate=True), 1):
-        if np.linalg.norm(point - x) > REPEATS * map_.deflection:
-            continue
-        times = counted(releases, "release")
-        if newton(map_, x, releases=releases, may_separate=True) is None:
-            return f"the motion from there nearly repeats after {times}, but near no cycle"
-        return f"the motion from there repeats after {times}"
-    return f"the motion from there does not repeat within {MOST_RELEASES} releases"
+    return cycle_of(map_, solution)
 
 
 def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
@@ -266,41 +232,31 @@ def cycle_from_rest(map_: ReturnMap) -> FloquetResult:
         return cycle_of(map_, solution)
     if not start.reached:
         return _without_return(map_, start.outcome, start.time)
-    for _ in range(TRANSIENT):
-        orbit = map_.evaluate(x, tangent=False)
-        if not orbit.returned:
-            return _without_return(map_, orbit.outcome, orbit.period)
-        x = orbit.end
-    solution = _repeating(map_, x)
-    followed = TRANSIENT
-    if solution is None and _nearly_repeats(map_, x):
-        later = map_.evaluate(x, releases=LONG_TRANSIENT - TRANSIENT, tangent=False)
-        if later.returned:
-            solution = _repeating(map_, later.end)
-            followed = LONG_TRANSIENT
-    if solution is not None:
-        return cycle_of(map_, run_through_once(map_, solution))
+    followed = 0
+    for transient in TRANSIENTS:
+        for _ in range(transient - followed):
+            orbit = map_.evaluate(x, tangent=False)
+            if not orbit.returned:
+                return _without_return(map_, orbit.outcome, orbit.period)
+            x = orbit.end
+        followed = transient
+        for releases in RETURNS_TRIED:
+            solution = newton(map_, x, releases=releases)
+            if solution is not None:
+                return cycle_of(map_, run_through_once(map_, solution))
+        # one that comes slowly to a cycle is followed further
+        points = map_.returns(x, RETURNS_TRIED[-1])
+        if all(np.linalg.norm(point - x) > NEAR_REPEAT * map_.deflection for point in points):
+            break
     sought = f"no cycle of up to {RETURNS_TRIED[-1]} releases was found near the static start"
     tried = f"{sought} or {followed} releases later, where stick-slip goes on: {GIVE_A_GUESS}"
     return no_cycle(p, tol, CycleStatus.NO_CYCLE, tried)
 
 
-def _repeating(map_: ReturnMap, x: Array) -> Orbit | None:
-    """The cycle that Newton's method finds from a point of a motion; None if it finds none."""
-    for releases in RETURNS_TRIED:
-        solution = newton(map_, x, releases=releases)
-        if solution is not None:
-            return solution
-    return None
-
-
-def _nearly_repeats(map_: ReturnMap, x: Array) -> bool:
-    """Whether the motion from a point comes nearly back to it at one of its next releases."""
-    points = map_.returns(x, RETURNS_TRIED[-1])
-    return any(np.linalg.norm(point - x) <= NEAR_REPEAT * map_.deflection for point in points)
-
-
-_LOST = (CycleStatus.SEPARATES, f"contact is lost within {TRANSIENT} returns from the static start")
+_LOST = (
+    CycleStatus.SEPARATES,
+    f"contact is lost within {TRANSIENTS[0]} returns from the static start",
+)
 _WITHOUT_RETURN = {
     "time_over": (CycleStatus.NO_STICK_SLIP, "the slider slips on for {:.3g} s without sticking"),
     "lost_contact": _LOST,
@@ -356,7 +312,7 @@ def no_cycle(
     return FloquetResult(p, tol, status, f"{status}: {reason}", kind=kind)
 
 
-def cycle_of(map_: SectionMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
+def cycle_of(map_: ReturnMap, orbit: Orbit, kind: str = STICK_SLIP) -> FloquetResult:
     """The result for a cycle of a kind that Newton's method has found to the tolerance."""
     values = multipliers(orbit.jacobian)
     leading = complex(values[0])

@@ -5,7 +5,7 @@ from disc_model.errors import raise_faults, with_known_names
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle, guess_faults
-from disc_model.stability.slipping_cycle import find_slipping_cycle
+from disc_model.stability.slipping import find_slipping_cycle
 from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
 

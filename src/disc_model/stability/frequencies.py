@@ -17,8 +17,7 @@ from disc_model.parameters import Parameters
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import SAME_POINT, FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap, newton
-from disc_model.stability.sliding import split_rows
-from disc_model.stability.sliding_modes import SlidingModes, sliding_modes
+from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
 
 SETTLED = 300
 """Releases after which the motion is compared with a cycle: after fewer it may still be on its way."""

@@ -12,11 +12,11 @@ import sys
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property, partial
-from typing import Any, NamedTuple, Protocol
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
-from disc_model.arrays import Array, Indices
+from disc_model.arrays import Array
 from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
@@ -56,7 +56,7 @@ MOST_JACOBIANS = 14  # in a search for a fixed point
 COARSE_JACOBIANS = 3  # of these, which only give a direction
 SAME_PERIOD = 1e-3  # relative difference of a cycle's period from that of fewer releases
 SENSE = 1e-6  # way along a direction, over the static deflection, by which its sense is found
-# ends of motions that slip all the time, see `disc_model.stability.slipping_map`
+# ends of motions that slip all the time, see `disc_model.stability.slipping`
 STOPS = -1
 VANISHED = -2
 ENDS = {
@@ -215,64 +215,6 @@ class Orbit:
         return math.sqrt(change.dot(change))  # as np.linalg.norm, in a quarter of the time
 
 
-class SectionMap(Protocol):
-    """The return map of one case to a section; see `ReturnMap`, which is one.
-
-    parameters : the case
-    tol : relative tolerance of the residual of its fixed points
-    size : dimension n of the section
-    scale : (n,), units of its coordinates, which may depend on the case
-    diameters : nodal diameters of the coordinates that belong to modes, which come first
-    deflection : unit of distances
-    compression : (n, n), from these coordinates to some on which the map depends less steeply, see
-        `compression_coordinates`
-    """
-
-    parameters: Parameters
-    tol: float
-    size: int
-    scale: Array
-    diameters: Indices
-    deflection: float
-
-    @property
-    def compression(self) -> Array: ...
-
-    def evaluate(
-        self,
-        x: Array,
-        *,
-        releases: int = 1,
-        tangent: bool = True,
-        may_separate: bool = False,
-        coarse: bool = False,
-    ) -> Orbit:
-        """The motion from x to its return, with derivatives by x and the map's parameters;
-        `coarse` suffices for a direction."""
-        ...
-
-    def point(self, state: State) -> Array:
-        """The point of the section of a state on it."""
-        ...
-
-    def state(self, x: Array) -> State:
-        """The state of a point of the section."""
-        ...
-
-
-class MapFactory(Protocol):
-    """What makes the map of a case; `parameters` are those by which it is differentiated."""
-
-    def __call__(
-        self,
-        p: Parameters,
-        tol: float = 1e-12,
-        parameters: tuple[str, ...] = (),
-        *,
-        patient: bool = False,
-    ) -> SectionMap: ...
-
-
 class Passage(NamedTuple):
     """Where a motion comes to the section: exit code, `RETURNED` on success; time (s) and
     coordinates, (n,), which otherwise are those of its end."""
@@ -300,6 +242,9 @@ class ReturnMap:
     patient : whether motions that separate are followed; their returns may take 60 times as long, about 5 s
     """
 
+    slider: ClassVar[tuple[str, ...]] = ()
+    """Coordinates of the slider on the section, besides u, u' on a compliant contact."""
+
     def __init__(
         self,
         p: Parameters,
@@ -326,12 +271,11 @@ class ReturnMap:
 
         # coordinates of the section
         modes = columns.coordinate_rows(model, ())
-        rows = modes
-        if model.has_compliance:
-            rows = columns.coordinate_rows(model, ("u", "u_velocity"))
+        height = ("u", "u_velocity") if model.has_compliance else ()
+        self._rows = columns.coordinate_rows(model, (*self.slider, *height))
         self.diameters = columns.diameters_of_rows(model)[modes]
-        self.scale = columns.energy_scale(model)[rows]
-        self.size = len(rows)
+        self.scale = columns.energy_scale(model)[self._rows]
+        self.size = len(self._rows)
 
         # columns of the variational equations: by the coordinates, then by the parameters
         self._names = parameters
@@ -340,19 +284,19 @@ class ReturnMap:
         for i, name in enumerate(parameters):
             columns.put_input_column(self._tangent, i, parameter_change(p, model, name))
         jacobian = np.zeros((self.size, self._tangent.columns))
-        self._section = section.Section(rows, self.scale, np.zeros(self.size), jacobian)
+        self._section = section.Section(self._rows, self.scale, np.zeros(self.size), jacobian)
 
         self.static = self._coordinates()
         self.deflection = max(float(np.linalg.norm(self.static)), sys.float_info.min)
 
     def _coordinates(self) -> Array:
         column = columns.column_of(self._state, self.model)
-        return np.asarray(column[self._section.rows] * self.scale, dtype=float)
+        return np.asarray(column[self._rows] * self.scale, dtype=float)
 
     @cached_property
     def compression(self) -> Array:
-        """As `SectionMap` says."""
-        return compression_coordinates(self.model, self._section.rows)
+        """From these coordinates to some on which the map depends less steeply, (n, n)."""
+        return compression_coordinates(self.model, self._rows)
 
     @property
     def longest(self) -> float:
@@ -488,7 +432,7 @@ def rounding(tol: float, factor: float) -> float:
 
 
 def newton(
-    map_: SectionMap, x: Array, *, releases: int = 1, may_separate: bool = False
+    map_: ReturnMap, x: Array, *, releases: int = 1, may_separate: bool = False
 ) -> Orbit | None:
     """The orbit from a fixed point of the map, by Newton's method with a line search; None if it
     finds none.
@@ -554,7 +498,7 @@ def _search_along_step(
     return None
 
 
-def _is_fixed_point(map_: SectionMap, orbit: Orbit) -> bool:
+def _is_fixed_point(map_: ReturnMap, orbit: Orbit) -> bool:
     """Whether an orbit returns to its start, but for what rounding may leave, with derivatives."""
     largest = rounding(map_.tol, 1e4) * map_.deflection
     close = orbit.returned and orbit.residual <= largest
@@ -570,7 +514,7 @@ def newton_step(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
 
 
-def leading_direction(map_: SectionMap, x: Array, period: float) -> Array:
+def leading_direction(map_: ReturnMap, x: Array, period: float) -> Array:
     """Direction of the leading multiplier's eigenvector at the point of a cycle of a period (s), of
     unit length, in the sense that stretches the spring in the plane."""
     releases = 1

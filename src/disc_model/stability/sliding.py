@@ -11,29 +11,52 @@ friction acts, and g = Omega - v_s / r_0, v_s = g sum l t_l a_l, which is Omega 
 move.  With C for the contact's compliance, V = N + k (w - C V - u_0). R = V and H = mu R (mu = mu_k,
 unless it falls with the speed); under the normal force, with beta = B / r_0, V = R (1 - mu beta) and
 H = (mu + beta) R. The spring in the plane holds H = r_0 F.
+
+Where the surface moves, g is sought up to twice Omega. A plate that stretches adds the forces of its
+membrane; its equilibrium is followed from that of no load.
 """
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any, NamedTuple
 
 import numpy as np
+from scipy.optimize import brentq
 
-from disc_model.arrays import Array, ComplexArray, EqualByValue
+from disc_model.arrays import Array, ComplexArray, EqualByValue, Indices
 from disc_model.data.variables import values_text
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import Modes, modal_damping, mode_arrays, tangential_amplitudes
 from disc_model.disc.stretched import membrane_forces
 from disc_model.display import Summarised, drawings, number_text
+from disc_model.engine import laws
 from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
-from disc_model.simulation.states import engine_case
-from disc_model.stability.python_laws import LAWS
-from disc_model.stability.stretched_sliding import stretched_equilibrium
+from disc_model.simulation.states import State, engine_case
 
-_MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
-_SETTLED = 1e-14  # relative change at which it ends
+RATES = np.arange(1, 101) / 50  # at which the rate g is sought, over Omega
+# distances from resonances and poles at which it is looked, too, over their rates
+BESIDE = np.concatenate([-np.geomspace(1, 1e-9, 28), np.geomspace(1e-9, 1, 28)])
+LOADS = 24  # shares of the load by which the equilibrium of a plate that stretches is followed
+MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
+SETTLED = 1e-13  # relative change at which it ends
+
+
+def _in_python(module: ModuleType) -> Any:
+    """What a module has, with its compiled functions as functions of Python, which need no
+    compilation for complex arrays."""
+    names = dict(vars(module))
+    for name, law in vars(module).items():
+        if hasattr(law, "py_func"):
+            names[name] = FunctionType(law.py_func.__code__, names)
+    return SimpleNamespace(**names)
+
+
+LAWS = _in_python(laws)
+"""The laws of contact, `disc_model.engine.laws`."""
 
 
 class SlidingStatus(StatusBase):
@@ -44,6 +67,11 @@ class SlidingStatus(StatusBase):
         "further",
         "Steady sliding exists; the plate stretches, and a further equilibrium cannot be excluded.",
     )
+    SEVERAL = (
+        "several",
+        "Steady sliding exists; of several equilibria the one whose rate is nearest to the drive's is given.",
+    )
+    NOT_FOUND = "not_found", "No equilibrium was found up to twice the drive's rate."
     NO_CONTACT = (
         "no_contact",
         "The equilibrium would need a contact force that is not positive: lower Omega or k.",
@@ -62,7 +90,7 @@ class SlidingStatus(StatusBase):
     @property
     def exists(self) -> bool:
         """Whether there is an equilibrium, and its numbers are known."""
-        return self in (SlidingStatus.OK, SlidingStatus.FURTHER)
+        return self in (SlidingStatus.OK, SlidingStatus.FURTHER, SlidingStatus.SEVERAL)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -81,6 +109,8 @@ class SteadySliding(Summarised, EqualByValue):
     jacobian : Jacobian of the equations of slip; rows a and alpha of all modes, b and beta of the pairs, psi, f, and
         u, u' on a compliant contact
     parameters : as given to `steady_sliding`
+    rates : rad/s, (n,), rates g over the material of all equilibria that were found, ascending; `rate` is that of
+        this one, Omega unless friction moves the surface
     """
 
     status: SlidingStatus
@@ -95,6 +125,8 @@ class SteadySliding(Summarised, EqualByValue):
     growth_rate: float = math.nan
     jacobian: Array = field(default_factory=lambda: np.zeros((0, 0)), repr=False)
     parameters: Parameters | None = None
+    rates: Array = field(default_factory=lambda: np.zeros(0), repr=False)
+    rate: float = math.nan
 
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
@@ -113,6 +145,15 @@ class SteadySliding(Summarised, EqualByValue):
         yield "unstable modes", growing.size if self.eigenvalues.size else ""
         frequencies = [number_text(value.imag / math.tau, "Hz") for value in growing]
         yield "growing frequencies", ", ".join(frequencies)
+
+    @property
+    def rows(self) -> Array:
+        """The equilibrium in the rows of the Jacobian."""
+        p = self.parameters
+        assert p is not None
+        height = (height_of_slider(p, self), 0.0) if contact_compliance(p) else ()
+        disc = (self.a, self.alpha, self.b, self.beta)
+        return np.asarray(join_rows(mode_arrays(p), disc, (self.psi, p.Omega), height), float)
 
     @property
     def rate_text(self) -> str:
@@ -193,163 +234,284 @@ def steady_sliding(case: Parameters) -> SteadySliding:
     >>> print(sliding.message, f"{sliding.growth_rate:.4f} 1/s")
     steady sliding with P = 384.977 N, not stable 0.0339 1/s
     """
-    found = linearised(case)
-    if isinstance(found, SlidingStatus):
-        return absent(case, found)
-    return described(case, found, np.linalg.eigvals(found.jacobian))
+    sliding = _equilibrium(case)
+    return _with_eigenvalues(sliding, np.linalg.eigvals(sliding.jacobian))
 
 
-class Linearised(NamedTuple):
-    """The equilibrium and its Jacobian, by the names of `SteadySliding`."""
-
-    contact_force: float
-    psi: float
-    a: Array
-    b: Array
-    alpha: Array
-    beta: Array
-    jacobian: Array
-    alone: bool  # whether a further equilibrium is excluded
-
-
-def linearised(case: Parameters) -> Linearised | SlidingStatus:
-    """The equations of slip about their equilibrium, or why there is none."""
+def _equilibrium(case: Parameters) -> SteadySliding:
+    """Steady sliding without its eigenvalues, or why there is none."""
     raise_faults(foreign_case(case))
     if case.Omega == 0:
-        return SlidingStatus.AT_REST
+        return _absent(case, SlidingStatus.AT_REST)
     modes = mode_arrays(case)
     model = engine_case(case).model
     compliance = contact_compliance(case)
-    alone = True
-    if model.has_stretching:
-        a, b, vertical, rate, alone = stretched_equilibrium(case)
-    else:
-        a, b, vertical, rate = _equilibrium(case, modes, compliance)
-    if not (math.isfinite(vertical) and vertical > 0) and case.contact != "bilateral":
-        return SlidingStatus.NO_CONTACT if case.N > 0 else SlidingStatus.NO_LOAD
+    states = equilibria(case)
+    carried = [each for each in states if each.V > 0 or case.contact == "bilateral"]
+    if not carried:
+        if not case.N > 0:
+            return _absent(case, SlidingStatus.NO_LOAD)
+        return _absent(case, SlidingStatus.NO_CONTACT if states else SlidingStatus.NOT_FOUND)
+    rate, a, b, V = min(carried, key=lambda each: abs(each.rate - case.Omega))
     alpha = -modes.diameters * rate * b
     beta = modes.diameters * rate * a
     height: tuple[float, ...] = ()
     if compliance:
-        height = (float(modes.psi @ a) - compliance * vertical, 0.0)
+        height = (float(modes.psi @ a) - compliance * V, 0.0)
 
     def rows_at(psi: float) -> Array:
-        return join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
+        rows = join_rows(modes, (a, alpha, b, beta), (psi, case.Omega), height)
+        return np.asarray(rows, dtype=float)
 
     i, _ = _slip(case, rows_at(0.0)[:, None])
     friction = float(LAWS.friction_coefficient(model, 1.0, rate))
     if LAWS.slip_denominator(model, case.m, friction, i.dw_dtheta[0]) <= 1e-6:
-        return SlidingStatus.PARADOX
+        return _absent(case, SlidingStatus.PARADOX)
     # V and H of a unit force
     share, braking, _ = (float(part[0]) for part in LAWS.slip_rates(model, i, friction, np.ones(1)))
-    force = vertical / share
+    force = V / share
+    psi = math.nan  # no friction at this speed, and no slope: both are exactly zero then
     if case.k_p > 0:
         psi = braking * force / (case.r_0 * case.k_p)
-        rows = rows_at(psi)
-    elif braking == 0:  # no friction at this speed, and no slope: both are exactly zero then
-        psi = math.nan
-        rows = rows_at(0.0)
-    else:
-        return SlidingStatus.NO_SPRING
+    elif braking != 0:
+        return _absent(case, SlidingStatus.NO_SPRING)
+    rows = rows_at(psi if case.k_p > 0 else 0.0)
     _, rates = _slip(case, rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows)))
+    status = SlidingStatus.FURTHER if model.has_stretching else SlidingStatus.OK
+    if len(carried) > 1:
+        status = SlidingStatus.SEVERAL
+    found = np.sort([each.rate for each in carried])
     jacobian = rates.imag / LAWS.TINY
-    return Linearised(force, psi, a, b, alpha, beta, jacobian, alone)
+    return SteadySliding(
+        status, "", force, psi, a, b, alpha, beta, jacobian=jacobian, parameters=case,
+        rates=found, rate=rate,
+    )  # fmt: skip
 
 
-def described(case: Parameters, found: Linearised, values: np.ndarray) -> SteadySliding:
+def _with_eigenvalues(sliding: SteadySliding, values: np.ndarray) -> SteadySliding:
     """Steady sliding with the eigenvalues of its Jacobian, in any order."""
+    if not sliding.status.exists or sliding.parameters is None:
+        return sliding
     eigenvalues = values.astype(complex)
     eigenvalues = eigenvalues[np.argsort(-eigenvalues.real, kind="stable")]
-    symbol = "R" if case.contact_force == "normal" else "P"
-    force = f"{symbol} = {found.contact_force:.6g} N"
     growth_rate = float(growth_rates(eigenvalues)[0])
-    numbers = found._asdict()
-    alone = numbers.pop("alone")
-    return SteadySliding(
-        status=SlidingStatus.OK if alone else SlidingStatus.FURTHER,
-        message=f"steady sliding with {force}, {_verdict(growth_rate)}",
-        eigenvalues=eigenvalues,
-        growth_rate=growth_rate,
-        parameters=case,
-        **numbers,
-    )
+    verdict = "neutral"
+    if growth_rate != 0:
+        verdict = "stable" if growth_rate < 0 else "not stable"
+    symbol = "R" if sliding.parameters.contact_force == "normal" else "P"
+    message = f"steady sliding with {symbol} = {sliding.contact_force:.6g} N, {verdict}"
+    if sliding.status is SlidingStatus.SEVERAL:
+        message += f"; the nearest to the drive's rate of {len(sliding.rates)} equilibria"
+    return replace(sliding, message=message, eigenvalues=eigenvalues, growth_rate=growth_rate)
 
 
-def _verdict(growth_rate: float) -> str:
-    """The stability of an equilibrium in a word, from its growth rate."""
-    if growth_rate == 0:
-        return "neutral"
-    return "stable" if growth_rate < 0 else "not stable"
-
-
-def absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
+def _absent(p: Parameters, status: SlidingStatus) -> SteadySliding:
     """The result for a case without steady sliding."""
     return SteadySliding(status, status.advice, parameters=p)
 
 
-def _equilibrium(
-    p: Parameters, modes: Modes, compliance: float
-) -> tuple[Array, Array, float, float]:
-    """Modal coordinates a, b (n_modes,), the vertical force and the rate g at the equilibrium."""
-    static = float(np.sum(modes.psi**2 / modes.omega**2)) + compliance
-    load = p.N * (1 + p.k * static)  # N - k u_0
-    tangential = tangential_amplitudes(p)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        a, b = _response(p, modes, p.Omega, 1.0, 0.0)
-        force = load / (1 - p.k * (float(np.sum(modes.psi * a)) - compliance))
-        if not tangential.any():
-            return a * force, b * force, force, p.Omega
-        model = engine_case(p).model
-        leans = modes.diameters * modes.psi / p.r_0
+# ---- The equilibrium of the disc: by the modal solve at a rate g, and a search for that rate
+
+
+class Balanced(NamedTuple):
+    """The disc in equilibrium under a contact that travels over it: rate g (rad/s), modal coordinates
+    a, b (n_modes,), vertical force (N)."""
+
+    rate: float
+    a: Array
+    b: Array
+    V: float
+
+
+Solve = Callable[[float, Balanced | None], Balanced]
+"""The equilibrium at a rate, near another one; its numbers are nan if there is none."""
+
+
+def equilibria(p: Parameters) -> list[Balanced]:
+    """All equilibria that are found, up to twice the drive's rate."""
+    response = _Response(p)
+    plate = _StretchedPlate(response) if response.model.has_stretching else None
+    solve: Solve = plate.solve if plate else response.solve
+    start = plate.loaded() if plate else response.solve(p.Omega)
+    if not response.t.any():
+        return [start] if math.isfinite(start.V) else []
+
+    # both ways from the drive's rate, as a plate that stretches is followed
+    grid = RATES * p.Omega if plate else _grid_of(response)
+    up = [start, *_along(solve, start, grid[grid > p.Omega])]
+    down = [start, *_along(solve, start, grid[grid < p.Omega][::-1])]
+    found = [*_zeros(solve, response, down), *_zeros(solve, response, up)]
+    if response.excess(start) == 0:
+        found.append(start)
+    return found
+
+
+def _along(solve: Solve, start: Balanced, rates: Array) -> Iterator[Balanced]:
+    """Equilibria at successive rates, each near the one before."""
+    near = start
+    for rate in rates.tolist():
+        now = solve(rate, near)
+        near = now if math.isfinite(now.V) else near
+        yield now
+
+
+def _zeros(solve: Solve, response: "_Response", along: Sequence[Balanced]) -> Iterator[Balanced]:
+    """Equilibria, between two of some others, at which the slider is as fast as the drive."""
+    for before, after in pairwise(along):
+        ends = (response.excess(before), response.excess(after))
+        if not ends[0] * ends[1] < 0:
+            continue
+
+        def excess(rate: float, near: Balanced = before) -> float:
+            return response.excess(solve(rate, near))
+
+        root = brentq(excess, before.rate, after.rate, xtol=1e-300, rtol=1e-15)
+        state = solve(root, before)
+        # at a pole it jumps from one sign to the other
+        if abs(response.excess(state)) < min(map(abs, ends)):
+            yield state
+
+
+def _grid_of(response: "_Response") -> Array:
+    """Rates at which equilibria are sought, closer beside resonances of the disc and where the
+    contact force has a pole."""
+    Omega = response.p.Omega
+    pairs = response.l > 0
+    grid = _with_beside(RATES * Omega, np.sqrt(response.w2[pairs]) / response.l[pairs])
+    force = np.array([response.solve(rate).V for rate in grid])
+    jumps = np.flatnonzero(force[1:] * force[:-1] < 0)
+
+    def softness(rate: float) -> float:
+        return 1 / response.solve(rate).V
+
+    poles = [brentq(softness, grid[i], grid[i + 1], rtol=1e-15) for i in jumps]
+    return _with_beside(grid, np.array(poles))
+
+
+def _with_beside(grid: Array, places: Array) -> Array:
+    """Rates of a grid, and others on both sides of some places within it."""
+    beside = (places[:, None] * (1 + BESIDE)).ravel()
+    return np.unique(np.append(grid, beside[(beside > grid[0]) & (beside < grid[-1])]))
+
+
+class _Response:
+    """The disc's linear response to a contact that travels over it."""
+
+    def __init__(self, p: Parameters) -> None:
+        modes = mode_arrays(p)
+        self.p = p
+        self.model = engine_case(p).model
+        self.l = modes.diameters
+        self.psi = modes.psi
+        self.w2 = modes.omega**2
+        self.d = modal_damping(p)
+        self.t = tangential_amplitudes(p)
+        self.compliance = contact_compliance(p)
+        self.load = p.N * (1 + p.k * (float(np.sum(self.psi**2 / self.w2)) + self.compliance))
+        self.leans = self.l * self.psi / p.r_0
         if p.contact_force != "normal":
-            leans = np.zeros_like(modes.psi)
+            self.leans = np.zeros_like(self.psi)
 
-        def residual(x: ComplexArray) -> ComplexArray:
-            """What the spring's load, the law of friction and the slip speed leave over."""
-            rate, V, H = x
-            a, b = _response(p, modes, rate, V, H)
-            mu = LAWS.friction_coefficient(model, 1.0, rate)
-            beta = leans @ b
-            surface = rate * (modes.diameters * tangential) @ a
-            lifted = V + p.k * (compliance * V - modes.psi @ a) - load
-            return np.array(
-                [rate + surface / p.r_0 - p.Omega, lifted, H * (1 - mu * beta) - (mu + beta) * V]
-            )
+    def excess(self, state: Balanced) -> float:
+        """The slider's rate over that of the drive, rad/s."""
+        surface = state.rate * float((self.l * self.t) @ state.a)
+        return state.rate + surface / self.p.r_0 - self.p.Omega
 
-        rate, V, H = _zero(
-            residual,
-            np.array([p.Omega, force, LAWS.friction_coefficient(model, 1.0, p.Omega) * force]),
-        )
-        a, b = _response(p, modes, rate, V, H)
-    return a, b, V, rate
+    @np.errstate(divide="ignore", invalid="ignore")
+    def solve(self, rate: float, near: Balanced | None = None) -> Balanced:
+        """The equilibrium at a rate, of which there is one."""
+        turned = self.l * rate
+        gap = turned**2 - self.w2
+        lag = self.d * turned
+        size = gap**2 + lag**2
+        a_V, a_H = self.psi * gap / size, self.t * lag / size
+        b_V, b_H = self.psi * lag / size, -self.t * gap / size
+        k = self.p.k
+        by_V = 1 - k * (float(self.psi @ a_V) - self.compliance)
+        by_H = -k * float(self.psi @ a_H)
+        share = float(LAWS.friction_coefficient(self.model, 1.0, rate))  # H over V
+        if self.leans.any():
+            share = self._share_on_slope(share, by_V, by_H, b_V, b_H)
+        V = self.load / (by_V + share * by_H)
+        H = share * V
+        return Balanced(rate, a_V * V + a_H * H, b_V * V + b_H * H, V)
+
+    def _share_on_slope(self, mu: float, by_V: float, by_H: float, b_V: Array, b_H: Array) -> float:
+        """H over V under the normal force: with h for this share, beta = (leans b) solves
+
+        h - mu = beta (1 + mu h),  beta = (leans b_V + h leans b_H) load / (by_V + h by_H),
+
+        a quadratic equation in h, whose root near mu is that of a small slope."""
+        slope_V = self.load * float(self.leans @ b_V)
+        slope_H = self.load * float(self.leans @ b_H)
+        square = by_H - mu * slope_H
+        linear = by_V - mu * by_H - slope_H - mu * slope_V
+        constant = -mu * by_V - slope_V
+        root = math.copysign(np.sqrt(linear**2 - 4 * square * constant), linear)
+        return float(-2 * constant / (linear + root))
 
 
-def _response(p: Parameters, modes: Modes, rate: Any, V: Any, H: Any) -> tuple[Any, Any]:
-    """Modal coordinates a, b (n_modes,) under forces V and H that rotate at a rate (rad/s)."""
-    turned = modes.diameters * rate
-    gap = turned**2 - modes.omega**2
-    lag = modal_damping(p) * turned
-    size = gap**2 + lag**2
-    tangential = tangential_amplitudes(p)
-    along = (modes.psi * gap * V + tangential * lag * H) / size
-    across = (modes.psi * lag * V - tangential * gap * H) / size
-    return along, across
+class _StretchedPlate:
+    """The equilibrium of a plate that stretches, in x = a of all modes, b of the pairs:
+
+    (l^2 g^2 - omega^2) a + d l g b - F^a - psi V = 0
+    (l^2 g^2 - omega^2) b - d l g a - F^b + t H   = 0
+    """
+
+    def __init__(self, response: _Response) -> None:
+        self.linear = response
+        self.load = response.p.N - response.p.k * response.model.u_0
+        self.pairs = response.l > 0
+
+    def loaded(self) -> Balanced:
+        """The equilibrium at the drive's rate, followed from that of no load."""
+        nothing = np.zeros(len(self.pairs))
+        rate = self.linear.p.Omega
+        state = Balanced(rate, nothing, nothing, 0.0)
+        for share in np.arange(1, LOADS + 1) / LOADS:
+            state = self.solve(rate, state, float(share))
+        return state
+
+    def solve(self, rate: float, near: Balanced | None, share: float = 1.0) -> Balanced:
+        """The equilibrium near another one under a share of the load, by Newton's method with
+        complex steps."""
+        assert near is not None
+        x = np.append(near.a, near.b[self.pairs])
+        steps = 1j * LAWS.TINY * np.eye(len(x))
+        for _ in range(MOST_ITERATIONS):
+            left, (a, b, V) = self._left(x[:, None] + steps, rate, share)
+            if not np.isfinite(left).all():
+                break
+            change = np.linalg.solve(left.imag / LAWS.TINY, left.real[:, 0])
+            x = x - change
+            if np.abs(change).max() <= SETTLED * np.abs(x).max():
+                _, (a, b, V) = self._left(x[:, None] + 0j, rate, share)
+                return Balanced(rate, a.real[:, 0], b.real[:, 0], float(V.real[0]))
+        nan = np.full(len(self.pairs), np.nan)
+        return Balanced(rate, nan, nan, math.nan)
+
+    def _left(self, x: Any, rate: float, share: float) -> tuple[Any, tuple[Any, Any, Any]]:
+        """What the equations leave over, for x in columns; and a, b, V."""
+        disc = self.linear
+        n = len(self.pairs)
+        a = x[:n]
+        b = np.zeros_like(a)
+        b[self.pairs] = x[n:]
+        w = disc.psi @ a
+        V = (share * self.load + disc.p.k * w) / (1 + disc.p.k * disc.compliance)
+        mu = LAWS.friction_coefficient(disc.model, 1.0, rate)
+        beta = disc.leans @ b
+        H = (mu + beta) / (1 - mu * beta) * V
+        turned = (disc.l * rate)[:, None]
+        gap = turned**2 - disc.w2[:, None]
+        lag = disc.d[:, None] * turned
+        along, across = membrane_forces(disc.p, a, b)
+        by_a = gap * a + lag * b - along - disc.psi[:, None] * V
+        by_b = gap * b - lag * a - across + disc.t[:, None] * H
+        return np.vstack([by_a, by_b[self.pairs]]), (a, b, V)
 
 
-def _zero(residual: Callable[[ComplexArray], ComplexArray], x: Array) -> Array:
-    """A zero of a function near x (n,), by Newton's method with complex steps; nan if none is
-    found."""
-    steps = 1j * LAWS.TINY * np.eye(len(x))
-    for _ in range(_MOST_ITERATIONS):
-        slopes: Array = np.array([residual(x + step).imag for step in steps]).T / LAWS.TINY
-        if not np.isfinite(slopes).all():
-            break
-        left: Array = residual(np.asarray(x, dtype=complex)).real
-        change = np.linalg.solve(slopes, left)
-        x = x - change
-        if np.all(np.abs(change) <= _SETTLED * np.abs(x)):
-            return x
-    return np.full(len(x), np.nan)
+# ---- The equations of slip
 
 
 def _slip(p: Parameters, rows: Any) -> tuple[Any, Any]:
@@ -442,3 +604,184 @@ def join_rows(
     if len(height):
         parts.append(height)
     return np.concatenate(parts)
+
+
+def rows_of_state(p: Parameters, state: State) -> Array:
+    """A state in the rows of `SteadySliding.jacobian`."""
+    disc = (state.a, state.alpha, state.b, state.beta)
+    height = (state.u, state.u_velocity) if contact_compliance(p) else ()
+    return np.asarray(join_rows(mode_arrays(p), disc, (state.psi, state.f), height), float)
+
+
+# ---- Modes
+
+
+@dataclass(frozen=True, eq=False)
+class SlidingModes:
+    """Oscillating modes of steady sliding; eigenvalues without oscillation are left out.
+
+    Attributes
+    ----------
+    frequency, growth_rate : Hz, 1/s, shape (n,), in the slider's frame; a growth rate is exactly 0 where it is
+        nothing but rounding
+    damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
+    diameters : (n,), nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
+    forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
+    shapes : (rows of `SteadySliding.jacobian`, n)
+    """
+
+    frequency: Array
+    growth_rate: Array
+    damping_ratio: Array
+    diameters: Indices
+    forward: Array
+    shapes: ComplexArray = field(repr=False)
+
+
+def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
+    """Modes of steady sliding by ascending frequency; none without steady sliding, which is
+    computed if not given."""
+    if sliding is None:
+        return _sliding_and_modes(p)[1]
+    return _modes_of(p, *np.linalg.eig(sliding.jacobian))
+
+
+def _sliding_and_modes(p: Parameters) -> tuple[SteadySliding, SlidingModes]:
+    """Steady sliding and its modes, of which there are none without it. Values and shapes come from
+    one solution of the eigenvalue problem, which takes nearly all of the time of 100 modes."""
+    sliding = _equilibrium(p)
+    values, vectors = np.linalg.eig(sliding.jacobian)
+    return _with_eigenvalues(sliding, values), _modes_of(p, values, vectors)
+
+
+def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> SlidingModes:
+    """The modes of eigenvalues, (n,), and eigenvectors, (n, n), by ascending frequency."""
+    order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
+    growth_rate = growth_rates(values)[order]
+    values = values[order]
+    vectors = np.asarray(vectors[:, order], dtype=complex)
+    if not order:
+        nothing = np.zeros(0)
+        return SlidingModes(nothing, nothing, nothing, np.zeros(0, np.int64), nothing, vectors)
+    modes = mode_arrays(p)
+    l = modes.diameters
+    omega = modes.omega[:, None]
+    (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
+    energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2
+    energy = energy + np.abs(omega * b) ** 2
+    energy = energy + np.abs(beta) ** 2
+    numbers = range(int(l.max(initial=0)) + 1)
+    by_number = np.array([energy[l == number].sum(axis=0) for number in numbers])
+    diameters = by_number.argmax(axis=0)
+    most = l[:, None] == diameters
+
+    # a + i b and a - i b are the waves that travel in opposite directions
+    with_slider = np.sum(np.abs(omega * (a + 1j * b)) ** 2, axis=0, where=most)
+    against = np.sum(np.abs(omega * (a - 1j * b)) ** 2, axis=0, where=most)
+    with np.errstate(invalid="ignore"):  # a mode without the disc has no waves
+        forward = np.asarray(with_slider / (with_slider + against), dtype=float)
+
+    in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    return SlidingModes(
+        frequency=values.imag / (2 * math.pi),
+        growth_rate=growth_rate,
+        damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
+        diameters=np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
+        forward=forward,
+        shapes=vectors,
+    )
+
+
+# least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times
+ALIKE = 0.9
+HALVINGS = 6
+
+
+class FollowedModes(NamedTuple):
+    """Steady sliding of a case and its modes; their numbers, and likeness (modal assurance
+    criterion, the squared cosine of shapes) to the modes of the case before that have them, nan for
+    new ones, both (n,)."""
+
+    sliding: SteadySliding
+    modes: SlidingModes
+    numbers: Indices
+    mac: Array
+
+
+def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
+    """Steady sliding and its modes along cases that differ in numbers.
+
+    Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that
+    appear later have the next ones. Further cases between two are computed until it is clear which
+    mode is which.
+    """
+    followed = list[FollowedModes]()
+    shapes = list[ComplexArray]()  # of each number, the last one
+    before: Parameters | None = None
+    for p in cases:
+        sliding, modes = _sliding_and_modes(p)
+        numbers, mac = _numbered(shapes, before, p, modes, HALVINGS)
+        followed.append(FollowedModes(sliding, modes, numbers, mac))
+        before = p
+    return followed
+
+
+def _numbered(
+    shapes: list[ComplexArray],
+    before: Parameters | None,
+    p: Parameters,
+    modes: SlidingModes,
+    halvings: int,
+) -> tuple[Indices, Array]:
+    """Numbers and likeness of the modes of a case; `shapes`, by number, become those of this
+    case. Where the modes are in doubt, the case `before` is followed to this one by halves of the
+    way, up to so many `halvings`."""
+    # slow to import, and steady sliding alone does without
+    from scipy.optimize import linear_sum_assignment
+
+    if not len(modes.frequency):
+        return np.zeros(0, np.int64), np.zeros(0)
+    scaled = np.sqrt(energy_weights(p))[:, None] * modes.shapes
+    scaled = scaled / np.linalg.norm(scaled, axis=0)
+    mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
+    numbers, places = linear_sum_assignment(-mac)
+    if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:
+        between = _case_between(before, p)
+        if between is not None:
+            half = sliding_modes(between)
+            if len(half.frequency):
+                _numbered(shapes, before, between, half, halvings - 1)
+                return _numbered(shapes, between, p, modes, halvings - 1)
+
+    matched = np.full(len(modes.frequency), -1)
+    matched[places] = numbers
+    likeness = np.full(len(modes.frequency), math.nan)
+    likeness[places] = mac[numbers, places]
+    matched[matched < 0] = len(shapes) + np.arange(np.sum(matched < 0))
+    for number, shape in sorted(zip(matched, scaled.T, strict=True), key=lambda pair: pair[0]):
+        shapes[number : number + 1] = [shape]
+    return matched, likeness
+
+
+def _case_between(before: Parameters, after: Parameters) -> Parameters | None:
+    """The case halfway between two that differ in numbers; None if they do not differ."""
+    ends = dict(after)
+    middles = {}
+    for name, value in before:
+        if isinstance(value, float) and value != ends[name]:
+            middles[name] = (value + ends[name]) / 2
+    return after.replace(**middles) if middles else None
+
+
+def energy_weights(p: Parameters) -> Array:
+    """Weights of squared rows of the Jacobian in the energy of a motion."""
+    modes = mode_arrays(p)
+    compliance = contact_compliance(p)
+    stiffness = modes.omega**2
+    ones = np.ones(len(modes.omega))
+    slider = [p.r_0**2 * p.k_p, p.r_0**2 * p.m]
+    height = []
+    if compliance:
+        height = [p.k + 1 / compliance, p.m]
+    rows = join_rows(modes, (stiffness, ones, stiffness, ones), slider, height)
+    return np.asarray(rows, np.float64)

@@ -268,7 +268,8 @@ class Branch:
         Along `point`: the parameters by their names, `growth_rate` (1/s), `period` (s),
         `stick_fraction`, `range`, `u_min` and `u_max` (m, for which each cycle is simulated for a period),
         `largest_multiplier` (modulus), `stable`, `separations`, `releases`, `diameters`,
-        `multipliers_real` and `multipliers_imag`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`, `phase`,
+        `multipliers_real` and `multipliers_imag`, and the cycle's state on the section: `psi`, `f`, `u`, `u_velocity`,
+        `phase`,
         `direction` and, along `mode`, `a`, `b`, `alpha`, `beta`. Along `special`, each with the beginning `special_`:
         `special_kind`, `special_label`, the parameters, `special_multiplier`, `special_after`,
         `special_changes_stability`, and what cycles have, the state included. Attributes: `ended`,

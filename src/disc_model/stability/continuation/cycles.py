@@ -60,8 +60,7 @@ from disc_model.stability.return_map import (
     newton,
     newton_step,
 )
-from disc_model.stability.slipping_cycle import find_slipping_cycle
-from disc_model.stability.slipping_map import SlippingMap
+from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
 
 # typical values of parameters whose value in Table 1 is missing or 0
 USUAL = {

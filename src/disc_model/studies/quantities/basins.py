@@ -24,7 +24,7 @@ from disc_model.studies.quantity import MOST, STATIC, Starting, found, listed, q
 from disc_model.units import Count, Real, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
-    from disc_model.stability.outcome import OutcomeResult
+    from disc_model.stability.follower import OutcomeResult
 
 Energy = Annotated[Real, Field(ge=0, allow_inf_nan=False), Unit("J")]
 SMALLEST = 2.0**-40

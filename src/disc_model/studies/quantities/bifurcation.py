@@ -14,7 +14,7 @@ from disc_model.data.variables import Outcome
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Poincare, Start
-from disc_model.stability.thresholds import FIRST_LEG
+from disc_model.stability.follower import FIRST_LEG
 from disc_model.studies.quantity import MOST, STATIC, Motion, Starting, found, quantity
 from disc_model.units import Count, Finite, Seconds, Tolerance, Unit
 

@@ -20,7 +20,7 @@ from disc_model.studies.quantity import BETWEEN, found, listed, quantity, values
 from disc_model.units import Count, Finite, Seconds, Speed, Tolerance, Unit
 
 if TYPE_CHECKING:
-    from disc_model.stability.outcome import OutcomeResult
+    from disc_model.stability.follower import OutcomeResult
 
 PRECISION = 0.1
 """Width to which crossings are bisected unless another is asked for, rad/s."""
@@ -101,7 +101,7 @@ def critical_speed(
     >>> float(speeds["critical_speed"])
     15.1
     """
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
 
     speeds = values_between(bounds, step)
     ratio = round(_ratio(step, precision))

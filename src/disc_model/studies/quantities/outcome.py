@@ -26,7 +26,7 @@ from disc_model.units import Seconds, Tolerance
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.simulation.states import State
-    from disc_model.stability.outcome import OutcomeResult
+    from disc_model.stability.follower import OutcomeResult
     from disc_model.stability.segments import Segment
 
 _TIMES = (
@@ -48,7 +48,7 @@ def _late(
 ) -> tuple[OutcomeResult, Result | None, Segment | None]:
     """The outcome, the run beyond it, if any, and the late stretch."""
     from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
     from disc_model.stability.segments import final_segment
 
     reached = find_outcome(

@@ -25,8 +25,7 @@ from disc_model.units import Finite, Seconds, Tolerance
 if TYPE_CHECKING:
     from disc_model.simulation.states import State
     from disc_model.stability.cycle import FloquetResult
-    from disc_model.stability.linear_motion import NearCycle
-    from disc_model.stability.outcome import OutcomeResult
+    from disc_model.stability.follower import NearCycle, OutcomeResult
 
 # distances of cycles at neighbouring points, relative to the deflection
 SMOOTHLY = 0.002  # within which they are one
@@ -37,7 +36,7 @@ MOST_CYCLES = 4  # known at a point; further ones cost too much
 def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State:
     """The state that the motion has come to."""
     from disc_model.simulation.api import simulate
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
 
     result = find_outcome(case, horizon, tol=tol)
     near = result.near
@@ -118,7 +117,7 @@ class _Point:
     @property
     def near(self) -> NearCycle | None:
         """The cycle near the static start."""
-        from disc_model.stability.linear_motion import NearCycle
+        from disc_model.stability.follower import NearCycle
 
         return self.start if isinstance(self.start, NearCycle) else None
 
@@ -135,8 +134,7 @@ def _point(
     case: Parameters, horizon: float, compared_with: tuple[float, ...], tol: float
 ) -> _Point:
     """The cycle at a point, and the outcome."""
-    from disc_model.stability.linear_motion import NearCycle, cycle_of_static_start
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import NearCycle, cycle_of_static_start, find_outcome
 
     start = cycle_of_static_start(case)
     if isinstance(start, NearCycle) and start.follows_cycle:
@@ -184,7 +182,7 @@ def _cycle_columns(point: _Point) -> dict[str, Any]:
 
 def _word_without_cycle(point: _Point) -> str:
     """What a static start does that follows no cycle."""
-    from disc_model.stability.linear_motion import NearCycle
+    from disc_model.stability.follower import NearCycle
 
     if point.result is not None and point.result.outcome is Outcome.STEADY_SLIDING:
         return "steady_sliding"
@@ -199,8 +197,8 @@ def _word_without_cycle(point: _Point) -> str:
 
 def _joined(point: _Point, ahead: _Point | None) -> str:
     """ "yes" if a point's cycle continues into the cycle of the next point, else "no"."""
+    from disc_model.stability.follower import SAME_POINT
     from disc_model.stability.return_map import newton
-    from disc_model.stability.thresholds import SAME_POINT
 
     here = point.followed
     further = ahead.followed if ahead else None
@@ -238,8 +236,8 @@ def _carry(
 ) -> None:
     """Add, to the known cycles of a point, those of the point before that continue to it and
     are others."""
+    from disc_model.stability.follower import SAME_POINT
     from disc_model.stability.return_map import newton
-    from disc_model.stability.thresholds import SAME_POINT
 
     size = start.map.deflection  # the unit of points, which varies with the parameters
     for cycle in carried:

@@ -176,7 +176,7 @@ def _outcome(
     case: Parameters, horizon: float, times: tuple[float, ...], tol: float, row: dict[str, Any]
 ) -> str:
     """Add what the static start of a sample comes to; returns a message."""
-    from disc_model.stability.outcome import find_outcome
+    from disc_model.stability.follower import find_outcome
 
     result = find_outcome(case, horizon, tol=tol, compared_with=times)
     row["outcome"] = result.word

@@ -33,7 +33,7 @@ def sliding_modes(
     step : between its values
     modes : room for that many modes, numbered by frequency at the first value
     """
-    from disc_model.stability.sliding_modes import follow_modes
+    from disc_model.stability.sliding import follow_modes
 
     values = values_between(bounds, step)
     followed = follow_modes([_case_at(case, name, value) for value in values])

@@ -1,0 +1,685 @@
+"""What a motion comes to: a cycle's multipliers or the eigenvalues of steady sliding prove it where the
+motion follows the linear one near them, otherwise it is simulated.
+
+That is tested over some seconds: near repetition alone proves nothing, because a torus shows it as
+well. Distances are on the section of the return map, relative to the norm of the static deflection.
+docs/study_method.md, Outcome, describes the search.
+"""
+
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+
+import numpy as np
+
+from disc_model.arrays import Array, ComplexArray
+from disc_model.data.variables import CycleStatus, Outcome
+from disc_model.disc.plate import mode_arrays
+from disc_model.errors import Status
+from disc_model.parameters import Parameters
+from disc_model.simulation.api import simulate
+from disc_model.simulation.result import Result
+from disc_model.simulation.states import State
+from disc_model.stability.cycle import (
+    FloquetResult,
+    cycle_from_rest,
+    cycle_of,
+    find_cycle,
+    may_stick_and_slip,
+    never_pulls,
+    run_through_once,
+)
+from disc_model.stability.return_map import Orbit, Passage, ReturnMap, newton
+from disc_model.stability.segments import Segment, late_window, segment_of, shares, slips_on
+from disc_model.stability.sliding import energy_weights, rows_of_state, steady_sliding
+
+FIRST_LEG = 5.0  # s, before a motion is examined: dozens of cycles, and some turns of the disc
+LONGEST_LEG = 160.0  # s, of later legs: the tests after each cost little beside so much simulation
+NEAR = 0.1  # distance from a cycle within which a motion counts as near it: none is linear beyond
+SAME_POINT = 1e-4  # nearer fixed points are the same: known cycles differ by 0.1
+ARRIVED = 1e-8  # a motion as near to a stable cycle is on it: 10,000 times the rounding
+# errors of a long simulation, over its tolerance, in weakly damped modes: 12 were seen in the
+# paper's, 7,000 in modes of 2 kHz that decay at 0.4/s
+ERROR_OF_TOL = 10_000
+# s, at which a motion is compared with the linear one; if the first test fails, the longer one
+# resolves slower rates
+TEST_TIMES = ((0.3, 1.2), (1.5, 6.0))
+TEST_TOL = 1e-13  # of simulations in these tests, whose errors must be below `ARRIVED`
+# s, at which tests begin: near a resonance the strongly damped modes must decay first
+WAITS = (0.0, 1.5, 6.0, 15.0)
+LARGEST_ERROR = 0.1  # of the linear motion, relative to it: second order in the distance
+LARGEST_RATE_ERROR = 0.5  # of the growth rate, relative to it: it decides the sign of the rate
+LARGEST_PERIOD = 8  # releases in a period of cycles that are sought, to limit the time
+LINGERS = 1e-3  # largest change over a period of a motion that stays near an unstable cycle
+RISE = 1.5  # factor between changes of periods that shows growth
+# largest share of a departure outside the leading eigenspace
+LARGEST_OUTSIDE = 0.25
+SLOW_DEPARTURE = 0.2  # growth rate, 1/s, up to which a departure is extrapolated
+# shares of `NEAR` up to which it is, as long as its growth rate differs from the multiplier's by no
+# more than this, relative
+DEPARTURES = (0.1, 0.25, 0.5, 1.0)
+LARGEST_EXCESS = 0.05
+# relative difference of a separation from a time with which it is compared up to which it is simulated
+# from the start: 98 of 100 extrapolated separations come within it
+BORDER = 0.01
+
+
+# ---- Motions near a cycle or near steady sliding
+
+
+@dataclass(frozen=True, eq=False)
+class NearCycle:
+    """A cycle and a motion near it, which is on the section of `map` at some time.
+
+    cycle, x, jacobian : the cycle, its point (n,) on the section, the return map's Jacobian there
+    follows_cycle : whether the motion follows the linear map near the cycle
+    distance : (n,), of the motion from `x` on the section, at `time`
+    time : s, of the motion; if it follows the linear map only after some waiting, the end of that
+    """
+
+    cycle: FloquetResult
+    follows_cycle: bool
+    map: ReturnMap
+    x: Array
+    distance: Array
+    jacobian: Array
+    time: float = 0.0
+
+    @cached_property
+    def leading(self) -> ComplexArray:
+        """Left eigenvector of the leading multiplier, (n,): its product with a distance is the
+        multiplier's part of it."""
+        values, vectors = np.linalg.eig(self.jacobian.T)
+        return np.asarray(vectors[:, np.argmax(np.abs(values))], dtype=complex)
+
+    @cached_property
+    def right(self) -> ComplexArray:
+        """Right eigenvector of the leading multiplier, (n,), whose product with `leading` is one."""
+        values, vectors = np.linalg.eig(self.jacobian)
+        right = vectors[:, np.argmax(np.abs(values))]
+        return np.asarray(right / (self.leading @ right), dtype=complex)
+
+    @property
+    def leading_part(self) -> float:
+        """Size of the leading multiplier's part of the distance; above zero, for its logarithm."""
+        part = float(abs(self.leading @ self.distance)) * float(np.linalg.norm(self.right))
+        return max(part, sys.float_info.min)
+
+    @property
+    def kind(self) -> Outcome:
+        """Outcome of a motion on the cycle: stick-slip if the cycle is that of the static start, or
+        near it."""
+        if self.cycle.separations:
+            return Outcome.SEPARATING
+        start = self.map.first_release
+        if start.reached and np.linalg.norm(self.x - start.x) <= NEAR * self.map.deflection:
+            return Outcome.STICK_SLIP
+        cycle = find_cycle(self.cycle.parameters)
+        same_period = math.isclose(cycle.period, self.cycle.period, rel_tol=ARRIVED)
+        is_same = same_period and cycle.releases == self.cycle.releases
+        return Outcome.STICK_SLIP if is_same else Outcome.OTHER_CYCLE
+
+    @property
+    def lingers(self) -> bool:
+        """Whether the motion stays near an unstable cycle: over a period it hardly moves, as it
+        would on a torus."""
+        still = LINGERS * self.map.deflection
+        return not self.cycle.stable and self._advance(self.x + self.distance, 1).residual <= still
+
+    def follows_multipliers(self, x: Array) -> bool:
+        """Whether the motion at a point of the section departs or approaches as the multipliers
+        predict. On a section of a single point it is on the cycle."""
+        return not len(x) or any(self._is_linear(x - self.x, times) for times in TEST_TIMES)
+
+    def after(self, wait: float) -> tuple[Array, float] | None:
+        """The point of the motion after a time of about `wait` (s), and the time; None if it does
+        not return."""
+        x = self.x + self.distance
+        if not wait:
+            return x, self.time
+        orbit = self._advance(x, max(1, round(wait / self.cycle.period)), coarse=False)
+        return (orbit.end, self.time + orbit.period) if orbit.returned else None
+
+    def stays_linear_until(self, horizon: float) -> bool:
+        """Whether a motion that leaves an unstable cycle is still near it at the horizon (s), as
+        the linear map predicts."""
+        periods = self._periods_left(horizon)
+        near = NEAR * self.map.deflection
+        # the leading part alone excludes most motions
+        growth = periods * math.log(abs(self.cycle.multipliers[0]))
+        if not math.log(self.leading_part) + growth <= math.log(2 * near):
+            return False
+        distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+        if not np.linalg.norm(distance) <= near:
+            return False
+        excess = self._excess_rate(distance)
+        if excess is not None and abs(excess) <= LARGEST_OUTSIDE:
+            return True
+        return self._is_linear(distance, TEST_TIMES[0])
+
+    def extrapolate(self, latest: float) -> tuple[Array, float] | None:
+        """Where a motion that slowly leaves an unstable cycle comes to as long as the linear map
+        describes it, no later than at a time (s): point of the section and time; None if it leaves
+        faster, or is there already.
+
+        The growth rate's excess over the leading multiplier's is measured at larger and larger
+        distances, as the motion might settle on a torus at any of them. It rises with the square of
+        the distance, so that half of it has come together on the way.
+        """
+        cycle = self.cycle
+        if cycle.growth_rate > SLOW_DEPARTURE:
+            return None
+        growth = math.log(abs(cycle.multipliers[0]))
+        tested = TEST_TIMES[-1][-1]  # the test after it ends within `NEAR`
+        factor = math.exp(cycle.growth_rate * tested)
+        last = self._periods_left(latest)
+        reached = None
+        for share in DEPARTURES:
+            size = share * NEAR / factor * self.map.deflection
+            periods = min(math.floor(math.log(size / self.leading_part) / growth), last)
+            if periods <= 0:
+                continue
+            distance = np.linalg.matrix_power(self.jacobian, periods) @ self.distance
+            if self._share_outside(distance) > LARGEST_OUTSIDE:
+                continue  # parts of other multipliers have not decayed yet
+            excess = None
+            if np.linalg.norm(distance) <= NEAR * self.map.deflection:
+                excess = self._excess_rate(distance)
+            if excess is None or abs(excess) > LARGEST_EXCESS:
+                break
+            gained = excess * tested / (factor**2 - 1)
+            reached = self.x + distance, self.time + periods * cycle.period - gained
+            if periods == last:
+                break
+        return reached
+
+    def _advance(self, x: Array, periods: int, *, coarse: bool = True) -> Orbit:
+        """The motion from a point of the section over some periods of the cycle."""
+        return self.map.evaluate(
+            x,
+            releases=periods * self.cycle.releases,
+            tangent=False,
+            may_separate=self.cycle.separations > 0,
+            coarse=coarse,
+        )
+
+    def _orbits(
+        self, distance: Array, times: Sequence[float], coarse: bool = True
+    ) -> Iterator[tuple[int, Orbit]]:
+        """The motion from a distance to about these times (s): periods since the last, and the
+        orbit."""
+        x = self.x + distance
+        done = 0
+        for i, time in enumerate(times, 1):
+            count = max(i, round(time / self.cycle.period))
+            orbit = self._advance(x, count - done, coarse=coarse)
+            yield count - done, orbit
+            x = orbit.end
+            done = count
+
+    def _periods_left(self, horizon: float) -> int:
+        """Periods of the cycle from `time` to the horizon (s)."""
+        return max(0, math.ceil((horizon - self.time) / self.cycle.period))
+
+    @np.errstate(over="ignore", invalid="ignore")  # powers of a strongly unstable cycle's Jacobian
+    def _is_linear(self, distance: Array, times: tuple[float, float]) -> bool:
+        """Whether the motion at that distance departs from the cycle, or approaches it, as its
+        multipliers predict."""
+        cycle = self.cycle
+        least = ARRIVED * self.map.deflection if cycle.stable else 0.0
+        # the errors of coarse orbits would matter at a smaller distance
+        coarse = bool(np.linalg.norm(distance) > SAME_POINT * self.map.deflection)
+        expected = distance
+        parts = list[float]()
+        periods = 0
+        for periods, orbit in self._orbits(distance, times, coarse):
+            expected = np.linalg.matrix_power(self.jacobian, periods) @ expected
+            apart = orbit.end - self.x
+            if not (orbit.returned and _is_close(apart, expected, least)):
+                return False
+            parts.append(float(abs(self.leading @ apart)))
+        return _grows_at_rate(parts, periods * cycle.period, cycle.growth_rate, least)
+
+    def _excess_rate(self, distance: Array) -> float | None:
+        """Relative excess of the growth rate over the leading multiplier's; None unless the motion
+        departs. Its phase, which drifts with the amplitude long before the growth rate does and
+        matters only near borders, is ignored."""
+        before = float(abs(self.leading @ distance))
+        apart = distance
+        count = 0
+        for periods, orbit in self._orbits(distance, TEST_TIMES[-1]):
+            apart = orbit.end - self.x
+            count += periods
+            if not (orbit.returned and self._share_outside(apart) <= LARGEST_OUTSIDE):
+                return None
+        rate = math.log(abs(self.leading @ apart) / before) / (count * self.cycle.period)
+        return float(rate / self.cycle.growth_rate - 1)
+
+    def _share_outside(self, distance: Array) -> float:
+        """Share of a distance from the cycle that lies outside the leading multiplier's
+        eigenspace."""
+        is_real = self.cycle.multipliers[0].imag == 0
+        eigenspace = self.right if is_real else 2 * self.right  # with that of the conjugate
+        within = np.real((self.leading @ distance) * eigenspace)
+        return float(np.linalg.norm(distance - within) / np.linalg.norm(distance))
+
+
+def _is_close(apart: Array, expected: Array, least: float) -> bool:
+    """Whether a distance is the expected one, but for `LARGEST_ERROR` of it, or for `least`."""
+    largest = max(LARGEST_ERROR * float(np.linalg.norm(expected)), least)
+    return bool(np.linalg.norm(apart - expected) <= largest)
+
+
+def _grows_at_rate(parts: Sequence[float], time: float, rate: float, least: float) -> bool:
+    """Whether the leading part grows at a rate (1/s) between two times, or has fallen to
+    `least`."""
+    if not min(parts) > 0 or parts[1] <= least:
+        return parts[1] <= least
+    error = math.log(parts[1] / parts[0]) / time - rate
+    return abs(error) <= LARGEST_RATE_ERROR * abs(rate)
+
+
+def cycle_of_static_start(p: Parameters) -> NearCycle | FloquetResult:
+    """The cycle near the static start, and whether the start follows it; without a cycle, the
+    result of the search."""
+    if not may_stick_and_slip(p):
+        return find_cycle(p)
+    map_ = ReturnMap(p)
+    cycle = cycle_from_rest(map_)
+    if cycle.status is not CycleStatus.OK:
+        return cycle
+    return _relate(map_, cycle, map_.first_release, WAITS)
+
+
+def find_cycle_near(
+    map_: ReturnMap, release: Passage, change: float, releases: int, unstable: Sequence[float] = ()
+) -> NearCycle | None:
+    """The cycle near a motion that changes by so little over some releases, and whether the motion
+    follows it. If the cycle is unstable, tests for that begin at the times `unstable`, s after the
+    release."""
+    if not change <= NEAR / 2:
+        return None
+    orbit = newton(map_, release.x, releases=releases, may_separate=map_.patient)
+    if orbit is None or np.linalg.norm(orbit.start - release.x) > NEAR * map_.deflection:
+        return None
+    cycle = cycle_of(map_, run_through_once(map_, orbit))
+    return _relate(map_, cycle, release, WAITS if cycle.stable else unstable)
+
+
+def close_return(map_: ReturnMap, x: Array, most: int = LARGEST_PERIOD) -> tuple[float, int]:
+    """The first of the next returns of a motion from a release at `x`, at most `most`, that changes
+    about least: change over the static deflection, and number of releases; nan and 0 if the motion
+    does not return to the section at all."""
+    later = map_.returns(x, most, may_separate=map_.patient, coarse=True)
+    changes = [float(np.linalg.norm(point - x) / map_.deflection) for point in later]
+    for i, change in enumerate(changes, 1):
+        if change <= 2 * min(changes):
+            return change, i
+    return math.nan, 0
+
+
+def _relate(
+    map_: ReturnMap, cycle: FloquetResult, release: Passage, waits: Sequence[float]
+) -> NearCycle:
+    """The motion at one of its releases in relation to a cycle; tests whether it follows the cycle
+    begin at the times `waits`, s after the release."""
+    assert cycle.state is not None
+    x = map_.point(cycle.state)
+    orbit = map_.evaluate(x, releases=cycle.releases, may_separate=cycle.separations > 0)
+    near = NearCycle(cycle, False, map_, x, release.x - x, orbit.jacobian, release.time)
+    if not release.reached:
+        return near
+    waited = 0.0
+    moving = near
+    for wait in waits:
+        later = moving.after(max(0.0, wait - waited))
+        if later is None:
+            break
+        point, time = later
+        waited = time - release.time
+        moving = replace(moving, distance=point - x, time=time)
+        if near.follows_multipliers(point):
+            return replace(moving, follows_cycle=True)
+    return near
+
+
+_sliding = lru_cache(maxsize=1)(steady_sliding)  # needed at the end of each leg of a motion
+
+
+def find_equilibrium(p: Parameters, leg: Result) -> Outcome | None:
+    """At rest if the slider sticks for good, steady sliding if it is stable and the motion
+    approaches it; None if neither is shown."""
+    if shares(leg).stick == 1 and never_pulls(p):
+        return Outcome.AT_REST
+    return Outcome.STEADY_SLIDING if approaches_sliding(p, leg.final_state) else None
+
+
+def approaches_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion approaches stable steady sliding as the eigenvalues there
+    predict."""
+    if state.phase != "slip" or not _sliding(p).stable:
+        return False
+    return _follows_eigenvalues(p, state, TEST_TIMES[-1], ARRIVED, NEAR)
+
+
+def departs_from_sliding(p: Parameters, state: State) -> bool:
+    """Whether a slipping motion departs from unstable steady sliding as the eigenvalues there
+    predict, for some seconds or until it has grown by a factor of e."""
+    if state.phase != "slip" or not _sliding(p).growing.size:
+        return False
+    first, last = TEST_TIMES[-1]
+    shorter = min(1.0, 1 / _sliding(p).growth_rate / last)
+    times = (shorter * first, shorter * last)
+    return _follows_eigenvalues(p, state, times, 0.0, math.inf)
+
+
+def _follows_eigenvalues(
+    p: Parameters, state: State, times: tuple[float, float], arrived: float, farthest: float
+) -> bool:
+    """Whether a slipping motion follows the linear one about steady sliding at two times (s) from a
+    state on.
+
+    arrived, farthest : distance within which a motion has arrived, and the largest of the state,
+        over the static deflection
+
+    It is followed with `TEST_TOL`, because errors of coarser simulations keep it away: at 1e-10, by
+    7e-7 of the static deflection on a disc whose modes of 2 kHz decay at 0.4/s.
+    """
+    sliding = _sliding(p)
+    modes = mode_arrays(p)
+    scale = np.sqrt(energy_weights(p))  # by it the norm of rows is that of the energy
+    jacobian = scale[:, None] * sliding.jacobian / scale
+    expected = scale * (rows_of_state(p, state) - sliding.rows)
+    static = p.N * float(np.linalg.norm(modes.psi / modes.omega))
+    if static == 0:  # a rigid disc: the spring in the plane, bent up to the limit of friction
+        static = p.mu_s * p.N / math.sqrt(p.k_p)
+    least = arrived * static
+    if not np.linalg.norm(expected) <= farthest * static:
+        return False
+
+    # slow to import, and few motions come so near
+    from scipy.linalg import expm
+
+    values, vectors = np.linalg.eig(jacobian.T)
+    leading = vectors[:, np.argmax(values.real)]
+    parts = list[float]()
+    before = 0.0
+    for time in times:
+        end = state.time + time
+        result = simulate(p, end, tol=TEST_TOL, initial_state=state, events=False)
+        if not result.status.complete or result.final_state.phase != "slip":
+            return False
+        apart = scale * (rows_of_state(p, result.final_state) - sliding.rows)
+        expected = expm(jacobian * (time - before)) @ expected
+        if not _is_close(apart, expected, least):
+            return False
+        parts.append(float(abs(leading @ apart)))
+        before = time
+    return _grows_at_rate(parts, times[1] - times[0], sliding.growth_rate, least)
+
+
+# ---- The search for an outcome
+
+
+@dataclass(frozen=True, eq=False)
+class Attractor:
+    """Outcome of motions on an attractor, and a segment of one; of a periodic one also period (s),
+    releases in it, growth rate (1/s) and points on the section, shape (releases, n)."""
+
+    kind: Outcome
+    segment: Segment
+    period: float = np.nan
+    releases: int = 0
+    growth_rate: float = np.nan
+    points: Array | None = None
+
+
+@dataclass(eq=False)
+class OutcomeResult:
+    """The outcome of a motion; while it is sought, what is known so far.
+
+    outcome : None if the simulation failed
+    simulated, time : s, simulated time, 0 if multipliers decide; time at which the outcome was known
+    near : the stable cycle that the motion approaches, or else the first unstable cycle from which it departs
+    failed : the simulation that ended early
+    changes, times : changes from one period to the next, over the static deflection, and times of these (s)
+    distance : from the cycle, over the static deflection, at the end of the search
+    extrapolated : whether the linear map has replaced the simulation of a slow departure; the first
+        separation is then known within `BORDER` only
+    """
+
+    outcome: Outcome | None = None
+    simulated: float = 0.0
+    near: NearCycle | None = None
+    attractor: Attractor | None = None
+    first_separation: float = np.nan
+    time: float = 0.0
+    state: State | None = None
+    failed: Result | None = None
+    changes: list[float] = field(default_factory=list)
+    times: list[float] = field(default_factory=list)
+    distance: float = np.nan
+    extrapolated: bool = False
+    segment: Segment | None = None
+
+    @property
+    def word(self) -> str:
+        """The outcome as a word of datasets."""
+        return self.outcome or "failed"
+
+    @property
+    def separates(self) -> bool:
+        """Whether the motion loses contact again and again."""
+        return self.attractor is not None and self.attractor.segment.separation_rate > 0
+
+    @property
+    def timed_separation(self) -> float:
+        """Time of the first separation (s) where the whole motion was simulated; nan elsewhere."""
+        return np.nan if self.extrapolated else self.first_separation
+
+    @property
+    def status(self) -> Status:
+        """How the last simulation ended."""
+        return Status.OK if self.failed is None else self.failed.status
+
+    @property
+    def message(self) -> str:
+        """Why the simulation failed; empty if it did not."""
+        return "" if self.failed is None else self.failed.message
+
+
+OPEN = (None, Outcome.SEPARATION, Outcome.GROWING, Outcome.UNDECIDED)
+"""Outcomes of motions that have not come to a cycle or an equilibrium."""
+
+
+def find_outcome(
+    p: Parameters,
+    horizon: float,
+    *,
+    tol: float = 1e-10,
+    near: NearCycle | FloquetResult | None = None,
+    start: State | None = None,
+    early: bool = True,
+    late: float = 0.0,
+    compared_with: Sequence[float] = (),
+) -> OutcomeResult:
+    """Find the outcome of a motion within a horizon (s), or its separation if that comes first.
+
+    near : result of `cycle_of_static_start`, if it is known
+    start : initial state; None is the static start
+    early : whether the search ends once the outcome is shown; otherwise the motion is followed to the horizon
+    late : s, length of the segment before the horizon that is described
+    compared_with : s, times with which the first separation is only to be compared
+
+    Multipliers alone prove that a motion approaches a stable cycle. Any other motion is simulated
+    from its start, in the same legs whatever the horizon, so that searches with the same `tol` find
+    the same first separation.
+
+    Where the first separation is only compared with some times, slow departures from unstable
+    cycles are extrapolated instead. A motion whose separation comes near to one of those times, or
+    that settles, is simulated from its start all the same: a small error decides to which attractor
+    an irregular motion comes.
+    """
+    map_: ReturnMap | None = None
+    if isinstance(near, NearCycle):
+        map_ = near.map  # a new one takes as long as a return to the section ten times over
+    elif may_stick_and_slip(p):
+        map_ = ReturnMap(p)
+    start_cycle: NearCycle | None = None
+    if early and start is None and map_ is not None:
+        known = cycle_of_static_start(p) if near is None else near
+        start_cycle = known if isinstance(known, NearCycle) else None
+    search = _Search(p, horizon, tol, early, late, map_, start_cycle)
+    rough = search.run(start, extrapolate=bool(compared_with))
+    if not rough.extrapolated:
+        return rough
+    separation = rough.first_separation
+    is_near = any(abs(separation - other) <= BORDER * other for other in compared_with)
+    if rough.outcome in OPEN and not is_near:
+        return rough
+    result = search.run(start, extrapolate=False)
+    result.simulated += rough.simulated
+    return result
+
+
+@dataclass(eq=False)
+class _Search:
+    """A search for the outcome of a motion; arguments as in `find_outcome`.
+
+    map : the return map of the case; None if it has no stick-slip
+    start_cycle : the cycle near the static start; None if the motion starts elsewhere, or must be
+        followed to the horizon
+    """
+
+    p: Parameters
+    horizon: float
+    tol: float
+    early: bool
+    late: float
+    map: ReturnMap | None
+    start_cycle: NearCycle | None
+
+    def run(self, start: State | None, *, extrapolate: bool) -> OutcomeResult:
+        """Follow the motion until it settles or loses contact, or to the horizon."""
+        result = OutcomeResult(state=start)
+        departs = False  # from something unstable
+        leg = FIRST_LEG
+        end = self.horizon
+        cycle = self.start_cycle
+        if cycle is not None and not cycle.follows_cycle:
+            cycle = None
+        while True:
+            if cycle is not None and cycle.cycle.stable:
+                return self._on_cycle(result, cycle)
+            if cycle is not None:
+                result.near = result.near or cycle
+                departs = True
+                if extrapolate and self._extrapolate(result, cycle):
+                    # nothing is to be seen before the departure has grown by a factor of e
+                    leg = min(max(leg, 1 / cycle.cycle.growth_rate), LONGEST_LEG)
+                    end = (1 + BORDER) * self.horizon
+            if result.time >= end:
+                grows = departs or growing(result.changes)
+                result.outcome = Outcome.GROWING if grows else Outcome.UNDECIDED
+                return result
+
+            run = self._simulate(result, leg, end)
+            leg = min(2 * leg, LONGEST_LEG)
+            if run.status is Status.STOPPED:
+                result.outcome = Outcome.SEPARATION
+                result.first_separation = run.first_separation
+                return result
+            if not run.status.complete:
+                result.failed = run
+                return result
+
+            # rest, steady sliding, or a cycle that the motion follows from here on
+            examined = self.early or result.time >= end
+            if examined and (equilibrium := find_equilibrium(self.p, run)) is not None:
+                result.outcome = equilibrium
+                result.near = None
+                return result
+            if examined and not departs and slips_on(run):
+                departs = departs_from_sliding(self.p, run.final_state)
+            cycle = self._cycle_at(result, run, examined)
+
+    def _on_cycle(self, result: OutcomeResult, near: NearCycle) -> OutcomeResult:
+        """The result of a motion that follows a stable cycle: it is on it for good."""
+        result.near = near
+        result.outcome = near.kind
+        result.time = near.time
+        result.distance = float(np.linalg.norm(near.distance)) / near.map.deflection
+        return result
+
+    def _extrapolate(self, result: OutcomeResult, near: NearCycle) -> bool:
+        """Go on from where a slow departure ceases to be linear, if that is later."""
+        departure = near.extrapolate(self.horizon)
+        if departure is None or departure[1] <= result.time:
+            return False
+        x, time = departure
+        result.state = near.map.state(x).replace(time=time)
+        result.time = time
+        result.extrapolated = True
+        self._note_change(result, close_return(near.map, x)[0])
+        return True
+
+    def _note_change(self, result: OutcomeResult, change: float) -> None:
+        """Note how nearly the motion repeats."""
+        result.times.append(result.time)
+        result.changes.append(change)
+
+    def _simulate(self, result: OutcomeResult, leg: float, end: float) -> Result:
+        """Simulate a leg to its end or the first separation; the segment to be described is a leg
+        of its own."""
+        mark = end - self.late if result.time < end - self.late else end
+        stop = min(result.time + leg, mark)
+        described = bool(self.late) and stop == end
+        windows = late_window(result.time, stop) if described else {}
+        run = simulate(
+            self.p,
+            stop,
+            windows,
+            tol=self.tol,
+            initial_state=result.state,
+            stop_at="first_separation",
+        )
+        if described and run.status.complete:
+            result.segment = segment_of(run)
+        result.simulated += run.final_state.time - result.time
+        result.state = run.final_state
+        result.time = run.final_state.time
+        return run
+
+    def _cycle_at(self, result: OutcomeResult, run: Result, examined: bool) -> NearCycle | None:
+        """The cycle that the motion follows from its next release on; None if there is none, or
+        while it departs from another one."""
+        if self.map is None:
+            return None
+        release = self.map.next_release(run.final_state)
+        if not release.reached:
+            return None
+        change, releases = close_return(self.map, release.x)
+        self._note_change(result, change)
+        if not examined or (result.near is not None and self._departs(result.changes)):
+            return None
+        waits = WAITS if result.near is None else WAITS[:1]
+        near = find_cycle_near(self.map, release, change, releases, unstable=waits)
+        return near if near is not None and near.follows_cycle else None
+
+    def _departs(self, changes: Sequence[float]) -> bool:
+        """Whether the last change of a period exceeds the one before. A motion that comes to a cycle
+        changes less and less, down to errors of the simulation."""
+        known = [change for change in changes if not math.isnan(change)]
+        return bool(known) and known[-1] > max(known[-2:][0], ARRIVED, ERROR_OF_TOL * self.tol)
+
+
+def growing(changes: Sequence[float]) -> bool:
+    """Whether two successive changes have risen above an earlier one: an instability, even if it is
+    bounded later."""
+    if len(changes) < 3:
+        return False
+    least = np.fmin.accumulate(changes[:-2])
+    later = np.fmin(changes[1:-1], changes[2:])
+    return bool(np.any((later > ARRIVED) & (later > RISE * least)))
