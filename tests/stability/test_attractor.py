@@ -363,34 +363,6 @@ def test_a_motion_that_slips_and_loses_contact_repeats_after_a_transient() -> No
 
 
 # ------------------------------------------------------------------------ Cycles and perturbations
-@pytest.mark.parametrize(
-    ("times", "most", "longest"),
-    [
-        (np.arange(0.5, 20, 1.0), 99, 2),  # five of the last 5 s: half of them
-        (np.arange(0.5, 20, 0.2), 8, 8),  # no more than are asked for
-        (np.array([1.0, 2.0, 3.0, 4.0]), 99, 2),  # of the whole leg if a slow motion has none there
-        (np.array([19.0]), 99, 1),
-    ],
-)
-def test_periods_of_up_to_half_the_late_releases_are_tried(
-    times: np.ndarray, most: int, longest: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    asked: list[int] = []
-    release = SimpleNamespace(reached=True, x=np.zeros(1))
-    map_ = SimpleNamespace(next_release=lambda state: release)
-    monkeypatch.setattr(attractors, "ReturnMap", lambda p, patient: map_)
-    monkeypatch.setattr(attractors, "find_cycle_near", lambda *_: None)
-    monkeypatch.setattr(
-        attractors, "find_close_return", lambda map_, x, period: asked.append(period)
-    )
-    rows = np.zeros((times.size, len(EVENT_ROW)))
-    rows[:, EVENT_ROW.index("time")] = times
-    rows[:, EVENT_ROW.index("kind")] = STICK_TO_SLIP
-    leg: Any = SimpleNamespace(event_rows=rows, final_state=SimpleNamespace(time=20.0))
-    assert attractors.cycle_reached(P14, leg, most) is None
-    assert asked == [longest]
-
-
 def test_a_perturbation_leaves_contact_and_the_slip_speed_as_they_are() -> None:
     """The slider's height follows the disc under it, and its rotation the disc's surface: the state
     is consistent, so that the engine changes nothing of it."""
@@ -406,19 +378,6 @@ def test_a_perturbation_leaves_contact_and_the_slip_speed_as_they_are() -> None:
     known = simulate(p, 1e-12, initial_state=kicked.replace(time=0.0)).final_state
     assert known.u == pytest.approx(kicked.u, rel=1e-6)
     assert known.u_velocity == pytest.approx(kicked.u_velocity, rel=1e-6)
-
-
-def test_the_static_deflection_of_basins_is_that_of_the_start(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    kicks: list[float] = []
-    p = Parameters(N=385, Omega=14)
-    rest = static_start(p).u
-    monkeypatch.setattr(Basins, "_find_quiet_cycle", lambda self: None)
-    monkeypatch.setattr(Basins, "follow", lambda self, state: kicks.append(state.u / rest))
-    found = Basins(p, 1.0)
-    assert found.static == pytest.approx(abs(rest), rel=1e-12)
-    assert kicks == pytest.approx([1.0, 1.25, 1.5, 2.0, 3.0]), "further down"
 
 
 # ------------------------------------------------------------------------ Segments

@@ -14,6 +14,7 @@ import xarray as xr
 from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON, attributes_of_mode
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
+from disc_model.mode_units import mode_number_in_si
 from disc_model.parameters import PLATE, Parameters, foreign_case
 from disc_model.provenance import canonical_json, versions_text
 from disc_model.studies.compute import Call, compute, failure, is_of_case, stack
@@ -193,11 +194,21 @@ def _column(name: str, values: Any, case: Parameters, faults: list[Fault]) -> li
     for i, value in enumerate(values):
         try:
             plain = value.item() if isinstance(value, np.generic) else value
-            checked = checked_value(name, plain) if isinstance(plain, str) else plain
+            checked = _in_si(name, plain) if isinstance(plain, str) else plain
             column.append(float(checked) if isinstance(checked, int | float) else checked)
         except ParameterError as error:
             faults += [each.inside((f"{name}[{i}]",)) for each in error.faults]
     return column
+
+
+def _in_si(name: str, text: str) -> Any:
+    """A value that is a text, in SI units; raises `ParameterError`."""
+    if name in Parameters.model_fields:
+        return checked_value(name, text)
+    faults: list[Fault] = []
+    value = mode_number_in_si(name, text, faults)
+    raise_faults([Fault.of((), text, each.rule) for each in faults])
+    return value
 
 
 def _try_first(call: Call, rows: Sequence[Mapping[str, Any]], arguments: set[str]) -> None:
