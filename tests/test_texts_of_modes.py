@@ -63,9 +63,3 @@ def test_texts_of_other_kinds_are_refused(changes: dict[str, str], message: str)
 def test_a_disc_names_the_row_of_another_kind() -> None:
     with refusal(re.escape("omega.1='5 kg': the unit of omega must be Hz")):
         dm.Disc(diameters=[0, 2], omega=[5837, "5 kg"], amplitude=[0.4, 0.5])
-
-
-@pytest.mark.compiled
-def test_a_push_may_be_in_percent() -> None:
-    branch = dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.0))
-    assert branch.state(0, "1 %") == branch.state(0, 0.01)

@@ -317,15 +317,7 @@ def folded() -> dm.Branch:
 @pytest.mark.compiled
 def test_a_branch_is_its_dataset(folded: dm.Branch) -> None:
     data = folded.to_dataset()
-    for name in (
-        "growth_rate",
-        "period",
-        "range",
-        "separations",
-        "multipliers_real",
-        "stable",
-        "a",
-    ):
+    for name in ("growth_rate", "period", "range", "separations", "stable", "a"):
         assert_array_equal(data[name], getattr(folded, name))
     for i, each in enumerate(folded.special):
         row = data.isel(special=i)

@@ -91,7 +91,14 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
 
 # ---- What functions return
 
-BY_METHODS = ("stable", "at_lower_bound", "border", "stick_time", "slip_time")
+BY_METHODS = (
+    "stable",
+    "at_lower_bound",
+    "border",
+    "stick_time",
+    "slip_time",
+    "sliding_growth_rate",
+)
 """Numbers and verdicts of results that are no fields of theirs, but follow from these."""
 OF_A_CYCLE = ("releases", "backward_releases", "reversals", "separations", "sticks", "stable")
 """Variables that have no value without a cycle, though the result of `floquet` has a count or a verdict."""
@@ -120,6 +127,12 @@ def _dataset_of(result: Any, function: str) -> xr.Dataset:
     if not hasattr(result, "to_dataset"):
         return _dataset_of_values(_values_of(result), kind)
     data = result.to_dataset()
+    if hasattr(result, "border"):  # critical values, which have an axis of their own at each point
+        found = _dataset_of_values(_values_of(result), kind)
+        own = data["value"].attrs
+        for name in ("border", *(name for name in found if name in data)):
+            found[name].attrs = dict(data[name].attrs if name in data else own)
+        return found
     stated = {name: x for name, x in data.attrs.items() if name not in ("message", "versions")}
     return data.assign(_dataset_of_values(stated, kind))
 
@@ -148,10 +161,8 @@ def _values_of(result: Any) -> Mapping[str, Any]:
     names = [each.name for each in fields(result) if not each.name.startswith("_")]
     every = {name: getattr(result, name, None) for name in (*names, *BY_METHODS)}
     values = {name: value for name, value in every.items() if value is not None}
-    if "sliding" in values:
-        values["sliding_growth_rate"] = values["sliding"].growth_rate
-        if values["status"] != "ok":
-            values |= dict.fromkeys(OF_A_CYCLE, math.nan)
+    if "multipliers" in values and values["status"] != "ok":
+        values |= dict.fromkeys(OF_A_CYCLE, math.nan)
     return {**values, "message": message_of(result)}
 
 
