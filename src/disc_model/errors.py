@@ -286,21 +286,3 @@ class Status(StatusBase):
     def complete(self) -> bool:
         """Whether the simulation reached ``t_end`` or the event at which it had to stop."""
         return self in (Status.OK, Status.STOPPED, Status.AT_REST)
-
-
-# ---- Without effect, until no module calls them
-
-
-def with_known_names(function: Any) -> Any:
-    """The function as it is."""
-    return function
-
-
-def renamed(**names: str) -> Callable[[Any], Any]:
-    """A decorator that returns the function as it is."""
-    return with_known_names
-
-
-def form_of(name: str) -> str:
-    """An empty text."""
-    return ""

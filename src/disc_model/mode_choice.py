@@ -17,7 +17,7 @@ from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import coupled_frequencies, mode_arrays
 from disc_model.disc.thin_plate import shortest_wave
 from disc_model.display import Summarised, counted, number_text
-from disc_model.errors import DiscModelError, require, rule_of_choice, with_known_names
+from disc_model.errors import DiscModelError, require, rule_of_choice
 from disc_model.parameters import Parameters
 from disc_model.stability.floquet import floquet
 from disc_model.stability.sliding import steady_sliding
@@ -106,7 +106,6 @@ class UndecidedModes(DiscModelError):
         self.errors = errors or {}
 
 
-@with_known_names
 def choose_modes(
     case: Parameters | Mapping[str, object],
     tolerance: float | None = None,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 import pydantic
@@ -27,7 +27,6 @@ PLATE = (
     *("D_star", "E", "a", "b", "h", "nu", "rho"),
     *("n_diameters", "n_circles", "normalization", "stretching"),
 )
-RATIOS: dict[str, tuple[str, str]] = {}  # none, until no module asks for them
 PLATE_NAME = "plate"
 """What a disc is called that is given by its sizes and material, beside discs given by their modes."""
 FORMAT: Literal[1] = 1
@@ -306,11 +305,6 @@ class Parameters(Strict):
                     numbers[name] = value
         return numbers
 
-    @property
-    def stated(self) -> dict[str, Any]:
-        """The values by name."""
-        return dict(self)
-
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
         """What is given, and not as in Table 1."""
         for name, value in self:
@@ -354,20 +348,6 @@ DEFAULTS = {
     for name, field in Parameters.model_fields.items()
     if not field.is_required()
 }
-
-
-def case_of(values: Mapping[str, Any], discs: Mapping[str, Any]) -> dict[str, Any]:
-    """The values of a point that belong to its case, without starts and samples; a disc's name
-    becomes its table."""
-    case = {name: value for name, value in values.items() if name in Parameters.model_fields}
-    if isinstance(case.get("disc"), str):
-        case["disc"] = discs[case["disc"]]
-    return case
-
-
-def with_ratios(values: Mapping[str, Any]) -> dict[str, Any]:
-    """The values as they are."""
-    return dict(values)
 
 
 def foreign_case(case: object) -> list[str]:

@@ -10,15 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from disc_model.errors import (
-    Fault,
-    ParameterError,
-    as_text,
-    raise_faults,
-    require,
-    violations,
-    with_known_names,
-)
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.case import (
@@ -37,7 +29,6 @@ from disc_model.units import TOLERANCES, in_si, limits_faults, number
 _PLAIN = Execution()
 
 
-@with_known_names
 def simulate(  # noqa: PLR0913
     case: Parameters,
     t_end: float | str | None = None,
@@ -174,7 +165,6 @@ def _span(t_end: Any, duration: Any, initial_state: Any) -> tuple[float, float, 
     return start, end, faults
 
 
-@with_known_names
 def snapshots(
     case: Parameters,
     times: ArrayLike,

@@ -21,7 +21,7 @@ from pydantic import (
 )
 
 from disc_model.data.variables import BESIDE_WINDOWS, rule_of_taken
-from disc_model.errors import Fault, ParameterError, as_text, form_of, raise_faults, require
+from disc_model.errors import Fault, ParameterError, as_text, raise_faults, require
 from disc_model.parameters import FORMAT, Parameters
 from disc_model.provenance import canonical_json, content_key
 from disc_model.units import Count, Finite, Positive, Real, Seconds, Strict, Unit
@@ -392,7 +392,7 @@ def _without_keys_of_studies(kick: Any) -> Any:
     if isinstance(kick, Mapping):
         rule = "is a key of study files."
         forms = {
-            "perturbation": form_of("start"),
+            "perturbation": "",
             "prerun": " In functions it is initial_state(case, prerun=...)",
         }
         known = [name for name in forms if name in kick]

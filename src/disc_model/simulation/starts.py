@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
 
-from disc_model.errors import Fault, ParameterError, raise_faults, require, with_known_names
+from disc_model.errors import Fault, ParameterError, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation import states
 from disc_model.simulation.api import simulate
@@ -18,7 +18,6 @@ OF_STUDIES = {"perturbation": "start"}
 """Argument of `initial_state` for what study files call otherwise."""
 
 
-@with_known_names
 def initial_state(
     case: Parameters,
     start: Mapping[str, float] | None = None,

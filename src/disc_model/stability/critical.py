@@ -22,7 +22,7 @@ from disc_model.data.variables import (
 )
 from disc_model.display import Bar, counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import Fault, raise_faults, violations, with_known_names
+from disc_model.errors import Fault, raise_faults, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.provenance import versions_text
 from disc_model.stability.continuation import (
@@ -211,7 +211,6 @@ def attributes_of_critical(found: Critical) -> dict[str, dict[str, Any]]:
 
 
 @compiling()
-@with_known_names
 def critical(
     case: Parameters,
     name: str,

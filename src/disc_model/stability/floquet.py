@@ -1,7 +1,7 @@
 """`floquet`: a cycle of a case and its stability."""
 
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import raise_faults, with_known_names
+from disc_model.errors import raise_faults
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State
 from disc_model.stability.cycle import SLIPPING, STICK_SLIP, FloquetResult, find_cycle, guess_faults
@@ -10,7 +10,6 @@ from disc_model.units import CYCLE_TOLERANCES, limits_faults
 
 
 @compiling()
-@with_known_names
 def floquet(
     case: Parameters,
     *,

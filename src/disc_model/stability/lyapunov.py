@@ -19,7 +19,7 @@ from disc_model.engine import columns, loop, model, saltation, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.jit.cache import compiling
 from disc_model.engine.series import build_series
-from disc_model.errors import Status, as_text, raise_faults, violations, with_known_names
+from disc_model.errors import Status, as_text, raise_faults, violations
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import (
     State,
@@ -81,7 +81,6 @@ class Lyapunov(EqualByValue):
 
 
 @compiling()
-@with_known_names
 def lyapunov_exponents(
     case: Parameters,
     duration: float,

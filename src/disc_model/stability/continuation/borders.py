@@ -13,14 +13,7 @@ from disc_model.analysis.spectra import Resonance, nearest_resonance
 from disc_model.arrays import Array, ComplexArray, Mask
 from disc_model.display import counted, drawings
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import (
-    Fault,
-    ParameterError,
-    raise_faults,
-    require,
-    violations,
-    with_known_names,
-)
+from disc_model.errors import Fault, ParameterError, raise_faults, require, violations
 from disc_model.parameters import Parameters, Quantity, foreign_case
 from disc_model.simulation.states import is_finite_array
 from disc_model.stability.continuation.arguments import free_faults, interval_in_si
@@ -359,7 +352,6 @@ class NeutralCurves:
 
 
 @compiling()
-@with_known_names
 def neutral_curves(
     case: Parameters,
     bounds: Mapping[str, tuple[Quantity, Quantity]],

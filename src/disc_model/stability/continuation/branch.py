@@ -22,14 +22,7 @@ from disc_model.data.variables import (
 )
 from disc_model.display import counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
-from disc_model.errors import (
-    Fault,
-    raise_faults,
-    require,
-    rule_of_choice,
-    violations,
-    with_known_names,
-)
+from disc_model.errors import Fault, raise_faults, require, rule_of_choice, violations
 from disc_model.parameters import Parameters, Quantity
 from disc_model.provenance import versions_text
 from disc_model.simulation.states import State, is_finite
@@ -510,7 +503,6 @@ CYCLE = StepControl()
 
 
 @compiling()
-@with_known_names
 def continue_cycle(  # noqa: PLR0913
     case: Parameters,
     name: str,
