@@ -3,9 +3,11 @@
 
 def code_of(*parts):
     """Hash of the bytes of files and folders beside the workflow, by which a rule runs again after a change."""
-    paths = [WORKFLOW.parent / part for part in parts]
-    files = [sorted(x.rglob("*.[py][ya]*")) if x.is_dir() else [x] for x in paths]
-    return content_key("".join(map(Path.read_text, sum(files, []))))
+    texts = []
+    for path in (WORKFLOW.parent / part for part in parts):
+        files = sorted(path.rglob("*.*")) if path.is_dir() else [path]
+        texts += [x.read_text() for x in files if x.suffix in (".py", ".yaml")]
+    return content_key("".join(texts))
 
 
 def figure_of(wildcards):
