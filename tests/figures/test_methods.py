@@ -391,7 +391,7 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes() -> None:
 
 
 def test_a_critical_value_bounds_the_shaded_part() -> None:
-    [band] = critical().plot().patches
+    band, *_ = critical().plot().patches
     assert band.get_x() == 0.3
     assert band.get_x() + band.get_width() == pytest.approx(critical().crossings[0])
 
@@ -525,7 +525,6 @@ REFUSED = {
     r"variable='period': varies along c, Omega, N, but must .* study\.sel": lambda: dm.plot_sweep(
         plane().expand_dims(THIRD), "period"
     ),
-    "variable='multipliers': .*complex": lambda: dm.plot_sweep(line(), "multipliers"),
     "x='k': must be one of its dimensions": lambda: dm.plot_sweep(line(), x="k"),
     "units.Omega='1 m'": lambda: dm.plot_sweep(line(), units={"Omega": "m"}),
     "units.speed='rpm': no parameter": lambda: dm.plot_sweep(line(), units={"speed": "rpm"}),
