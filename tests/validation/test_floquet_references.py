@@ -59,7 +59,7 @@ def test_neutral_curves_in_other_pairs(start, names):
     p = Parameters(**start)
     value = {name: getattr(p, name) for name in names}
     bounds = {name: (0.5 * value[name], 2.5 * value[name]) for name in names}
-    line = [value[names[1]]]
+    line = [share * value[names[1]] for share in (0.75, 1.0, 2.0)]
     found = neutral_curves(p, bounds, line, points=31, max_points=12)
     matched = 0
     for curve in found:

@@ -90,7 +90,7 @@ def plot_campbell(
 
     Parameters
     ----------
-    study : of ``quantity: campbell``, such as `run_study` returns, along the speed alone
+    study : of `campbell`, along the speed alone
     highest : Hz, or with a unit, such as "3 kHz": upper end of the axis of frequencies; all of them if not given
     multiples : such as ``[2, 2.5]``: these multiples of the stick-slip frequency are drawn, too
     units : as in `plot_sweep`, such as ``{"Omega": "rpm"}``
@@ -107,8 +107,7 @@ def plot_campbell(
     Examples
     --------
     >>> import disc_model as dm
-    >>> axes = {"Omega": {"start": 10, "stop": 10.2, "step": 0.01}}
-    >>> study = dm.run_study({"study": "c", "quantity": "campbell", "base": {"N": 385}, "axes": axes})
+    >>> study = dm.campbell(dm.Parameters(N=385, Omega=10), bounds=(10, 10.2), step=0.01)
     >>> frequencies, rates = dm.plot_campbell(study, highest=400, multiples=[2, 3])
     >>> rates.get_xlabel()
     'Speed Ω (rad/s)'

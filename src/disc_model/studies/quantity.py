@@ -321,9 +321,34 @@ def quantity(
             return words(described(found, name, dict(chosen)))
 
         function.__qualname__ += ".__wrapped__"  # by which pickle finds it
+        checked.__doc__ = _documented(function)
         return checked
 
     return mark
+
+
+RETURNS = """
+Returns
+-------
+xarray.Dataset
+    The variables that a study of this quantity has, with words as words; attributes are the case (`parameters`), the
+    `options`, and in `message` what went wrong or is missing
+"""
+RAISES = """
+Raises
+------
+ParameterError
+    If an argument breaks a rule; the message names the argument, its value and the rule.
+"""
+
+
+def _documented(function: Callable[..., Any]) -> str:
+    """The docstring of a quantity, with what holds of all of them."""
+    before, heading, examples = (inspect.getdoc(function) or "").partition("\nExamples\n--------")
+    for section, text in (("Returns", RETURNS), ("Raises", RAISES)):
+        if f"\n{section}\n---" not in before:
+            before = f"{before.rstrip()}\n{text}"
+    return before + heading + examples
 
 
 def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:

@@ -95,6 +95,12 @@ def bifurcation(
     theta : angle of the disc's point whose displacement is sampled once a turn
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> dm.bifurcation(dm.Parameters(N=385, Omega=15), transient=20, samples=3)["kind"].item()
+    'stick_slip'
     """
     if section == "stroboscopic":
         values, message = _once_a_turn(case, start, transient, samples, theta, tol)

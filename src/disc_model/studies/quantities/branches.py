@@ -81,6 +81,13 @@ def branches(
     max_points : most points of a branch, in each direction, special points included
     max_branches : room for that many branches
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15)
+    >>> dm.branches(case, bounds=(14, 15), step=0.5, dwell=5, max_dwell=5)["n_branches"].item()
+    1
     """
     from disc_model.stability.attractors import sweep
     from disc_model.stability.continuation import StepControl, continue_cycle

@@ -57,6 +57,13 @@ def campbell(
     min_rise : least rise of a growth rate in the window, above those at its ends, that counts
     max_crossings : room for that many crossings
     tol : tolerance of cycles: relative residual of the return map
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> found = dm.campbell(dm.Parameters(N=385, Omega=15), bounds=(14, 15), step=0.5)
+    >>> found["stick_slip_frequency"].values.round(1)
+    array([66.8, 67.1, 67.5])
     """
     speeds = values_between(bounds, step)
     rows = []

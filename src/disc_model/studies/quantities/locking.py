@@ -57,6 +57,13 @@ def locking(
     probes : number of places at which the map of release phases is computed
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=200, Omega=15)
+    >>> dm.locking(case, transient=2, record=2, max_record=2, multipliers=False)["motion"].item()
+    'in_contact'
     """
     from disc_model.simulation.api import simulate
     from disc_model.simulation.starts import state_after

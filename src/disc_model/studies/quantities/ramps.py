@@ -42,6 +42,13 @@ def ramps(
     rates : rates of the ramps, a run each
     dwell : time at the highest speed, and at the lowest one in the end
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> found = dm.ramps(dm.Parameters(N=385, Omega=15), bounds=(15, 18), rates=[1.0], dwell=1)
+    >>> found["top_separation_rate"].values
+    array([0.])
     """
     rows: list[dict[str, Any]] = []
     status = "ok"

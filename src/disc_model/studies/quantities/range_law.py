@@ -53,6 +53,14 @@ def range_law(
     displaced_horizon : time simulated from the displaced start
     evaluation_time : length of the last stretch of each, over which all is measured
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> case = dm.Parameters(N=385, Omega=15)
+    >>> found = dm.range_law(case, horizon=2, displaced_horizon=5, evaluation_time=1)
+    >>> print(f"{found['pinned_range'].sel(begin='displaced').item():.3f} m")
+    0.034 m
     """
     from disc_model.simulation.api import simulate
     from disc_model.simulation.states import perturb, static_start

@@ -68,6 +68,13 @@ def regions(
         are not timed
     timed : places, such as {N: 200, Omega: 20}, at which nothing is extrapolated
     tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> axes = {"Omega": [14, 15.1], "N": [385]}
+    >>> dm.regions(dm.Parameters(N=385, Omega=15), axes=axes, horizon=60)["outcome"].values.tolist()
+    [['stick_slip'], ['separation']]
     """
     first, second = axes
     shape = (len(axes[first]), len(axes[second]))

@@ -107,6 +107,14 @@ def sensitivity(
         are not timed
     tol : tolerance of cycles: relative residual of the return map
     motion_tol : tolerance of simulations: error of event times after a second of motion
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> friction = {"distribution": "uniform", "low": 0.38, "high": 0.42}
+    >>> found = dm.sensitivity(dm.Parameters(N=385, Omega=15), distributions={"mu_s": friction}, samples=4)
+    >>> found["cycle"].values.tolist()
+    ['no_cycle', 'stable', 'stable', 'unstable']
     """
     names = sorted(distributions)
     drawn = _draws(case, distributions, samples, seed)

@@ -32,6 +32,13 @@ def sliding_modes(
     bounds : its least and greatest value
     step : between its values
     modes : room for that many modes, numbered by frequency at the first value
+
+    Examples
+    --------
+    >>> import disc_model as dm
+    >>> found = dm.sliding_modes(dm.Parameters(N=385, Omega=15), bounds=(10, 20), step=5)
+    >>> found["unstable_modes"].values
+    array([2, 2, 2])
     """
     from disc_model.stability.sliding import follow_modes
 
