@@ -167,7 +167,7 @@ class Critical(EqualByValue):
         Examples
         --------
         >>> import disc_model as dm
-        >>> found = dm.critical(dm.Parameters(N=385, Omega=12, mu_k_over_mu_s=0.6), "mu_s", (0.3, 0.42), points=7)
+        >>> found = dm.critical(dm.Parameters(N=385, Omega=12), "mu_s", (0.3, 0.42), points=7)
         >>> dm.save(found, "critical.nc")
         >>> dm.load("critical.nc")["growth_rate"].dims
         ('mu_s',)
@@ -263,8 +263,8 @@ def critical(
     --------
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12)
-    >>> dm.critical(case, "mu_s", (0.3, 0.42), points=7)
-    Critical(mu_s, stick_slip: already unstable at the lower bound, mu_s = 0.3, 1 crossing, ... values, steps ...)
+    >>> dm.critical(case, "mu_s", (0.38, 0.42), points=5)
+    Critical(mu_s, stick_slip: 1 jump to another cycle, from 0.414... to 0.414..., 3 crossings, ... values, steps of ...)
 
     Steady sliding of a block on a rigid disc is unstable while friction falls too steeply with the speed:
 

@@ -389,7 +389,7 @@ def neutral_curves(
     Examples
     --------
     >>> import disc_model as dm
-    >>> case = dm.Parameters(N=385, Omega=15, mu_k_over_mu_s=0.6)
+    >>> case = dm.Parameters(N=385, Omega=15)
     >>> curves = dm.neutral_curves(case, {"Omega": (14, 15.5), "mu_s": (0.38, 0.42)}, [0.4], points=5)
     >>> len(curves), curves.curves[0].resonance.label
     (1, '2 f_s = 135.42 Hz')
