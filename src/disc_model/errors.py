@@ -147,8 +147,8 @@ def suggestion(name: object, known: Collection[str], all_of_them: bool = True) -
     return meant
 
 
-def rule_of_choice(name: object, known: Collection[str]) -> str:
-    """The rule that a name breaks which is none of those known."""
+def rule_of_choice(known: Collection[str]) -> str:
+    """The rule of a name that must be one of those known."""
     return f"must be one of {', '.join(known)}"
 
 

@@ -148,7 +148,7 @@ def choose_modes(
     3
     """
     known = isinstance(quantity, str) and quantity in TOLERANCES
-    require((known, "quantity", quantity, rule_of_choice(quantity, TOLERANCES)))
+    require((known, "quantity", quantity, rule_of_choice(TOLERANCES)))
     asked = TOLERANCES[quantity] if tolerance is None else tolerance
     is_case = isinstance(case, Parameters | Mapping)
     trusted = is_number(asked) and TRUSTED <= asked < math.inf

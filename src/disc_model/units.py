@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import functools
 import json
-import math
 import numbers
 import re
 from collections.abc import Callable, Mapping
@@ -149,12 +148,6 @@ def _rule_of(unit: str) -> str:
 def is_quantity(value: object) -> bool:
     """Whether a value is a quantity of pint."""
     return hasattr(value, "magnitude") and hasattr(value, "units")
-
-
-def is_missing(value: Any) -> bool:
-    """Whether this is what a table has for a missing number or word: None, nan, or pandas.NA."""
-    is_nan = isinstance(value, float) and math.isnan(value)
-    return value is None or is_nan or type(value).__name__ == "NAType"
 
 
 def _scalar(value: Any) -> Any:
@@ -316,9 +309,3 @@ class Strict(BaseModel):
     def replace(self, **changes: Any) -> Self:
         """A validated copy with some values changed."""
         return type(self)(**{**dict(self), **changes})
-
-
-def given_values(model: Strict) -> dict[str, Any]:
-    """The values of a model that were given, in the order of its fields."""
-    given = model.model_fields_set
-    return {name: getattr(model, name) for name in type(model).model_fields if name in given}

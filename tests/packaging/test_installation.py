@@ -144,4 +144,4 @@ def test_it_works_without_the_sources(installed: Installed) -> None:
 def test_a_study_needs_no_clone(installed: Installed) -> None:
     study = installed.work / "s.yaml"
     study.write_text("{study: s, quantity: floquet, base: {N: 385}, axes: {Omega: [12, 15]}}")
-    assert "compute_batch" in installed.run("disc-model", "study", study, "-n", "-d", "own")
+    assert "merge_grid" in installed.run("disc-model", "study", study, "-n", "-d", "own")

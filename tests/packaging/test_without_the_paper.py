@@ -23,7 +23,7 @@ def test_a_study_is_computed(tmp_path: Path) -> None:
     (tmp_path / "mine.yaml").write_text(STUDY)
     run(*command, cwd=tmp_path, timeout=900, PYTHONPATH=str(tmp_path / "src"))
     made = {path.name for path in (tmp_path / "results" / "mine").rglob("*.*")}
-    assert {"mine.nc", "cases.nc", "growth.png", "seen.png", "provenance.html"} <= made
+    assert {"mine.nc", "A.nc", "growth.png", "seen.png", "provenance.html"} <= made
     (tmp_path / "mine.yaml").write_text(f"{STUDY}\nclaims: true\n")
     refused = run(*command, "-n", cwd=tmp_path, fails=True, PYTHONPATH=str(tmp_path / "src"))
     assert "mine: claims are judged by the Snakefile of a clone" in refused.stdout + refused.stderr

@@ -26,7 +26,7 @@ pytestmark = [pytest.mark.workflow, pytest.mark.slow]
 
 NUMBERS = ("tests/engine", "tests/simulation", "tests/stability", "tests/validation")
 DATASETS = (
-    "results/test/cases.nc",
+    *(f"results/test/cases/{name}.nc" for name in ("F02", "F04", "F11", "F13")),
     *(f"results/{name}/{name}.nc" for name in ("test_grid", "test_curve", "test_growth")),
 )
 FUSED = """

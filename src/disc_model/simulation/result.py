@@ -171,7 +171,7 @@ class Result(Summarised, EqualByValue):
         """
         seconds = in_si(times, "s", [], ())
         require(
-            (isinstance(name, str) and name in RAMPED, "name", name, rule_of_choice(name, RAMPED)),
+            (isinstance(name, str) and name in RAMPED, "name", name, rule_of_choice(RAMPED)),
             (is_finite_array(seconds, flat=False), "times", times, "must be finite numbers"),
         )
         knots, values, _ = zip(*line(self.parameters, self.ramps, name), strict=True)

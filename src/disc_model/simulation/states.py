@@ -518,7 +518,7 @@ def _check(state: State, case: EngineCase) -> None:
             (is_finite(getattr(state, x)), path + x, getattr(state, x), "must be finite")
             for x in PLAIN
         ),
-        (known, path + "phase", state.phase, rule_of_choice(state.phase, PHASES)),
+        (known, path + "phase", state.phase, rule_of_choice(PHASES)),
         (signed, path + "direction", state.direction, "must be -1 or 1 in slip"),
         angle_rule(state.drive_angle, path),
     )

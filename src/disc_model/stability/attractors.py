@@ -367,7 +367,8 @@ class Basins:
 
     def _approached_by_range(self, segments: Sequence[Segment]) -> Attractor | None:
         """The attractor, other than the stick-slip cycle, whose range of the height those of the last
-        legs approach; None if that is not clear, as on a rigid disc, whose height never changes."""
+        legs approach, ever more slowly; None if that is not clear, as on a rigid disc, whose height
+        never changes."""
         ranges = [segment.range for segment in segments[-NEARING:]]
         others = [attractor for attractor in self.known if attractor.kind is not Outcome.STICK_SLIP]
         if self.static == 0 or len(ranges) < NEARING or not others:
@@ -383,16 +384,20 @@ class Basins:
         nearest = others[last.index(distance)]
         distances = [_relative_difference(value, nearest.segment.range) for value in ranges]
         parts = any(b >= a and b > VARIATION for a, b in pairwise(distances))
-        return None if parts else nearest
+        slows = _rest_of_drift(ranges) <= (2 * distance + VARIATION) * ranges[-1]
+        return nearest if slows and not parts else None
 
     def _is_steady(self, segments: Sequence[Segment]) -> bool:
-        """Whether the last segments differ so little that a motion may have settled."""
+        """Whether the last segments differ so little, and drift so slowly, that a motion may have
+        settled."""
         *others, last = segments[-SETTLING:]
         if len(others) < SETTLING - 1:
             return False
-        drift = abs(last.range - others[0].range) / max(last.range, self.smallest)
-        largest = max(self._difference(segment, last) for segment in others)
-        return largest <= VARIATION and drift <= STEADY
+        if max(self._difference(segment, last) for segment in others) > VARIATION:
+            return False
+        ranges = [max(segment.range, self.smallest) for segment in (*others, last)]
+        stays = abs(ranges[-1] - ranges[0]) <= STEADY * ranges[-1]
+        return stays or _rest_of_drift(ranges) <= SAME / 2 * ranges[-1]
 
     def _settled_on(
         self, legs: Sequence[Result], last: Segment, *, steady: bool, over: bool
@@ -488,3 +493,13 @@ def random_perturbation(p: Parameters, state: State, energy: float, key: Sequenc
 def _relative_difference(first: float, second: float) -> float:
     """Difference of two ranges over the larger one."""
     return abs(first - second) / max(first, second, sys.float_info.min)
+
+
+def _rest_of_drift(values: Sequence[float]) -> float:
+    """Extrapolated rest of a drift of the values, by a geometric series; infinite if the changes do
+    not decrease."""
+    changes = np.diff(values[-4:])
+    before, last = np.abs(changes[-2:])
+    if not (np.all(changes > 0) or np.all(changes < 0)):
+        return 0.0
+    return float(last**2 / (before - last)) if last < before else math.inf

@@ -54,8 +54,6 @@ MOST_HALVINGS = 7  # of such a step, before it is given up
 SLOW = 0.05  # a step that leaves more of the residual needs the Jacobian at its own point
 MOST_JACOBIANS = 14  # in a search for a fixed point
 COARSE_JACOBIANS = 3  # of these, which only give a direction
-SAME_PERIOD = 1e-3  # relative difference of a cycle's period from that of fewer releases
-SENSE = 1e-6  # way along a direction, over the static deflection, by which its sense is found
 # ends of motions that slip all the time, see `disc_model.stability.slipping`
 STOPS = -1
 VANISHED = -2
@@ -512,19 +510,3 @@ def newton_step(matrix: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError:
         return np.asarray(np.linalg.lstsq(matrix, right, rcond=None)[0], dtype=float)
-
-
-def leading_direction(map_: ReturnMap, x: Array, period: float) -> Array:
-    """Direction of the leading multiplier's eigenvector at the point of a cycle of a period (s), of
-    unit length, in the sense that stretches the spring in the plane."""
-    releases = 1
-    orbit = map_.evaluate(x, releases=releases, may_separate=True)
-    while orbit.returned and orbit.period < (1 - SAME_PERIOD) * period:
-        releases += 1
-        orbit = map_.evaluate(x, releases=releases, may_separate=True)
-    values, vectors = np.linalg.eig(orbit.jacobian)
-    direction = np.real(vectors[:, np.argmax(np.abs(values))])
-    direction = direction / np.linalg.norm(direction)
-    small = SENSE * map_.deflection * direction
-    stretched = map_.state(x + small).psi - map_.state(x - small).psi
-    return -direction if stretched < 0 else direction

@@ -395,7 +395,7 @@ class Branch:
         'Period of the cycle (ms)'
         """
         known = isinstance(y, str) and y in VARIABLES
-        require((known, "y", y, rule_of_choice(y, VARIABLES)))
+        require((known, "y", y, rule_of_choice(VARIABLES)))
         return drawings().branch(ax, self, y, units, **look)
 
 
