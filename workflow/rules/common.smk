@@ -34,3 +34,12 @@ def plan_of(wildcards):
         "code": figures_hash() + "".join(content_key(file.read_text()) for file in own),
     }
     return json.dumps(plan)
+
+
+def all_products(wildcards):
+    """What `all` makes, with what the root's Snakefile adds in a clone: verdicts on the paper's claims."""
+    if STUDY.claims and not rules.has("check_claims"):
+        raise WorkflowError(
+            f"{STUDY.study}: claims are judged by the Snakefile of a clone of the repository, not by `disc-model study`"
+        )
+    return PRODUCTS
