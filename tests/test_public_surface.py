@@ -50,6 +50,7 @@ SURFACE: list[tuple[Any, dict[str, Any], dict[str, str]]] = [
         for function in (dm.plate_modes, dm.coupled_natural_frequencies, dm.residual_flexibility)
     ),
     (dm.steady_sliding, {}, {}),
+    (dm.squeal, {"case": P, "bounds": (10, 12), "points": 2}, {}),
     (
         dm.choose_modes,
         {"case": P, "quantity": "sliding_growth"},

@@ -57,6 +57,7 @@ _NAMES = {
     "stability.floquet": "floquet",
     "stability.lyapunov": "lyapunov_exponents",
     "stability.sliding": "steady_sliding",
+    "stability.squeal": "squeal",
 }
 _HOMES = {name: module for module, names in _NAMES.items() for name in names.split()}
 
@@ -99,6 +100,7 @@ if TYPE_CHECKING:
     from disc_model.stability.floquet import floquet
     from disc_model.stability.lyapunov import lyapunov_exponents
     from disc_model.stability.sliding import steady_sliding
+    from disc_model.stability.squeal import squeal
     from disc_model.studies.quantities.basins import basins
     from disc_model.studies.quantities.bifurcation import bifurcation
     from disc_model.studies.quantities.branches import branches

@@ -93,6 +93,7 @@ def _parameter_values(p: Parameters) -> dict[str, Any]:
 
 BY_METHODS = (
     "stable",
+    "frequency",
     "at_lower_bound",
     "border",
     "stick_time",

@@ -21,7 +21,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from types import FunctionType, ModuleType, SimpleNamespace
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from scipy.optimize import brentq
@@ -37,12 +37,16 @@ from disc_model.errors import StatusBase, raise_faults, require
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.simulation.states import State, engine_case
 
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
 RATES = np.arange(1, 101) / 50  # at which the rate g is sought, over Omega
 # distances from resonances and poles at which it is looked, too, over their rates
 BESIDE = np.concatenate([-np.geomspace(1, 1e-9, 28), np.geomspace(1e-9, 1, 28)])
 LOADS = 24  # shares of the load by which the equilibrium of a plate that stretches is followed
 MOST_ITERATIONS = 30  # of Newton's method: a few suffice, where there is an equilibrium
 SETTLED = 1e-13  # relative change at which it ends
+NEARLY = 5e-4  # damping ratio below which a mode nearly grows
 
 
 def _in_python(module: ModuleType) -> Any:
@@ -131,8 +135,12 @@ class SteadySliding(Summarised, EqualByValue):
     def __repr__(self) -> str:
         if not self.eigenvalues.size:
             return f"SteadySliding({self.message})"
-        numbers = f"growth rate {self.rate_text}, {self.eigenvalues.size} eigenvalues"
-        return f"SteadySliding({self.message}, {numbers})"
+        fastest = f"growth rate {self.rate_text} at {number_text(self.frequency, 'Hz')}"
+        return f"SteadySliding({self.message}, {fastest}, {self.eigenvalues.size} eigenvalues)"
+
+    def __str__(self) -> str:
+        table = self.modes
+        return f"{self!r}\n{table.to_string()}" if len(table) else repr(self)
 
     def _summary(self) -> Iterator[tuple[str, object]]:
         if self.parameters is not None:
@@ -154,6 +162,30 @@ class SteadySliding(Summarised, EqualByValue):
         height = (height_of_slider(p, self), 0.0) if contact_compliance(p) else ()
         disc = (self.a, self.alpha, self.b, self.beta)
         return np.asarray(join_rows(mode_arrays(p), disc, (self.psi, p.Omega), height), float)
+
+    @property
+    def frequency(self) -> float:
+        """That of the mode with the growth rate, Hz; 0 if it does not oscillate, nan without modes."""
+        return (
+            float(abs(self.eigenvalues[0].imag)) / math.tau if self.eigenvalues.size else math.nan
+        )
+
+    @property
+    def modes(self) -> "DataFrame":
+        """Oscillating modes that grow or nearly do, with a damping ratio below 0.0005: the fastest first.
+
+        Columns are those numbers of `SlidingModes` that each mode has one of: frequency (Hz), growth_rate
+        (1/s), damping_ratio, diameters, circles, and shares of the energy: disc, across, in_plane.
+        """
+        from pandas import DataFrame  # slow to import, as most of what follows does without
+
+        p = self.parameters
+        table = DataFrame(columns=[*TABLE])
+        if self.eigenvalues.size and p is not None:
+            found = sliding_modes(p, self)
+            table = DataFrame({name: getattr(found, name) for name in TABLE})
+        table = table[table["damping_ratio"] < NEARLY]
+        return table.sort_values("growth_rate", ascending=False, ignore_index=True)
 
     @property
     def rate_text(self) -> str:
@@ -625,7 +657,9 @@ class SlidingModes:
     frequency, growth_rate : Hz, 1/s, shape (n,), in the slider's frame; a growth rate is exactly 0 where it is
         nothing but rounding
     damping_ratio : (n,), negative for a mode that grows, and 0 where the growth rate is
-    diameters : (n,), nodal diameters of the disc's modes with most energy; -1 if the slider's in-plane motion has most
+    diameters, circles : (n,), nodal diameters and circles of the disc's modes with most energy; -1 if the slider's
+        in-plane motion has most
+    disc, across, in_plane : (n,), shares of the energy: of the disc, and of the slider across the disc and in its plane
     forward : (n,), share of these modes' energy in waves that travel with the slider, seen at f - l Omega / 2 pi
     shapes : (rows of `SteadySliding.jacobian`, n)
     """
@@ -634,8 +668,19 @@ class SlidingModes:
     growth_rate: Array
     damping_ratio: Array
     diameters: Indices
+    circles: Indices
+    disc: Array
+    across: Array
+    in_plane: Array
     forward: Array
     shapes: ComplexArray = field(repr=False)
+
+
+TABLE = (
+    *("frequency", "growth_rate", "damping_ratio", "diameters", "circles"),
+    *("disc", "across", "in_plane"),
+)
+"""Columns of the table of modes."""
 
 
 def sliding_modes(p: Parameters, sliding: SteadySliding | None = None) -> SlidingModes:
@@ -659,21 +704,17 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     order = [i for i in np.argsort(values.imag, kind="stable") if values[i].imag > 0]
     growth_rate = growth_rates(values)[order]
     values = values[order]
-    vectors = np.asarray(vectors[:, order], dtype=complex)
-    if not order:
-        nothing = np.zeros(0)
-        return SlidingModes(nothing, nothing, nothing, np.zeros(0, np.int64), nothing, vectors)
+    every = vectors if order else np.zeros((len(energy_weights(p)), 0))
+    vectors = np.asarray(every[:, order], dtype=complex)
     modes = mode_arrays(p)
-    l = modes.diameters
     omega = modes.omega[:, None]
-    (a, alpha, b, beta), (psi, f), _ = split_rows(modes, vectors)
+    (a, alpha, b, beta), (psi, f), height = split_rows(modes, vectors)
     energy = np.abs(omega * a) ** 2 + np.abs(alpha) ** 2
     energy = energy + np.abs(omega * b) ** 2
     energy = energy + np.abs(beta) ** 2
-    numbers = range(int(l.max(initial=0)) + 1)
-    by_number = np.array([energy[l == number].sum(axis=0) for number in numbers])
-    diameters = by_number.argmax(axis=0)
-    most = l[:, None] == diameters
+    diameters = _of_most(modes.diameters, energy)
+    most = modes.diameters[:, None] == diameters
+    circles = _of_most(modes.circles, np.where(most, energy, 0))
 
     # a + i b and a - i b are the waves that travel in opposite directions
     with_slider = np.sum(np.abs(omega * (a + 1j * b)) ** 2, axis=0, where=most)
@@ -681,15 +722,30 @@ def _modes_of(p: Parameters, values: ComplexArray, vectors: ComplexArray) -> Sli
     with np.errstate(invalid="ignore"):  # a mode without the disc has no waves
         forward = np.asarray(with_slider / (with_slider + against), dtype=float)
 
+    disc = energy.sum(axis=0)
+    u = height[0] if len(height) else modes.psi @ a
+    across = np.abs(u) ** 2 * (p.k + p.m * np.abs(values) ** 2)
     in_plane = p.r_0**2 * (p.k_p * np.abs(psi) ** 2 + p.m * np.abs(f) ** 2)
+    whole = disc + across + in_plane
+    slides = in_plane > disc
     return SlidingModes(
         frequency=values.imag / (2 * math.pi),
         growth_rate=growth_rate,
         damping_ratio=np.asarray((0.0 - growth_rate) / np.abs(values), dtype=float),
-        diameters=np.where(in_plane > energy.sum(axis=0), -1, diameters).astype(np.int64),
+        diameters=np.where(slides, -1, diameters).astype(np.int64),
+        circles=np.where(slides, -1, circles).astype(np.int64),
+        disc=disc / whole,
+        across=across / whole,
+        in_plane=in_plane / whole,
         forward=forward,
         shapes=vectors,
     )
+
+
+def _of_most(numbers: Indices, energy: Array) -> Indices:
+    """Of the numbers of the disc's modes, (n_modes,), the one whose modes have most of the energy, (n_modes, n)."""
+    every = range(int(numbers.max(initial=0)) + 1)
+    return np.array([energy[numbers == number].sum(axis=0) for number in every]).argmax(axis=0)
 
 
 # least likeness of modes that are followed; otherwise the step is halved, up to `HALVINGS` times
@@ -713,7 +769,7 @@ def follow_modes(cases: Sequence[Parameters]) -> list[FollowedModes]:
 
     Modes keep the numbers that they have by frequency, from 0 on, in the first case; modes that
     appear later have the next ones. Further cases between two are computed until it is clear which
-    mode is which.
+    mode is which. Numbers begin anew where a disc has another number of modes.
     """
     followed = list[FollowedModes]()
     shapes = list[ComplexArray]()  # of each number, the last one
@@ -743,6 +799,8 @@ def _numbered(
         return np.zeros(0, np.int64), np.zeros(0)
     scaled = np.sqrt(energy_weights(p))[:, None] * modes.shapes
     scaled = scaled / np.linalg.norm(scaled, axis=0)
+    if shapes and len(shapes[0]) != len(scaled):
+        shapes.clear()
     mac = np.abs(np.array(shapes).reshape(len(shapes), len(scaled)).conj() @ scaled) ** 2
     numbers, places = linear_sum_assignment(-mac)
     if before is not None and halvings and mac[numbers, places].min(initial=1) < ALIKE:

@@ -12,7 +12,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.columns import result_dataset
-from disc_model.data.variables import COMMON, attributes_of_mode
+from disc_model.data.variables import COMMON, OF_RESULTS, attributes_of_mode
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.mode_units import mode_number_in_si
 from disc_model.parameters import PLATE, Parameters, foreign_case
@@ -103,6 +103,8 @@ def sweep(
     call = Call(_Gathered(function), case.replace, options)
     _try_first(call, rows, {"function", *arguments, *over})
     results = compute(call, rows, map=map, title=_name_of(function), progress=progress)
+    if _name_of(function) == "steady_sliding":
+        _number_fastest(call, rows, results)
     sizes = {dim: len(frame) for dim, frame in dims.items()}
     taken = {*map(str, points), *dims}
     results = [_beside(result, taken) for result in results]
@@ -133,6 +135,17 @@ class _Gathered:
 
     def __call__(self, case: Parameters, **options: Any) -> xr.Dataset:
         return result_dataset(self.function(case, **options), _name_of(self.function))
+
+
+def _number_fastest(call: Call, rows: Sequence[Any], results: Sequence[xr.Dataset]) -> None:
+    """Add the number of the mode that grows fastest to results of steady sliding, followed from point to point."""
+    from disc_model.stability.sliding import follow_modes
+
+    found = [i for i, result in enumerate(results) if result.get("frequency", 0) > 0]
+    followed = follow_modes([call.case_at(rows[i]) for i in found])
+    for i, one in zip(found, followed, strict=True):
+        number = 1 + one.numbers[np.argmax(one.modes.growth_rate)]
+        results[i]["mode"] = ((), float(number), OF_RESULTS["SteadySliding"]["mode"].texts())
 
 
 def _name_of(function: Any) -> str:
