@@ -157,7 +157,6 @@ WORDS = (
     "settled",
     "changing",
     "simulation",
-    "inferred",
     "undecided",
 )
 """Words of flags."""
