@@ -75,7 +75,7 @@ def exponents() -> Any:
 
 @functools.cache
 def critical() -> Any:
-    return dm.critical(WEAKER, "mu_s", (0.3, 0.42), points=7, precision=1e-3)
+    return dm.critical(WEAKER, "mu_s", (0.3, 0.42), points=7)
 
 
 @functools.cache
@@ -378,7 +378,7 @@ def test_a_branch_is_thick_where_it_is_stable_up_to_its_fold() -> None:
     ax = branch().plot()
     [thick] = [drawn for drawn in ax.lines if drawn.get_label() == "thick: stable"]
     places = thick.get_xdata()
-    assert [places[0], places[np.isfinite(places)].max()] == [14.8, branch().folds[0, 0]]
+    assert [places[0], places[np.isfinite(places)].max()] == [14.8, branch().folds[0]]
     assert {"thick: stable", "fold"} <= {*entries(ax)}
 
 

@@ -82,8 +82,8 @@ def test_the_critical_speed_of_sliding_is_where_its_growth_rate_is_zero() -> Non
     def rate(speed: float) -> float:
         return dm.steady_sliding(case.replace(Omega=speed)).growth_rate
 
-    found = dm.critical(case, "Omega", (20, 80), points=7, precision=1e-4, kind="sliding")
-    assert found.value == found.border == pytest.approx(brentq(rate, 20, 80), abs=1e-4)
+    found = dm.critical(case, "Omega", (20, 80), points=7, kind="sliding")
+    assert found.value == found.border == pytest.approx(brentq(rate, 20, 80), abs=6e-5)
     assert rate(found.value) > 0 > rate(found.value - 1e-4)
     assert not found.at_lower_bound
     assert found.message == ""
@@ -137,9 +137,8 @@ def test_critical_values_are_data(tmp_path: Path) -> None:
     [
         ({"bounds": ("5 kg", 15)}, r"^bounds='5 kg': must be a number in rad/s"),
         ({"name": "mu_s", "bounds": (0.1, 0.9)}, r"^mu_k=0\.24: must be <= mu_s=0\.1$"),
-        ({"kind": "slipping"}, "kind='slipping': must be one of stick_slip, sliding"),
+        ({"kind": "slipping"}, "kind='slipping': must be 'stick_slip' or 'sliding'"),
         ({"points": 1}, "points=1"),
-        ({"progress": 3}, "progress=3"),
     ],
 )
 def test_wrong_arguments_are_refused(changed: dict[str, Any], told: str) -> None:
