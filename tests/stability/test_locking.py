@@ -82,42 +82,33 @@ def test_the_phase_of_a_release_is_its_time_since_a_loss_of_contact_over_their_i
     assert releases_of(run_of(sorted(apart[:2] + released))) is None
 
 
-@pytest.mark.parametrize(("separations", "is_there"), [(9, True), (8, False)])
-def test_a_cycle_of_other_separations_is_not_that_of_the_motion(
-    separations: int, is_there: bool, monkeypatch: pytest.MonkeyPatch
+# a record of four releases and eight separations, which nearly repeats after two
+INTERVALS = np.array([1.0, 2.0, 1.0, 2.0 + 1e-7] * 2)
+NEARLY_OF_TWO = record(INTERVALS, np.full(8, 2))
+LOCK_OF_FOUR = locking.Lock(4, 8, 6.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("releases", "separations", "expected"),
+    [
+        (4, 8, LOCK_OF_FOUR),
+        (4, 7, None),  # another cycle than that of the motion
+        (2, 8, locking.Lock(2, 8, 3.0, pytest.approx(1e-7))),  # type: ignore[arg-type]
+    ],
+)
+def test_the_lock_of_a_cycle_has_its_shortest_period(
+    releases: int, separations: int, expected: locking.Lock | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    orbit = SimpleNamespace(counts=SimpleNamespace(separations=separations))
+    counts = SimpleNamespace(releases=releases, separations=separations)
+    orbit = SimpleNamespace(counts=counts, period=3.0)
     release = SimpleNamespace(reached=True, x=np.zeros(2))
     map_ = SimpleNamespace(next_release=lambda state: release)
     monkeypatch.setattr(locking, "ReturnMap", lambda p, patient: map_)
     monkeypatch.setattr(locking, "newton", lambda *_, **__: orbit)
     monkeypatch.setattr(locking, "run_through_once", lambda map_, orbit: orbit)
     state: Any = None
-    found = locking.cycle_at(CASE, state, locking.Lock(2, 9, 0.06, 0.0))
-    assert found is (orbit if is_there else None)
-
-
-INTERVALS = np.array([1.0, 2.0, 1.0, 2.0, 1.0, 2.0, 1.0, 2.0])
-DRIFTS = np.array([0, 0, 0, 1e-7, 0, 0, 0, 1e-7])
-NEARLY_OF_TWO = record(INTERVALS + DRIFTS, np.ones(8))
-LOCK_OF_FOUR = locking.Lock(4, 8, 6.0, 0.0)
-
-
-def test_a_cycle_with_a_shorter_period_than_the_record_shows_is_that_of_the_motion() -> None:
-    counts = SimpleNamespace(releases=2, separations=4)
-    cycle: Any = SimpleNamespace(counts=counts, period=3.0)
-    found = locking.lock_on(cycle, NEARLY_OF_TWO, LOCK_OF_FOUR)
-    assert found.releases == 2
-    assert found.vibrations == 4
-    assert found.period == 3.0
-    assert found.closure == pytest.approx(1e-7)
-
-
-def test_a_cycle_with_the_releases_that_the_record_shows_changes_nothing() -> None:
-    counts = SimpleNamespace(releases=4, separations=4)
-    cycle: Any = SimpleNamespace(counts=counts, period=3.0)
-    found = locking.lock_on(cycle, NEARLY_OF_TWO, LOCK_OF_FOUR)
-    assert found == LOCK_OF_FOUR
+    found = locking.locked_cycle(CASE, state, LOCK_OF_FOUR, NEARLY_OF_TWO)
+    assert (found and found[1]) == expected
 
 
 # ---- The motion at 200 N
@@ -177,8 +168,9 @@ def test_multipliers_are_those_of_the_disc_and_one_of_the_slider(run: Result) ->
     assert found is not None
     lock = lock_of(found)
     assert lock is not None
-    cycle = locking.cycle_at(p, run.final_state, lock)
-    assert cycle is not None
+    located = locking.locked_cycle(p, run.final_state, lock, found)
+    assert located is not None
+    cycle, _ = located
     assert cycle.counts.releases == lock.releases
     known = multipliers(cycle.jacobian)
     assert (abs(known) < 1).all()

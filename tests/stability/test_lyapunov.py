@@ -1,6 +1,5 @@
 """Largest Lyapunov exponents."""
 
-
 import numpy as np
 import pytest
 

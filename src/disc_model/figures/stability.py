@@ -63,7 +63,7 @@ def column(name: str, values: Any, attributes: Any = None, units: Any = None) ->
 def draw_branch(ax: Axes, branch: Any, y: str, units: Any, **look: Any) -> None:
     """Draw a variable of the cycles along a branch over its parameter: thick where they are stable,
     with the special points."""
-    x = column(branch.name, branch.refined("values"), units=units)
+    x = column(branch.name, branch.refined(branch.name), units=units)
     known = OF_RESULTS["Branch"][y].attributes
     up = column(y, branch.refined(y), known, units)
     up.attrs["long_name"] = known["long_name"].capitalize()

@@ -7,7 +7,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 import xarray as xr
@@ -27,7 +27,7 @@ from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
 from disc_model.provenance import versions_text
 from disc_model.stability.continuation import Bounds, are_slow, passings, require_interval, turns_of
-from disc_model.stability.cycle import STICK_SLIP, FloquetResult, find_cycle
+from disc_model.stability.cycle import STICK_SLIP, find_cycle
 from disc_model.stability.sliding import growth_rates, steady_sliding
 from disc_model.units import Count, CycleTolerance, checked
 
@@ -277,37 +277,32 @@ def critical(
         else:
             look_for_tongues(scan, narrowest)
         scan.locate(SHORTEST * (high - low))
-    values = sorted(scan.motions)
-    motions = [scan.at(x) for x in values]
-    changes = scan.changes()
-    is_cycle = kind == STICK_SLIP
-    jumps = [
-        high
-        for low, high in changes
-        if is_cycle and abs(scan.at(high).period / scan.at(low).period - 1) > JUMP
-    ]
+    changes = [(above, scan.at(below), scan.at(above)) for below, above in scan.changes()]
+    known = sorted(scan.motions.items())
+    jumps = [x for x, below, above in changes if abs(above.period / below.period - 1) > JUMP]
     return Critical(
         parameters=case,
         name=name,
-        crossings=np.array([high for _, high in changes]),
-        unstable_above=np.array([scan.is_stable(low) for low, _ in changes], dtype=bool),
+        crossings=np.array([x for x, *_ in changes]),
+        unstable_above=np.array([below.stable for _, below, _ in changes], dtype=bool),
         jumps=np.array(jumps),
-        values=np.array(values),
-        growth_rate=np.array([motion.growth_rate for motion in motions]),
-        sliding_growth_rate=np.array([_rate_of_sliding(motion) for motion in motions]),
-        value=next((x for x in values if not scan.is_stable(x)), math.nan),
+        values=np.array([x for x, _ in known]),
+        growth_rate=np.array([motion.growth_rate for _, motion in known]),
+        sliding_growth_rate=np.array([motion.sliding_growth_rate for _, motion in known]),
+        value=next((x for x, motion in known if not motion.stable), math.nan),
         kind=kind,
     )
 
 
-def _rate_of_sliding(motion: Any) -> float:
-    """The growth rate of steady sliding, 1/s, if it is the motion, or takes the place of a cycle; else
-    nan."""
-    if getattr(motion, "motion", "") in ("steady_sliding", "unstable_sliding"):
-        motion = motion.sliding
-    elif isinstance(motion, FloquetResult):
-        return math.nan
-    return float(motion.growth_rate)
+class Motion(NamedTuple):
+    """A motion: whether small disturbances die out, its growth rate, that of steady sliding if it is
+    this motion (1/s, nan without one), its period (s), and its multipliers or eigenvalues."""
+
+    stable: bool
+    growth_rate: float
+    sliding_growth_rate: float
+    period: float
+    spectrum: ComplexArray
 
 
 class Scan:
@@ -320,45 +315,48 @@ class Scan:
         self.tol = tol
         self.kind = kind
         self.bar = bar
-        self.motions: dict[float, Any] = {}
+        self.motions: dict[float, Motion] = {}
 
-    def at(self, x: float) -> Any:
+    def at(self, x: float) -> Motion:
         """The motion at a value."""
         if x not in self.motions:
-            case = self.p.replace(**{self.name: x})
-            is_sliding = self.kind == SLIDING
-            self.motions[x] = steady_sliding(case) if is_sliding else find_cycle(case, self.tol)
+            self.motions[x] = self._motion(self.p.replace(**{self.name: x}))
             self.bar.advance()
         return self.motions[x]
 
-    def is_stable(self, x: float) -> bool:
-        """Whether small disturbances of the motion at a value die out."""
-        motion = self.at(x)
+    def _motion(self, case: Parameters) -> Motion:
         if self.kind == SLIDING:
-            return motion.status.exists and not motion.growing.size
-        return motion.motion in STABLE_CYCLES
-
-    def rate(self, x: float) -> float:
-        """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or of
-        another stability than its own rate, is 1 or -1."""
-        rate = float(self.at(x).growth_rate)
-        stable = self.is_stable(x)
-        return rate if math.isfinite(rate) and (rate < 0) == stable else 1.0 - 2.0 * stable
+            found = steady_sliding(case)
+            stable = found.status.exists and not found.growing.size
+            rate = found.growth_rate
+            return Motion(stable, rate, rate, math.nan, found.eigenvalues)
+        cycle = find_cycle(case, self.tol)
+        slides = cycle.motion in ("steady_sliding", "unstable_sliding")
+        rate = cycle.sliding_growth_rate if slides else math.nan
+        stable = cycle.motion in STABLE_CYCLES
+        return Motion(stable, cycle.growth_rate, rate, cycle.period, cycle.multipliers)
 
     def changes(self) -> list[tuple[float, float]]:
         """Neighbouring values between which stability changes."""
         pairs = pairwise(sorted(self.motions))
-        return [pair for pair in pairs if self.is_stable(pair[0]) != self.is_stable(pair[1])]
+        return [pair for pair in pairs if self.at(pair[0]).stable != self.at(pair[1]).stable]
 
     def locate(self, shortest: float) -> None:
         """Compute values up to where each change of stability lies between two that are `shortest`
         apart."""
+
+        def rate(x: float) -> float:
+            """A number that has the sign of growth: its rate, 1/s; that of a motion without one, or
+            of another stability than its own rate, is 1 or -1."""
+            stable, own, *_ = self.at(x)
+            return own if math.isfinite(own) and (own < 0) == stable else 1.0 - 2.0 * stable
+
         wide = True
         while wide:
             wide = False
             for low, high in self.changes():
                 if high - low > shortest * (1 + 1e-9) and low < 0.5 * (low + high) < high:
-                    brentq(self.rate, low, high, xtol=shortest / 2, rtol=1e-15)
+                    brentq(rate, low, high, xtol=shortest / 2, rtol=1e-15)
                     wide = True
 
 
@@ -366,28 +364,22 @@ def look_for_extremes(scan: Scan, narrowest: float) -> None:
     """Compute the greatest growth rates of sliding among stable neighbours, and the least ones among
     unstable ones: of modes that meet, only one may grow for a stretch."""
 
-    def largest(x: float) -> float:
+    def largest(x: float, sign: float) -> float:
         """The growth rate at a value, 1/s, of modes that are not neutral, which hide what happens to
-        others; 0 if all are, nan without steady sliding."""
-        sliding = scan.at(x)
-        rates = growth_rates(sliding.eigenvalues)
-        return float(rates[rates != 0].max() if rates.any() else sliding.growth_rate)
+        others, times a sign; 0 if all are, nan without steady sliding."""
+        rates = growth_rates(scan.at(float(x)).spectrum)
+        return sign * float(rates[rates != 0].max() if rates.any() else scan.at(x).growth_rate)
 
     known = sorted(scan.motions)
-    for low, middle, high in zip(known, known[1:], known[2:], strict=False):
-        stable = {scan.is_stable(x) for x in (low, middle, high)}
-        if len(stable) > 1:
-            continue
-        sign = -1.0 if stable == {True} else 1.0
-        ends = [sign * largest(x) for x in (low, middle, high)]
-        is_flat = ends[0] == ends[1] == ends[2]  # neutral at all three: there is no extreme
-        if ends[1] <= min(ends[0], ends[2]) and not is_flat:
-            minimize_scalar(
-                lambda x, sign=sign: sign * largest(float(x)),
-                bounds=(low, high),
-                method="bounded",
-                options={"xatol": narrowest},
-            )
+    for around in zip(known, known[1:], known[2:], strict=False):
+        stable = {scan.at(x).stable for x in around}
+        sign = -1.0 if True in stable else 1.0
+        before, here, after = (largest(x, sign) for x in around)
+        is_flat = before == here == after  # neutral at all three: there is no extreme
+        if len(stable) == 1 and here <= min(before, after) and not is_flat:
+            options = {"xatol": narrowest}
+            ends = (around[0], around[2])
+            minimize_scalar(largest, bounds=ends, args=(sign,), method="bounded", options=options)
 
 
 def look_for_tongues(scan: Scan, narrowest: float) -> None:
@@ -398,7 +390,7 @@ def look_for_tongues(scan: Scan, narrowest: float) -> None:
         gaps = set(pairwise(sorted(scan.motions))) - examined
         examined |= gaps
         for low, high in sorted(gaps):
-            for share in _doubtful_shares(scan.at(low).multipliers, scan.at(high).multipliers):
+            for share in _doubtful_shares(scan.at(low).spectrum, scan.at(high).spectrum):
                 if min(share, 1 - share) * (high - low) > narrowest:
                     scan.at(low + share * (high - low))
 

@@ -89,9 +89,11 @@ def lock_of(releases: Releases) -> Lock | None:
     return Lock(n, vibrations, period, closure(intervals, n))
 
 
-def cycle_at(p: Parameters, state: State, lock: Lock) -> Orbit | None:
-    """The cycle that a locked motion is on, with its shortest period: while the motion still
-    settles, its record may repeat only after several of them. None if Newton's method finds no
+def locked_cycle(
+    p: Parameters, state: State, lock: Lock, releases: Releases
+) -> tuple[Orbit, Lock] | None:
+    """The cycle that a locked motion is on, with its shortest period, and its lock: while the motion
+    still settles, its record may repeat only after several of these. None if Newton's method finds no
     cycle at the motion that repeats after as many releases and separations."""
     map_ = ReturnMap(p, patient=True)
     release = map_.next_release(state)
@@ -100,16 +102,12 @@ def cycle_at(p: Parameters, state: State, lock: Lock) -> Orbit | None:
     orbit = newton(map_, release.x, releases=lock.releases, may_separate=True)
     if orbit is None or orbit.counts.separations != lock.vibrations:
         return None
-    return run_through_once(map_, orbit)
-
-
-def lock_on(cycle: Orbit, releases: Releases, lock: Lock) -> Lock:
-    """The lock of a motion on a cycle: that of the record, unless the cycle has a shorter period."""
-    n = cycle.counts.releases
-    if n == lock.releases:
-        return lock
-    apart = closure(np.diff(releases.times), n)
-    return Lock(n, cycle.counts.separations, cycle.period, apart)
+    orbit = run_through_once(map_, orbit)
+    n = orbit.counts.releases
+    if n < lock.releases:
+        apart = closure(np.diff(releases.times), n)
+        lock = Lock(n, orbit.counts.separations, orbit.period, apart)
+    return orbit, lock
 
 
 class PhaseMap(NamedTuple):

@@ -172,22 +172,22 @@ def lyapunov_exponents(
             done = i + 1
 
     exponents, errors, converged = averages(logs[:done], length)
-    order = np.argsort(-exponents, kind="stable")
+    ranked = np.argsort(-exponents, kind="stable")
     trivial = math.nan
     # a motion at rest or in steady sliding has no trivial exponent
     log = frame.tangent.log
     events = log[columns.RELEASES] + log[columns.STICKS] + log[columns.SEPARATIONS]
     if leave_out_trivial and events > 0:
         trivial = float(exponents[0])
-        order = order[order != 0]
-    order = order[:count]
+        ranked = ranked[ranked != 0]
+    ranked = ranked[:count]
     return Lyapunov(
         status=status,
-        exponents=exponents[order],
-        errors=errors[order],
+        exponents=exponents[ranked],
+        errors=errors[ranked],
         duration=done * length,
         separations=int(log[columns.SEPARATIONS]),
-        converged=converged[order],
+        converged=converged[ranked],
         final_state=read_state(computed, state),
         trivial_exponent=trivial,
         parameters=case,

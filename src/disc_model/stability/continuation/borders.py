@@ -27,7 +27,6 @@ from disc_model.stability.continuation.curve import (
     check_step,
     follow_curve,
     passes,
-    solve,
     spectrum_of,
 )
 from disc_model.stability.continuation.cycles import (
@@ -60,10 +59,7 @@ LEAST_RESEMBLANCE = 0.6  # of a multiplier's eigenvectors at two neighbouring po
 DIFFERENCE = 1e-4  # arclength of the difference that gives a multiplier's gradient
 DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `check_step`
 ON_BORDER = 1e-10  # value of the test function that counts as zero
-LONGEST_REACH = 0.1  # longest step on the way to a border
-LARGEST_TURN = 0.1  # largest change of the multiplier in it; half of that in a step along a border
-REACHES = 60  # largest number of such steps
-HALVINGS = 6  # of one of them, before it is given up
+LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
 LARGEST_GROWTH = 1e3  # of its error over the least one: a first update of the gradient may be rough
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
@@ -105,7 +101,8 @@ class BorderProblem:
         z = self.cycles.place(x)
         found = self.cycles.evaluate(z)
         self._keep_vectors(found.jacobian, mu)
-        return self._reach(z, found)
+        _, mu = self._test(found.jacobian)
+        return self._correct(self._point(z, found, mu), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
@@ -177,41 +174,11 @@ class BorderProblem:
             turning=turns @ basis,
         )
 
-    def _reach(self, z: Array, found: Evaluation) -> CurvePoint:
-        """Move from a cycle near the border onto it, by the shortest way on the surface."""
-        value, mu = self._test(found.jacobian)
-        for _ in range(REACHES):
-            here = self._point(z, found, mu)
-            if abs(value) < ON_BORDER:
-                return here
-            move = -value * here.gradient / (here.gradient @ here.gradient)
-            turn = abs(complex(here.turning @ move))
-            shares = (
-                1.0,
-                LONGEST_REACH / float(np.linalg.norm(move)),
-                LARGEST_TURN / max(turn, 1e-300),
-            )
-            z, found, value, mu = self._moved(here, min(shares) * move)
-        raise Rejected("no point of the curve was found near the first cycle")
-
-    def _moved(self, here: CurvePoint, move: Array) -> tuple[Array, Evaluation, float, complex]:
-        """The cycle in the direction of a move on the surface, at a shorter distance if need be,
-        and the test function there."""
-        rows = np.vstack([here.tangent, here.gradient / np.linalg.norm(here.gradient)])
-        matrix = np.vstack([here.by, rows])
-        for _ in range(HALVINGS):
-            try:
-                z, found = solve(self.cycles, here.z + move, rows, matrix)
-                return z, found, *self._test(found.jacobian)
-            except Rejected:
-                move = move / 2
-        raise Rejected(DIVERGES)
-
     def _correct(self, start: CurvePoint, ds: float) -> CurvePoint:
         """The border's point at arclength ds: F = 0, test = 0, and the plane normal to the
         tangent."""
         expected = start.mu + complex(start.turning @ (ds * start.tangent))
-        if abs(expected - start.mu) > 2 * LARGEST_TURN:
+        if abs(expected - start.mu) > LARGEST_TURN:
             raise Rejected("the multiplier turns too fast")
         guess = start.z + ds * start.tangent
         rows = start.tangent[None, :]
@@ -254,7 +221,7 @@ def follow_border(
         start, new = points[0], points[-1]
         if np.any((new.z[n:] < low) | (new.z[n:] > high)):
             return BOUND
-        alike = len(points) > 3 and abs(start.mu - new.mu) <= 2 * LARGEST_TURN
+        alike = len(points) > 3 and abs(start.mu - new.mu) <= LARGEST_TURN
         if alike and passes(points[-2], new, start, CLOSES) is not None:
             points[-1] = start
             return CLOSED
@@ -449,7 +416,7 @@ class _CurveSearch:
             try:
                 problem, start = first_cycle(case, name, max(map(abs, span)), self.tol)
                 course = Tracer(problem, MOST_ON_LINE, span).follow(start, 1 if begin < end else -1)
-            except ParameterError as error:
+            except (ParameterError, Rejected) as error:
                 self.failures.append(f"{name}={begin:.6g}: {error}")
                 return
             border = _border_of(course.entries)

@@ -19,6 +19,7 @@ from disc_model.data.variables import (
     OF_RESULTS,
     attributes_of_number,
     unit_of_parameter,
+    value_with_unit,
 )
 from disc_model.display import counted, drawings, progress_bar
 from disc_model.engine.jit.cache import compiling
@@ -79,7 +80,8 @@ class SpecialPoint:
         cycle shrinks to steady sliding; "branch_point", another branch crosses; "end", of the branch;
         "max_points", its end for no other reason than the number of points; "lost", its end where no step succeeds
     label : of the kind in AUTO and COCO: LP, PD, TR, BP, HB, EP; GR
-    period : s; stick_fraction; growth_rate : 1/s; range, u_min, u_max : m
+    period : s; stick_fraction; range, u_min, u_max : m
+    growth_rate : 1/s; exactly 0 where the cycle gains or loses stability
     multiplier : the one that is critical; at a grazing and at an end, the leading one
     after : number of the point of the branch before it, or at it
     changes_stability : whether the cycle gains or loses stability there
@@ -213,12 +215,10 @@ class Branch:
         1  fold    LP  15.094912
         2   end    EP  14.800000
         """
-        import pandas as pd
-
-        names = ("kind", "label", self.name, *VARIABLES, "multiplier", "after")
-        columns: dict[str, Any] = {name: self.variable(f"special_{name}") for name in names}
-        columns["state"] = [each.state for each in self.special]
-        return pd.DataFrame(columns)
+        table = self.data.drop_dims(["point", "mode", "multiplier"]).to_dataframe()
+        table.columns = [str(name).removeprefix("special_") for name in table]
+        states: Any = {"state": [each.state for each in self.special]}
+        return table.reset_index(drop=True).assign(**states)
 
     def to_dataset(self) -> xr.Dataset:
         """The whole branch as a dataset, to save, or to handle by xarray and pandas.
@@ -299,17 +299,11 @@ class Branch:
         return State(time=0.0, **{name: self.variable(begin + name)[i].tolist() for name in STATE})
 
     def refined(self, name: str) -> Array:
-        """A variable, or `values`, at the points of the branch and, in their places between these, at
-        its `changes`; shape (n_points + n_changes, ...), in SI units. Growth rates are exactly 0 where
-        the cycle gains or loses stability."""
-        changes = self.changes
-        located = [each.value if name == "values" else getattr(each, name) for each in changes]
-        if name == "growth_rate":
-            located = [
-                0.0 if each.changes_stability else rate
-                for each, rate in zip(changes, located, strict=True)
-            ]
-        return np.insert(getattr(self, name), [each.after + 1 for each in changes], located)
+        """A variable of each cycle, such as the parameter, at the points of the branch and, in their
+        places between these, at its `changes`; shape (n_points + n_changes,), in SI units."""
+        located = np.isin(self.variable("special_kind"), CHANGES)
+        places = 1 + self.variable("special_after")[located].astype(int)
+        return np.insert(self.variable(name), places, self.variable(f"special_{name}")[located])
 
     def plot(
         self,
@@ -376,13 +370,14 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
         "releases": np.array([point.orbit.counts.releases for point in points]),
         "diameters": np.array([problem.leading_diameters(point) for point in points]),
     }
-    neutral = np.abs(growth * period) <= NEUTRAL
+    neutral = (np.abs(growth * period) <= NEUTRAL) & np.isin(kinds, CHANGES)
+    growth[neutral] = 0.0
     of_special = {
         "kind": kinds,
         "label": np.array([LABELS.get(kind, "") for kind in kinds]),
         "multiplier": np.array([entry.multiplier for entry in entries], dtype=complex),
         "after": np.maximum(np.cumsum(~is_special) - 1, 0),
-        "changes_stability": neutral & np.isin(kinds, CHANGES),
+        "changes_stability": neutral,
     }
     attrs = {
         "ended": "; ".join(dict.fromkeys(filter(None, (course.first, course.last)))),
@@ -502,7 +497,8 @@ def continue_cycle(  # noqa: PLR0913
     with progress_bar("continue_cycle", None, progress) as bar:
 
         def keep(point: CurvePoint) -> dict[str, Any]:
-            bar.describe(f"continue_cycle at {problem.words(point.z)}")
+            value = problem.values(point.z)[0]
+            bar.describe(f"continue_cycle at {value_with_unit(name, value)}")
             bar.advance()
             return kept_of(problem, point)
 

@@ -25,7 +25,6 @@ from scipy.optimize import brentq
 from scipy.optimize import newton as root_by_secants
 
 from disc_model.arrays import Array, ComplexArray
-from disc_model.data.variables import value_with_unit
 from disc_model.errors import Fault, ModeError, ParameterError
 from disc_model.parameters import DEFAULTS, Parameters
 from disc_model.simulation.states import State
@@ -50,7 +49,7 @@ from disc_model.stability.continuation.curve import (
     turns_between,
 )
 from disc_model.stability.cycle import SLIPPING, find_cycle, multipliers
-from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap, newton_step
+from disc_model.stability.return_map import ENDS, PARAMETERS, Orbit, ReturnMap
 from disc_model.stability.slipping import SlippingMap, find_slipping_cycle
 
 # typical values of parameters whose value in Table 1 is missing or 0
@@ -168,10 +167,6 @@ class CycleProblem:
         """The case at a point; raises `ParameterError` where there is none."""
         return self.base.replace(**dict(zip(self.names, self.values(z).tolist(), strict=True)))
 
-    def words(self, z: Array) -> str:
-        """The values of the free parameters at a point, such as "Omega = 15.0949 rad/s"."""
-        return ", ".join(map(value_with_unit, self.names, self.values(z).tolist()))
-
     def map_at(self, z: Array) -> Any:
         """The return map of the case at a point."""
         values = z[self.n :].tolist()
@@ -222,18 +217,17 @@ class CycleProblem:
         orbit, residual = self._return(z, tangent=True)
         turn = self.turn(z)
         jacobian = orbit.jacobian * turn[:, None] / turn[None, :]
-        by = [jacobian - np.eye(self.n)]
-        known = iter(orbit.by.T)
-        for i, (name, scale) in enumerate(zip(self.names, self.scales, strict=True)):
-            if name in self._differentiable:
-                column = next(known) * turn / self.size * scale
-            else:
-                column = self._difference(z, residual, i)
-            by.append(column[:, None])
-        whole = np.hstack(by)
-        if not (np.all(np.isfinite(whole)) and np.all(np.isfinite(residual))):
+        known = dict(zip(self._differentiable, orbit.by.T, strict=True))
+        changes = [
+            known[name] * turn / self.size * self.scales[i]
+            if name in known
+            else self._difference(z, residual, i)
+            for i, name in enumerate(self.names)
+        ]
+        by = np.column_stack([jacobian - np.eye(self.n), *changes])
+        if not np.isfinite([*by.T, residual]).all():
             raise Rejected("the variational equations are singular: a switch is grazed")
-        return Evaluation(residual, whole, orbit, jacobian)
+        return Evaluation(residual, by, orbit, jacobian)
 
     def _difference(self, z: Array, here: Array, i: int) -> Array:
         """Derivative of F, which is `here` at z, by the i-th scaled parameter, by a difference of
@@ -293,34 +287,28 @@ def first_cycle(
     of the case `p`, from which they are followed: a point of the curve in one parameter, which rises
     along the tangent. Other arguments are those of `disc_model.floquet`.
 
-    Raises `ParameterError` if there is no cycle, or none that can be followed.
+    Raises `ParameterError` if there is no cycle, or `Rejected` if it cannot be followed.
     """
-    if kind == SLIPPING:
-        cycle = find_slipping_cycle(p, tol, guess)
-    else:
-        cycle = find_cycle(p, tol, guess, releases)
-    may_separate = guess is not None and kind != SLIPPING
-    hint = f"start from another value of {name}, or give a guess"
-    if may_separate and cycle.state is None:
-        raise ParameterError(Fault(("guess",), "", f"must lie near a cycle, but {cycle.message}"))
+    slips = kind == SLIPPING
+    cycle = find_slipping_cycle(p, tol, guess) if slips else find_cycle(p, tol, guess, releases)
+    may_separate = guess is not None and not slips
     if cycle.state is None or (cycle.releases > 1 and not may_separate):
+        hint = f"start from another value of {name}, or give another guess"
         rule = f"must have a cycle, but the search ended with {cycle.message}; {hint}"
-        raise ParameterError(Fault(("case",), "", rule))
-
+        raise ParameterError(Fault(("guess" if may_separate else "case",), "", rule))
     order = cycle.releases if may_separate else 0
-    section = SlippingMap if kind == SLIPPING else None
-    scale = parameter_scale(p, name, farthest)
-    problem = CycleProblem(p, [name], [scale], tol, order, section)
+    section = SlippingMap if slips else None
+    problem = CycleProblem(p, [name], [parameter_scale(p, name, farthest)], tol, order, section)
     z = problem.place(problem.reference.point(cycle.state))
-    rising = parameter_row(len(z), 1.0)
-    try:
-        found = problem.evaluate(z)
-    except Rejected as lost:
-        rule = f"must have a cycle that can be followed, but at its state {lost}; {hint}"
-        raise ParameterError(Fault(("case",), "", rule)) from None
-    left = np.append(found.residual, 0.0)
-    z = z - newton_step(np.vstack([found.by, rising]), left)
-    return problem, curve_point(z, found, rising)
+    return problem, curve_point(*cycle_at_value(problem, z), parameter_row(len(z), 1.0))
+
+
+def cycle_at_value(problem: CycleProblem, z: Array) -> tuple[Array, Evaluation]:
+    """The cycle near a point, at its value of the one free parameter; raises `Rejected` if there is
+    none."""
+    row = parameter_row(len(z), 1.0)
+    matrix = np.vstack([problem.evaluate(z).by, row])
+    return solve(problem, z, row[None, :], matrix)
 
 
 def leading(point: CurvePoint) -> complex:
@@ -680,7 +668,7 @@ def _found_between(tracer: Tracer, before: CurvePoint, after: CurvePoint) -> Ite
     if before.slope * after.slope < 0:
         fold = tracer.locate(before, after, lambda point: point.slope)
         if fold is None:
-            raise Rejected(f"a fold near {tracer.problem.words(before.z)} cannot be located")
+            raise Rejected("a fold cannot be located")
         knots.insert(1, fold)
         yield fold, FOLD, 1.0 + 0j
     elif before.orientation != after.orientation:
@@ -713,21 +701,19 @@ def _crossing_pairs(before: CurvePoint, after: CurvePoint) -> Iterator[tuple[Cur
     """The pairs of multipliers, each as a point and the number of one there, that are complex at one
     of two neighbours at least, and may have crossed the unit circle at the other."""
     successors = follow_multipliers(before.spectrum, after.spectrum)
-    for i, multiplier in enumerate(before.spectrum.values):
-        j = int(successors[i])
-        successor = after.spectrum.values[j]
-        crosses = (abs(multiplier) - 1) * (abs(successor) - 1) < 0
-        if multiplier.imag > 0 and (successor.imag == 0 or crosses):
-            yield before, i
-        elif multiplier.imag == 0 and successor.imag > 0:
-            yield after, j
+    first = before.spectrum.values
+    last = after.spectrum.values[successors]
+    crosses = (np.abs(first) - 1) * (np.abs(last) - 1) < 0
+    parts = (first.imag > 0) & ((last.imag == 0) | crosses)
+    meets = (first.imag == 0) & (last.imag > 0)
+    yield from ((before, int(i)) for i in np.flatnonzero(parts))
+    yield from ((after, int(j)) for j in successors[meets])
 
 
 def _followed(start: CurvePoint, i: int, point: CurvePoint) -> tuple[complex, complex]:
-    """The multipliers of a point that continue the i-th one of another, and its conjugate."""
-    values = start.spectrum.values
-    conjugate = int(np.argmin(np.abs(values - values[i].conjugate())))
-    successors = follow_multipliers(start.spectrum, point.spectrum)[[i, conjugate]]
+    """The multipliers of a point that continue the i-th one of another, of a positive imaginary part,
+    and the next, which is its conjugate."""
+    successors = follow_multipliers(start.spectrum, point.spectrum)[[i, i + 1]]
     first, second = point.spectrum.values[successors].tolist()
     return first, second
 
@@ -764,16 +750,17 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
 
     The shorter cycle is regular there, while F of the longer one has a double zero.
     """
-    assert problem.half is not None
+    half = problem.half
+    assert half is not None
     z = near.z.copy()
-    z[: problem.n] += problem.half.residual(near.z) / 2
+    z[: problem.n] += half.residual(near.z) / 2
 
     def excess(value: float) -> float:
         """By how much the critical multiplier exceeds -1 at a scaled value of the parameter; `z` is
         then the shorter cycle there."""
         nonlocal z
         z[-1] = value
-        z, found = _shorter_cycle(problem, z)
+        z, found = cycle_at_value(half, z)
         return nearest(multipliers(found.jacobian), -1.0).real + 1
 
     try:
@@ -787,14 +774,6 @@ def locate_doubling(problem: CycleProblem, near: CurvePoint) -> CurvePoint | Non
     return curve_point(z, found, near.tangent)
 
 
-def _shorter_cycle(problem: CycleProblem, z: Array) -> tuple[Array, Evaluation]:
-    """The cycle of half as many releases near a point, at its value of the parameter."""
-    assert problem.half is not None
-    row = parameter_row(len(z), 1.0)
-    matrix = np.vstack([problem.half.evaluate(z).by, row])
-    return solve(problem.half, z, row[None, :], matrix)
-
-
 def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | None:
     """The first cycle of a branch that begins at a period doubling, near a cycle of half as many
     releases, with the tangent away from it; None if the start is no such cycle.
@@ -805,7 +784,7 @@ def leave_doubling(problem: CycleProblem, start: CurvePoint) -> CurvePoint | Non
     if half is None or np.linalg.norm(half.residual(start.z)) > SAME_HALVES:
         return None
     # at a doubling the longer cycle is a double solution, which its search misses by some 1e-4
-    z, shorter = _shorter_cycle(problem, start.z)
+    z, shorter = cycle_at_value(half, start.z)
     values, vectors = np.linalg.eig(shorter.jacobian)
     critical = int(np.argmin(np.abs(values + 1)))
     if abs(values[critical] + 1) > NEAR_DOUBLING:

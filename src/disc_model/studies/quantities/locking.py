@@ -126,17 +126,17 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
 def _proof(run: Result, lock: Lock) -> dict[str, Any] | None:
     """Columns of the stable cycle that a motion is on; None without one."""
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import cycle_at, lock_on, releases_of
+    from disc_model.stability.locking import locked_cycle, releases_of
 
-    cycle = cycle_at(run.parameters, run.final_state, lock)
-    if cycle is None:
+    taken = releases_of(run)
+    assert taken is not None
+    found = locked_cycle(run.parameters, run.final_state, lock, taken)
+    if found is None:
         return None
+    cycle, lock = found
     known = multipliers(cycle.jacobian)
     if not abs(known[0]) < 1:
         return None
-    taken = releases_of(run)
-    assert taken is not None
-    lock = lock_on(cycle, taken, lock)
     real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
     return {
         **_columns_of(lock),
