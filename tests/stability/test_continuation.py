@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-import xarray as xr
 from numpy.testing import assert_allclose, assert_array_equal
 
 import disc_model as dm
@@ -144,7 +143,6 @@ def test_a_limit_of_the_parameter_ends_the_branch(monkeypatch: pytest.MonkeyPatc
 
 # ---- Of the slider
 
-pytest_compiled = pytest.mark.compiled
 STEEL = {
     "normalization": "orthonormal",
     "a": 0.04,
@@ -173,24 +171,6 @@ BRANCHES = {
 def branch(request: pytest.FixtureRequest) -> dm.Branch:
     p, bounds = BRANCHES[request.param]
     return dm.continue_cycle(p, "Omega", bounds)
-
-
-def folds_of(branch: dm.Branch) -> np.ndarray:
-    """Values and periods of the folds, (n, 2): cycles of one value differ in their periods."""
-    folds = [each for each in branch.special if each.kind == "fold"]
-    return np.array([(each.value, each.period) for each in folds]).reshape(-1, 2)
-
-
-@pytest.mark.compiled
-def test_no_fold_is_listed_twice_and_shorter_steps_find_the_same(branch: dm.Branch) -> None:
-    folds = folds_of(branch)
-    apart = np.abs(folds[:, None] / folds[None] - 1).max(axis=2) + np.eye(len(folds))
-    assert apart.min(initial=1.0) > 1e-7
-    bounds = next(bounds for case, bounds in BRANCHES.values() if case == branch.case)
-    fine = dm.continue_cycle(branch.case, "Omega", bounds, steps=SHORT)
-    assert len(fine) > len(branch)
-    assert fine.ended == branch.ended
-    assert_allclose(folds_of(fine), folds, rtol=1e-9)  # both are located to rounding
 
 
 @pytest.mark.compiled
@@ -283,13 +263,6 @@ def test_a_branch_of_twice_the_period_ends_and_begins_at_the_doubling(separating
 
 
 @pytest.mark.compiled
-def test_cycles_that_never_stick_come_to_steady_sliding() -> None:
-    block = RIG.replace(m=0.4, k_p=7000, c_p=6)
-    branch = dm.continue_cycle(block, "Omega", (1, 3), kind="slipping")
-    assert [each.kind for each in branch.special] == ["hopf", "grazing"]
-
-
-@pytest.mark.compiled
 @pytest.mark.parametrize(("name", "value"), [("contact_arc", 0.1), ("damping_ratio", 1e-4)])
 def test_a_branch_reaches_the_least_value_of_its_parameter(name: str, value: float) -> None:
     """Where a difference of orbits on both sides would need a value below 0."""
@@ -358,14 +331,6 @@ def test_a_stored_branch_is_a_branch_again(kind: str, folded: dm.Branch, tmp_pat
     assert_allclose(onward.period[place], again.period[-1], rtol=1e-9)
     with refusal(r"must be a dataset of Branch\.to_dataset"):
         dm.Branch.from_dataset(stored.drop_vars("special_a"))
-
-
-@pytest.mark.compiled
-def test_a_sweep_holds_branches(folded: dm.Branch) -> None:
-    swept = dm.sweep(dm.continue_cycle, FOLDED, name="Omega", bounds=(14.8, 15.2), N=[300, 385])
-    again = dm.Branch.from_dataset(swept.sel(N=385))
-    assert_allclose(again.folds, folded.folds, rtol=1e-12)
-    assert isinstance(again.to_dataset(), xr.Dataset)
 
 
 @pytest.mark.compiled

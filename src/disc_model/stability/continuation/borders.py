@@ -61,7 +61,6 @@ DEFECT = 0.1  # of a step along a border, which turns by up to 37 degrees; see `
 ON_BORDER = 1e-10  # value of the test function that counts as zero
 LARGEST_TURN = 0.2  # largest change of the multiplier in a step along a border
 MOST_CORRECTIONS = 12  # of Newton's method at a point of a border
-LARGEST_GROWTH = 1e3  # of its error over the least one: a first update of the gradient may be rough
 CLOSES = 0.01  # distance from the first point of a border at which it has closed, over the step
 MOST_ON_LINE = StepControl(max_points=500)  # of a branch between two points of a line
 BORDER_KINDS: Mapping[str, Kind] = {
@@ -186,15 +185,10 @@ class BorderProblem:
         z = guess
         found = self.cycles.evaluate(z)
         value, mu = self._test(found.jacobian)
-        least = math.inf
         for _ in range(MOST_CORRECTIONS):
             right = np.concatenate([found.residual, [value], rows @ (z - guess)])
-            error = float(np.linalg.norm(right))
-            if error < ON_BORDER:
+            if float(np.linalg.norm(right)) < ON_BORDER:
                 return self._point(z, found, mu)
-            least = min(least, error)
-            if not error <= LARGEST_GROWTH * least:
-                break
             move = -newton_step(np.vstack([found.by, gradient, rows]), right)
             z = z + move
             found = self.cycles.evaluate(z)
