@@ -243,7 +243,7 @@ def neutral() -> Picture:
 def periods() -> Picture:
     [fold] = [point for point in branch().special if point.kind == "fold"]
     shown = (
-        Shown(0, "x", SPEED, [*branch().values[:, 0], fold.values[0]], "rad/s"),
+        Shown(0, "x", SPEED, [*branch().values, fold.value], "rad/s"),
         Shown(0, "y", "Period of the cycle", [*branch().period, fold.period], "s"),
     )
     return Picture(functools.partial(branch().plot, "period"), shown)
@@ -386,7 +386,7 @@ def test_a_special_point_is_marked_in_the_units_of_both_axes() -> None:
     [fold] = [point for point in branch().special if point.kind == "fold"]
     ax = branch().plot("period", units={"Omega": "rpm"})
     [mark] = [drawn for drawn in ax.lines if drawn.get_label() == "fold"]
-    assert mark.get_xdata() == pytest.approx([fold.values[0] * 30 / np.pi], rel=1e-12)
+    assert mark.get_xdata() == pytest.approx([fold.value * 30 / np.pi], rel=1e-12)
     assert mark.get_ydata() == pytest.approx([1e3 * fold.period], rel=1e-12)
 
 

@@ -127,7 +127,6 @@ def test_the_branch_of_a_disc_ends_where_steady_sliding_loses_stability() -> Non
     ("options", "fault"),
     [
         ({"kind": "sliding"}, "kind='sliding': must be one of stick_slip, slipping"),
-        ({"kind": 1}, "kind=1: must be one of"),
         ({"kind": "slipping", "guess": dm.State, "releases": 2}, "must be left out of a cycle"),
     ],
 )

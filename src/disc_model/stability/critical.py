@@ -252,7 +252,7 @@ def critical(
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=12)
     >>> dm.critical(case, "mu_s", (0.38, 0.42), points=5)
-    Critical(mu_s, stick_slip: 1 jump to another cycle, from 0.414... to 0.414..., 3 crossings, ... of ...)
+    Critical(mu_s, stick_slip: 1 jump to another cycle, from 0.414... to 0.414..., 3 crossings, ... values)
 
     Steady sliding of a block on a rigid disc is unstable while friction falls too steeply with the speed:
 

@@ -327,7 +327,8 @@ class Branch:
         >>> dm.continue_cycle(dm.Parameters(N=385, Omega=14.9), "Omega", (14.8, 15.2)).plot("period").get_ylabel()
         'Period of the cycle (ms)'
         """
-        require((y in VARIABLES, "y", y, rule_of_choice(VARIABLES)))
+        known = isinstance(y, str) and y in VARIABLES
+        require((known, "y", y, rule_of_choice(VARIABLES)))
         return drawings().branch(ax, self, y, units, **look)
 
 
