@@ -3,6 +3,7 @@ along `special`."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -66,6 +67,10 @@ SHOWN_ENDS = (GRAZING, HOPF, PERIOD_DOUBLING, MOST_POINTS, LOST)
 NEUTRAL = 1e-6  # logarithm of a multiplier's modulus that counts as 0 at a special point
 STATE = ("psi", "f", "u", "u_velocity", "phase", "direction", *COORDINATES)
 """Values of a cycle's state on the section, at time 0."""
+OF_CYCLES = (
+    *("largest_multiplier", "stable", "multipliers", "separations", "releases", "diameters"),
+)
+"""What is given of the points of a branch, but not of special ones."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -335,13 +340,32 @@ class Branch:
 # ---- What a continuation has found, in SI units
 
 
-def kept_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
-    """What is kept of a cycle while the map of its case is at hand: its state, and the extremes of the
-    slider's height, by simulation."""
+def row_of(problem: CycleProblem, point: CurvePoint) -> dict[str, Any]:
+    """What is kept of a cycle while the map of its case is at hand, the extremes of the slider's height
+    by simulation."""
     whole = problem.state(point.z)
     own = {name: getattr(whole, name) for name in STATE}
-    low, high = extremes_of_cycle(problem.case(point.z), State(time=0.0, **own), point.orbit.period)
-    return {**own, "range": high - low, "u_min": low, "u_max": high}
+    period = point.orbit.period
+    low, high = extremes_of_cycle(problem.case(point.z), State(time=0.0, **own), period)
+    values = multipliers(point.jacobian)
+    largest = abs(complex(values[0]))
+    growth_rate = math.log(largest) / period if largest else -math.inf
+    return {
+        problem.names[0]: float(problem.values(point.z)[0]),
+        "growth_rate": growth_rate,
+        "period": period,
+        "stick_fraction": point.orbit.stick_time / period,
+        "range": high - low,
+        "u_min": low,
+        "u_max": high,
+        **own,
+        "largest_multiplier": largest,
+        "stable": growth_rate < 0,
+        "multipliers": values,
+        "separations": point.orbit.counts.separations,
+        "releases": point.orbit.counts.releases,
+        "diameters": problem.leading_diameters(point),
+    }
 
 
 def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()) -> Branch:
@@ -350,29 +374,15 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
     entries = _with_ends(course)
     kinds = np.array([entry.kind for entry in entries])
     is_special = kinds != ""
-    points = [entry.point for entry in entries]
-    values = np.array([problem.values(point.z)[0] for point in points])
-    for value in exact:
-        near = np.abs(values - value) <= SAME_VALUE * abs(value)
-        values[near & ~is_special] = value
-    period = np.array([point.orbit.period for point in points])
-    every = np.array([multipliers(point.jacobian) for point in points])
-    with np.errstate(divide="ignore"):  # of a single 0
-        growth = np.log(np.abs(every[:, 0])) / period
+    columns = {x: np.array([entry.kept[x] for entry in entries]) for x in entries[0].kept}
     [name] = problem.names
-    kept = {each: np.array([entry.kept[each] for entry in entries]) for each in entries[0].kept}
-    both = {name: values, "growth_rate": growth, "period": period, **kept}
-    both["stick_fraction"] = np.array([point.orbit.stick_time for point in points]) / period
-    of_cycles = {
-        "largest_multiplier": np.abs(every).max(axis=1),
-        "stable": growth < 0,
-        "multipliers": every,
-        "separations": np.array([point.orbit.counts.separations for point in points]),
-        "releases": np.array([point.orbit.counts.releases for point in points]),
-        "diameters": np.array([problem.leading_diameters(point) for point in points]),
-    }
-    neutral = (np.abs(growth * period) <= NEUTRAL) & np.isin(kinds, CHANGES)
+    for value in exact:
+        near = np.abs(columns[name] - value) <= SAME_VALUE * abs(value)
+        columns[name][near & ~is_special] = value
+    growth = columns["growth_rate"]
+    neutral = (np.abs(growth * columns["period"]) <= NEUTRAL) & np.isin(kinds, CHANGES)
     growth[neutral] = 0.0
+    both = {x: column for x, column in columns.items() if x not in OF_CYCLES}
     of_special = {
         "kind": kinds,
         "label": np.array([LABELS.get(kind, "") for kind in kinds]),
@@ -386,7 +396,7 @@ def branch_of(problem: CycleProblem, course: Course, exact: Sequence[float] = ()
         "free_parameters": name,
         "versions": versions_text(),
     }
-    variables = _variables("point", "", both | of_cycles, ~is_special)
+    variables = _variables("point", "", columns, ~is_special)
     variables |= _variables("special", "special_", both | of_special, is_special)
     return Branch(xr.Dataset(variables, attrs=attrs).set_coords([name, f"special_{name}"]))
 
@@ -501,7 +511,7 @@ def continue_cycle(  # noqa: PLR0913
             value = problem.values(point.z)[0]
             bar.describe(f"continue_cycle at {value_with_unit(name, value)}")
             bar.advance()
-            return kept_of(problem, point)
+            return row_of(problem, point)
 
         tracer = Tracer(problem, steps, bounds, stops, keep)
         course = tracer.with_values(tracer.follow(start, direction), values)
