@@ -7,18 +7,18 @@ friction over the speed, to a case without friction's work on tangential motion,
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 import numpy as np
+from pydantic import Field
 from scipy.optimize import brentq
 
 from disc_model.arrays import Array
-from disc_model.errors import Fault, raise_faults, violations
-from disc_model.parameters import SURFACE, Parameters, Quantity, foreign_case
+from disc_model.parameters import SURFACE, Parameters
 from disc_model.simulation.states import engine_case
-from disc_model.stability.continuation import free_faults, interval_in_si
+from disc_model.stability.continuation import Bounds, require_interval
 from disc_model.stability.sliding import LAWS, FollowedModes, follow_modes
-from disc_model.units import is_whole
+from disc_model.units import Count, checked
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -33,8 +33,13 @@ COLUMNS = (
 )
 
 
+@checked
 def squeal(
-    case: Parameters, bounds: tuple[Quantity, Quantity], *, name: str = "Omega", points: int = 41
+    case: Parameters,
+    bounds: Bounds,
+    *,
+    name: str = "Omega",
+    points: Annotated[Count, Field(ge=2, le=MOST_POINTS)] = 41,
 ) -> DataFrame:
     """Which modes of steady sliding grow within a range of speeds or of another number, at how many Hz, from where on,
     and why.
@@ -81,18 +86,8 @@ def squeal(
     """
     from pandas import DataFrame
 
-    of_bounds: list[Fault] = []
-    ends = interval_in_si(name, bounds, of_bounds)
-    ascend = ends is not None or bool(of_bounds)
-    counts = is_whole(points) and 2 <= points <= MOST_POINTS
-    wrong = violations(
-        (ascend, "bounds", bounds, "must be two ascending finite numbers"),
-        (counts, "points", points, f"must be a whole number from 2 to {MOST_POINTS}"),
-    )
-    raise_faults(foreign_case(case) or of_bounds + wrong + free_faults(case, [name]))
-
-    low, high = ends
-    values = np.linspace(low, high, points).tolist()
+    require_interval(case, name, bounds)
+    values = np.linspace(*bounds, points).tolist()
     followed = follow_modes([case.replace(**{name: value}) for value in values])
     growth = np.full((1 + max(max(one.numbers, default=0) for one in followed), points), math.nan)
     for i, one in enumerate(followed):
