@@ -16,7 +16,6 @@ import xarray as xr
 
 from disc_model import Parameters, Poincare, Window, run_study, simulate
 from disc_model.data.variables import WORDS, attributes
-from disc_model.studies.compute import stack
 from disc_model.studies.quantity import QUANTITIES, found, quantity_of
 from tests.figures.measured import Shown
 
@@ -90,8 +89,6 @@ def study_of(
         return found(quantity, cells, **along)
 
     def result(case: Parameters, **options: Any) -> xr.Dataset:
-        if known.plane:
-            return plane_of(at, axes, options["axes"])
         kicks = options["start"].perturbation if "start" in options else {}
         place = []
         for name, values in axes.items():
@@ -102,17 +99,6 @@ def study_of(
     with pytest.MonkeyPatch.context() as patch:
         patch.setitem(QUANTITIES, quantity, replace(known, function=result))
         return computed(quantity=quantity, axes=dict(axes), **{"options": {}, **raw})
-
-
-def plane_of(at: Any, axes: Mapping[str, Any], plane: Mapping[str, Any]) -> xr.Dataset:
-    """The results at the points of a plane, whose dimensions come first among the axes."""
-    first, second = (len(plane[name]) for name in axes if name in plane)
-    rest = [0] * (len(axes) - 2)
-    places = np.array([*np.ndindex(first, second)])
-    rows = [at(*place, *rest) for place in places.tolist()]
-    names = [name for name in axes if name in plane]
-    whole = stack(rows, places, dict(zip(names, (first, second), strict=True)))
-    return whole.assign_coords({name: [*axes[name]] for name in names})
 
 
 # ---- General kinds

@@ -87,8 +87,6 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
             "bounds": (14.75, 15.25),
             "step": 0.25,
             "dwell": 60,
-            "evaluation_time": 1,
-            "max_points": 60,
         },
         {"n_branches": 2, "separations": [0, 2], "sweep_range": [8.89628e-05, 1.559323e-04]},
     ),
@@ -123,9 +121,8 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
             "distributions": {"k": NARROW},
             "samples": 2,
             "simulated_samples": 2,
-            "extrapolate": False,
         },
-        {"first_separation": [273.46777, 272.92294], "probability_separation": 1.0},
+        {"outcome": ["separation"] * 2, "probability_separation": 1.0},
     ),
     (
         "locking",
@@ -147,9 +144,9 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
     ),
     (
         "regions",  # just below two oscillations of 135.42 Hz
-        P.replace(N=0),
-        {"axes": {"N": [100.0, 110.0], "Omega": [14.0, 15.0]}, "horizon": 50},
-        {"cycle": ["followed"] * 4, "growth_rate": [-0.0031225616], "period_ratio": [1.9058395]},
+        P.replace(N=100),
+        {"horizon": 50},
+        {"cycle": "followed", "growth_rate": -0.0031225616, "period_ratio": 1.9058395},
     ),
 ]
 """Quantity, case, options, and values of variables, of which arrays may have more."""
@@ -220,7 +217,7 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
         "step=0.5 rad/s must be a multiple of precision=0.2",
     ),
     ("critical_speed", {"bounds": 14}, "bounds=14"),
-    ("critical_speed", {"bounds": (15, 14)}, "must ascend"),
+    ("critical_speed", {"bounds": (15, 14)}, "start=15 must be < stop=14"),
     ("critical_speed", {"bounds": (0, 1e6), "step": 1}, "must be at most 100000 values"),
     ("basins", {"energies": [0, 1], "n_starts": 2}, "n_starts=2 must be 1 where an energy is 0"),
     ("basins", {"energies": [2, 1]}, "must ascend"),
@@ -348,15 +345,15 @@ def test_what_has_no_room_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
 LOST: Any = SimpleNamespace(status=Status.NON_FINITE, message="lost")
 SWEEPS = [
     # separation rates up and down, onset, offset, what is said
-    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept at all 3 speeds from 12 to 16 rad/s"),
+    ([[0, 0, 0], [0, 0, 0]], math.nan, math.nan, "kept from Omega = 12 rad/s to Omega = 16 rad/s"),
     (
         [[0, 0, 9], [9, 9, 9]],
         16,
         math.nan,
-        "still lost on the way down at the lower bound, 12 rad/s",
+        "still lost on the way down at the lower bound, Omega = 12 rad/s",
     ),
-    ([[9, 9, 9], [0, 9, 9]], math.nan, 14, "lost on the way up from the lower bound on, 12 rad/s"),
-    ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at 16 rad/s, where the way down begins"),
+    ([[9, 9, 9], [0, 9, 9]], math.nan, 14, "lost on the way up from the lower bound on, Omega = 12 rad/s"),
+    ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at Omega = 16 rad/s, where the way down begins"),
     ([[0, 0, 9], [0, 9, 9]], 16, 14, ""),
     ([[0, 0, 9], [9, 0, 9]], 16, 16, ""),  # a gap ends it, though it begins again below
     ([[0, 0, 9], [None, 9, 9]], 16, math.nan, "Omega = 12 rad/s: lost"),
@@ -599,79 +596,44 @@ def test_samples_are_of_the_distributions_and_more_of_them_keep_the_first(
 # ---- Regions
 
 
-def near(
-    *, stable: bool = False, slow: bool = False, x: float = 0.0, size: float = 1.0
-) -> NearCycle:
+def near(*, stable: bool = False, slow: bool = False) -> NearCycle:
     """A cycle that the static start follows; `slow` if it grows too slowly to leave it."""
-    cycle: Any = SimpleNamespace(
-        stable=stable,
-        slow=slow,
-        growth_rate=0.1,
-        period=0.015,
-        releases=1,
-        separations=0,
-        parameters=P,
-    )
-    map_: Any = SimpleNamespace(deflection=size)
-    return NearCycle(cycle, True, map_, np.array([x, 0.0]), np.zeros(2), np.eye(2))
+    known = {"growth_rate": 0.1, "period": 0.015, "releases": 1, "separations": 0, "parameters": P}
+    cycle: Any = SimpleNamespace(stable=stable, slow=slow, **known)
+    map_: Any = SimpleNamespace(deflection=1.0)
+    return NearCycle(cycle, True, map_, np.zeros(2), np.zeros(2), np.eye(2))
 
 
 NO_CYCLE = SimpleNamespace(motion=CycleStatus.NO_CYCLE)
-APART_BY = [near(stable=True, x=3.0 * i) for i in range(6)]
-PLANES: list[tuple[list[Any], str, list[Any]]] = [
-    # what the search finds at the points of a row, a variable, its values
-    (
-        [near(stable=True), near(slow=True), near(), NO_CYCLE],
-        "method",
-        ["multipliers"] * 2 + ["simulation"] * 2,
-    ),
-    (
-        [near(stable=True), near(slow=True), near()],
-        "outcome",
-        ["stick_slip", "growing", "separation"],
-    ),
-    ([near(stable=True), NO_CYCLE, ValueError("")], "status", ["ok", "ok", "failed"]),
-    ([near(stable=True), near(x=0.001)], "branch_continues_second", ["yes", "no"]),
-    ([near(stable=True), near(x=0.1)], "branch_continues_second", ["no", "no"]),
-    ([near(x=3.0), near(x=6.0, size=2.0)], "branch_continues_second", ["yes", "no"]),
-    ([near(), near(x=0.03)], "other_cycles", [1, 1]),
-    ([near(), near(x=0.019)], "other_cycles", [0, 0]),
-    (APART_BY, "other_cycles", [3] * 6),  # four with its own
-    ([near(), NO_CYCLE], "cycle", ["followed", "no_cycle"]),
+STARTS = [
+    # what the search finds, method, outcome, what is said of the cycle
+    (near(stable=True), "multipliers", "stick_slip", "followed"),
+    (near(slow=True), "multipliers", "growing", "followed"),
+    (near(), "simulation", "separation", "followed"),
+    (NO_CYCLE, "simulation", "separation", "no_cycle"),
 ]
 
 
-@pytest.mark.parametrize(("starts", "variable", "values"), PLANES)
-def test_a_plane_says_how_outcomes_are_known_and_what_joins_cycles(
-    starts: list[Any], variable: str, values: list[Any], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize(("start", "method", "outcome", "cycle"), STARTS)
+def test_a_region_says_how_its_outcome_is_known(
+    start: Any, method: str, outcome: str, cycle: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def search(p: Parameters) -> Any:
-        start = starts[int(p.Omega) - 1]
-        if isinstance(start, ValueError):
-            raise dm.ModeError("no shape")
-        return start
-
-    def newton(map_: Any, guess: np.ndarray, **_: Any) -> Any:
-        return SimpleNamespace(start=guess) if variable == "other_cycles" else None
-
-    separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0)
-    monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", search)
+    separation = OutcomeResult(Outcome.SEPARATION, 1.0, first_separation=40.0, simulated=1.0)
+    monkeypatch.setattr("disc_model.stability.follower.cycle_of_static_start", lambda p: start)
     monkeypatch.setattr("disc_model.stability.follower.find_outcome", lambda *_, **__: separation)
-    monkeypatch.setattr("disc_model.stability.return_map.newton", newton)
     monkeypatch.setattr(NearCycle, "stays_linear_until", lambda self, horizon: self.cycle.slow)
-    axes = {"N": [100.0], "Omega": [1.0 + i for i in range(len(starts))]}
-    found = dm.regions(P, axes=axes, horizon=10)
-    assert found[variable].dims == ("N", "Omega")
-    assert found[variable].values[0].tolist() == values
-    assert bool(found["message"].values.any()) == (variable == "status")
+    found = dm.regions(P, 10)
+    assert found["method"].item() == method
+    assert found["outcome"].item() == outcome
+    assert found["cycle"].item() == cycle
 
 
 @pytest.mark.compiled
 def test_a_separation_has_a_time_where_that_is_asked_for() -> None:
     """At 273 s, after a slow departure from the cycle, which is extrapolated elsewhere."""
-    axes = {"N": [260.0], "Omega": [19.0]}
-    rough = dm.regions(P, axes=axes, horizon=500)
-    exact = dm.regions(P, axes=axes, horizon=500, timed=[{"N": 260, "Omega": 19}])
+    case = P.replace(N=260, Omega=19)
+    rough = dm.regions(case, 500)
+    exact = dm.regions(case, 500, timed=[{"N": 260, "Omega": 19}])
     assert rough["outcome"].item() == exact["outcome"].item() == "separation"
     assert rough["method"].item() == "extrapolation"
     assert math.isnan(rough["first_separation"].item())

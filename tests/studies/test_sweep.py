@@ -62,7 +62,7 @@ def test_words_missing_numbers_and_messages_where_a_point_fails() -> None:
     [
         (lambda: dm.sweep(dm.floquet, CASE, Omga=[1]), "Omga Omega"),
         (lambda: dm.sweep(dm.floquet, CASE, Omega=12), "Omega list"),
-        (lambda: dm.sweep(dm.floquet, CASE, Omega=["12 N"]), "Omega[0] '12 N' rad/s"),
+        (lambda: dm.sweep(dm.floquet, CASE, Omega=["12 N"]), "Omega '12 N' rad/s"),
         (lambda: dm.sweep(dm.floquet, CASE), "vary"),
         (lambda: dm.sweep(dm.floquet, CASE, zip={"N": [1], "Omega": [1, 2]}), "zip equal length"),
         (lambda: dm.sweep(dm.floquet, 3, Omega=[1]), "case Parameters"),

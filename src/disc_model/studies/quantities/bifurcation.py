@@ -24,17 +24,6 @@ if TYPE_CHECKING:
     from disc_model.stability.attractors import Arrival
 
 SAMPLED = ("psi", "psi_velocity", "P", "u", "w_point")
-SETTLED_TO = {
-    "stick_slip": "After the transient, of a motion that comes to the cycle of the static start.",
-    "other_cycle": "After the transient, of a motion that comes to another cycle in contact.",
-    "separating": "After the transient, of a motion that comes to a cycle with separations.",
-    "quasi_periodic": "After the transient, of a motion that is quasi-periodic.",
-    "irregular": "After the transient, of a motion that is irregular.",
-    "steady_sliding": "After the transient, of a motion that comes to steady sliding.",
-    "at_rest": "After the transient, of a motion that comes to permanent stick.",
-    "undecided": "After the transient, of a motion that has not shown what it comes to.",
-}
-"""What a stored motion is, by the kind that the samples of its point have."""
 Answer = tuple[dict[str, Any], str]
 """Values by variable, and a message."""
 
@@ -67,7 +56,7 @@ def _settled(
             "max_transient={0.max_transient:g} must be >= transient={0.transient:g}",
         ),
     ),
-    motion=Motion(8, "After the transient.", SETTLED_TO, _settled),
+    motion=Motion(8, "After the transient.", _settled),
 )
 def bifurcation(
     case: Parameters,
