@@ -507,7 +507,7 @@ def bifurcation() -> Example:
         "lyapunov_exponents",
         axes,
         numbers,
-        options={"count": 1, "duration": 9, "transient": 9},
+        options={"duration": 9, "transient": 9},
         base={"N": 385},
     )
     places = {"Fig. 13": 13.5}
@@ -540,7 +540,7 @@ def branches() -> Example:
         "sweep_settled": np.full((1, 2, 3), "settled"),
         "sliding_growth_rate": [[0.1, 0.1, 0.1]],
     }
-    options = {"bounds": [8, 14], "step": 3, "max_branches": 1, "max_points": 2, "dwell": 9}
+    options = {"bounds": [8, 14], "step": 3, "dwell": 9}
     own = {"direction": ["up", "down"], "sweep_value": [8.0, 11.0, 14.0]}
     study = study_of("branches", ONE, columns, own, options=options, base={"N": 385})
     return Example(
@@ -592,7 +592,7 @@ def starts() -> xr.Dataset:
         "critical_energy": CRITICAL,
         "critical_energy_sampled": [np.nan, 0.5, 0.01],
     }
-    options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60, "max_attractors": 2}
+    options = {"energies": ENERGIES, "n_starts": 4, "horizon": 60}
     own = {"energy": ENERGIES, "attractor_class": CLASSES, "attractor": [1, 2]}
     axes = {"Omega": SPEEDS}
     return study_of("basins", axes, columns, own, options=options, base={"N": 385})
@@ -660,7 +660,7 @@ def phase_map() -> Example:
         "release_phase": [own],
         "period_releases": [3],
     }
-    options = {"probes": 6, "releases": 3}
+    options = {"probes": 6}
     study = study_of("locking", {"Omega": [19.9]}, columns, options=options, base={"N": 200})
     return Example(
         {},

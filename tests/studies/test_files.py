@@ -126,8 +126,7 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"study": "elsewhere"}, "name of the file"),
-        ({"cases": {"A": CASE}}, "grid alone"),
+        ({"cases": {"A": CASE}}, "grids alone"),
         ({"quantity": "critical_sped"}, "critical_sped"),
     ],
 )

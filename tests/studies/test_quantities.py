@@ -83,11 +83,7 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
     (
         "branches",  # the fold lies at 15.0949 rad/s
         P,
-        {
-            "bounds": (14.75, 15.25),
-            "step": 0.25,
-            "dwell": 60,
-        },
+        {"bounds": (14.75, 15.25), "step": 0.25, "dwell": 60},
         {"n_branches": 2, "separations": [0, 2], "sweep_range": [8.89628e-05, 1.559323e-04]},
     ),
     (
@@ -117,11 +113,7 @@ TABLE: list[tuple[str, Parameters, dict[str, Any], dict[str, Any]]] = [
     (
         "sensitivity",
         P.replace(N=260, Omega=19),
-        {
-            "distributions": {"k": NARROW},
-            "samples": 2,
-            "simulated_samples": 2,
-        },
+        {"distributions": {"k": NARROW}, "samples": 2, "simulated_samples": 2},
         {"outcome": ["separation"] * 2, "probability_separation": 1.0},
     ),
     (
@@ -328,12 +320,7 @@ def test_the_precision_follows_the_step(
     assert found["simulations"].item() == simulations
 
 
-def test_what_has_no_room_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    alternating = {2: math.inf, 3: 1.0, 4: math.inf, 5: 1.0, 6: math.inf}
-    monkeypatch.setattr("disc_model.stability.follower.find_outcome", moving(alternating))
-    found = dm.critical_speed(P, (2, 6), step=1, precision=1, max_crossings=3)
-    assert found["n_crossings"] == 4
-    assert message_of(found).startswith("4 were found along crossing_number, which has room for 3")
+def test_what_has_no_room_is_told() -> None:
     modes = dm.sliding_modes(FALLING, bounds=(10, 50), step=20, modes=4)
     assert message_of(modes) == "10 were found along mode, which has room for 4"
     every = dm.sliding_modes(FALLING, bounds=(10, 50), step=20)
@@ -352,7 +339,12 @@ SWEEPS = [
         math.nan,
         "still lost on the way down at the lower bound, Omega = 12 rad/s",
     ),
-    ([[9, 9, 9], [0, 9, 9]], math.nan, 14, "lost on the way up from the lower bound on, Omega = 12 rad/s"),
+    (
+        [[9, 9, 9], [0, 9, 9]],
+        math.nan,
+        14,
+        "lost on the way up from the lower bound on, Omega = 12 rad/s",
+    ),
     ([[0, 9, 0], [0, 0, 0]], 14, math.nan, "kept at Omega = 16 rad/s, where the way down begins"),
     ([[0, 0, 9], [0, 9, 9]], 16, 14, ""),
     ([[0, 0, 9], [9, 0, 9]], 16, 16, ""),  # a gap ends it, though it begins again below
@@ -424,16 +416,15 @@ def kicked(monkeypatch: pytest.MonkeyPatch) -> Callable[..., xr.Dataset]:
 
 
 def test_shares_are_counted_with_wilsons_intervals(kicked: Callable[..., xr.Dataset]) -> None:
-    """Three of ten: 0.108 to 0.603 at 95 %, 0.154 to 0.503 at 80 % (Wilson 1927)."""
-    for confidence, ends in ((0.95, (0.1078, 0.6032)), (0.8, (0.1538, 0.5026))):
-        found = kicked(energies=[0.07], n_starts=10, confidence=confidence)
-        of_class = found.sel(attractor_class="separating")
-        for share in ("basin_fraction", "separating_fraction"):
-            assert of_class[share] == 0.3
-            both = of_class[f"{share}_low"].item(), of_class[f"{share}_high"].item()
-            assert both == pytest.approx(ends, abs=1e-4)
-        assert found["attractor_starts"].values[:3].tolist() == [7, 3, 0]
-        assert found["attractor_index"].values[0].tolist() == [2, 2, 2, *[1] * 7]
+    """Three of ten: 0.108 to 0.603 at 95 % (Wilson 1927)."""
+    found = kicked(energies=[0.07], n_starts=10)
+    of_class = found.sel(attractor_class="separating")
+    for share in ("basin_fraction", "separating_fraction"):
+        assert of_class[share] == 0.3
+        both = of_class[f"{share}_low"].item(), of_class[f"{share}_high"].item()
+        assert both == pytest.approx((0.1078, 0.6032), abs=1e-4)
+    assert found["attractor_starts"].values[:3].tolist() == [7, 3, 0]
+    assert found["attractor_index"].values[0].tolist() == [2, 2, 2, *[1] * 7]
 
 
 @pytest.mark.parametrize(
@@ -450,21 +441,20 @@ def test_undecided_starts_widen_intervals(
 
 
 ENERGIES = [
-    # least separating energy by start, options, critical energy, message
-    (lambda i: 0.02 * (i + 1), {"n_bisection_directions": 2, "precision": 0.01}, 0.02),
-    (lambda i: -1.0, {}, 0.0),
-    (lambda i: (0.04, 0.01, 9)[i], {"precision": 0.01}, 0.04),
-    (lambda i: (0.04, 0.01, 9)[i], {"precision": 0.01, "n_bisection_directions": 2}, 0.01),
-    (lambda i: 9.0, {}, math.nan),
+    # least separating energy by start, critical energy
+    (lambda i: 0.02 * (i + 1), 0.02),
+    (lambda i: -1.0, 0.0),
+    (lambda i: (0.04, 0.01, 9)[i], 0.04),
+    (lambda i: 9.0, math.nan),
 ]
 
 
-@pytest.mark.parametrize(("least", "options", "energy"), ENERGIES)
+@pytest.mark.parametrize(("least", "energy"), ENERGIES)
 def test_the_least_kick_is_bisected(
-    kicked: Callable[..., xr.Dataset], least: Any, options: dict[str, Any], energy: float
+    kicked: Callable[..., xr.Dataset], least: Any, energy: float
 ) -> None:
-    found = kicked(least, energies=[0.05, 1.0], n_starts=3, **options)
-    assert found["critical_energy"].item() == pytest.approx(energy, rel=0.011, nan_ok=True)
+    found = kicked(least, energies=[0.05, 1.0], n_starts=3)
+    assert found["critical_energy"].item() == pytest.approx(energy, rel=0.05, nan_ok=True)
 
 
 @pytest.mark.parametrize(
@@ -475,7 +465,7 @@ def test_the_least_kick_is_bisected(
         (
             {0: UNDECIDED, 1: replace(UNDECIDED, first_separation=2.0)},
             "ok",
-            "2 of 3 starts (1 after contact was lost) undecided within the horizon: raise it",
+            "2 of 3 starts undecided within the horizon: raise it",
         ),
     ],
 )

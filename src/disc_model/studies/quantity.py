@@ -321,7 +321,12 @@ def options_of(function: Callable[..., Any], rules: Rules) -> type[Ruled]:
 
 def failed(name: str, error: Exception) -> xr.Dataset:
     """The dataset of a point of a quantity that an error has ended."""
-    return found(name, {"status": "failed"}, f"{type(error).__name__}: {error}")
+    from disc_model.simulation.result import STATUS_OF
+
+    word = dict[Any, Any](STATUS_OF).get(type(error), "failed")
+    known = OF_QUANTITIES[name]["columns"]["status"].flags
+    status = word if word in known else "failed"
+    return found(name, {"status": status}, f"{type(error).__name__}: {error}")
 
 
 def found(

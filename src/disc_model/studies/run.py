@@ -24,7 +24,6 @@ from disc_model.data.variables import (
     attributes,
     attributes_of_mode,
 )
-from disc_model.errors import require
 from disc_model.parameters import Disc, Parameters
 from disc_model.provenance import git_commit, physics_hash, versions_text
 from disc_model.simulation.named_case import run_case
@@ -216,12 +215,6 @@ def run_study(
     # needs yaml, of the extra `workflow`
     from disc_model.studies.study import load_study, parse_study
 
-    named = isinstance(source, str | Path | Mapping)
-    require(
-        (named, "source", source, "must be the path of a study file, or a mapping"),
-        (callable(map), "map", map, "must be a function, such as map of an executor"),
-        (isinstance(progress, bool), "progress", progress, "must be True or False"),
-    )
     folder = Path() if isinstance(source, Mapping) else Path(source).parent
     study = parse_study(source, folder) if isinstance(source, Mapping) else load_study(source)
     grids, names = study.all_grids([folder])

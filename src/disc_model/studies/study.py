@@ -26,7 +26,7 @@ from disc_model.data.variables import PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
-from disc_model.figures.schema import NORM, CasePlot, Kind, Plot
+from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
 from disc_model.parameters import DEFAULTS, PLATE, Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
@@ -133,31 +133,12 @@ class NamedCase(Strict):
     def spec(self) -> CaseSpec:
         """What is simulated; raises `ParameterError` with places inside the case."""
         record = self.record
-        spans: dict[str, Any] = {name: x for name, x in record.windows.items() if x is not None}
-        if record.events:
-            spans["events"] = Span() if record.events is True else record.events
-        for name, span in spans.items():
-            start, stop = span.ends(0.0, self.t_end)
-            # where the run stops is not known before
-            if self.stop_at is None or span.last is None or start == 0:
-                rule = f"must be within the run: 0 <= {start:g} < {stop:g} <= t_end={self.t_end:g}"
-                require((0 <= start < stop <= self.t_end, f"record.{name}", "", rule))
-                spans[name] = span.resolved(0.0, self.t_end)
-        events = spans.pop("events", None)
-        if events is not None and events.last is None:
-            events = (events.start, events.stop)
         raise_faults([*ramp_faults(self.parameters, self.ramps, record.poincare is not None)])
-        return CaseSpec(
-            parameters=self.parameters,
-            t_end=self.t_end,
-            tol=self.tol,
-            stop_at=self.stop_at,
-            windows=tuple(spans.items()),
-            poincare=record.poincare,
-            events=events,
-            start=self.start,
-            ramps=self.ramps,
-        )
+        windows = tuple((name, x) for name, x in record.windows.items() if x is not None)
+        events = Span() if record.events is True else record.events or None
+        beside = {"windows": windows, "poincare": record.poincare, "events": events}
+        own = {name: getattr(self, name) for name in CaseSpec.model_fields if hasattr(self, name)}
+        return CaseSpec(**own, **beside)
 
     @pydantic.model_validator(mode="after")
     def _consistent(self) -> Self:
@@ -491,36 +472,27 @@ class Study(Strict):
     ) -> tuple[dict[str, Study], tuple[str, ...]]:
         """Studies of all grids, also those that only figures show, and the names of those of this file and
         the files it names."""
-        paths = {path.stem: path for each in self.studies for path in _matching(each, folders)}
-        grids = {self.study: self} if self.has_grid else {}
-        requested = (*grids, *paths)
+        named = [load_study(path) for each in self.studies for path in _matching(each, folders)]
+        own = [self] if self.has_grid else []
+        grids = {study.study: study for study in (*own, *named)}
+        wrong = [study.study for study in named if study.cases or study.studies]
+        if wrong or len(grids) < len(own + named):
+            rule = "must be files of grids alone, each of another study"
+            raise StudyError(Fault.of(("studies",), wrong, rule), source=self.study)
+        asked = tuple(grids)
         for plot in self.plots.values():
-            for name in filter(None, (plot.study, *plot.overlays.values())):
+            for name in {plot.study, *plot.overlays.values()} - {"", *grids}:
                 [path] = _matching(f"{name}.yaml", folders)
-                if path.is_file() and name not in requested:
-                    paths[name] = path
-        grids |= {name: self._grid_of(paths[name]) for name in paths}
+                if path.is_file():
+                    grids[name] = load_study(path)
         faults = []
-        for owner in (grids.get(name, self) for name in dict.fromkeys((self.study, *requested))):
+        for owner in {self.study: self, **{name: grids[name] for name in asked}}.values():
             for figure, plot in owner.plots.items():
                 for fault in _misfits(plot, owner.study, grids):
                     faults.append(f"{owner.study}: {fault.inside(('figures', figure))}")
         if faults:
             raise StudyError(*faults, source="grid studies")
-        return grids, requested
-
-    def _grid_of(self, path: Path) -> Study:
-        """The study of another file, which is a grid alone."""
-        study = load_study(path)
-        wrong = {
-            "must be the name of the file": study.study != path.stem,
-            "is the name of another folder of results": study.study == self.study,
-            "must be a grid alone": not study.has_grid or study.cases or study.studies,
-        }
-        faults = [f"study={study.study!r}: {rule}" for rule, broken in wrong.items() if broken]
-        if faults:
-            raise StudyError(*faults, source=str(path))
-        return study
+        return grids, asked
 
 
 def _matching(pattern: str, folders: Sequence[Path]) -> list[Path]:
@@ -539,9 +511,8 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
             rule = f"no such study{suggestion(name, sorted(grids))}{key}"
             yield Fault.of(path, name, rule)
             return
-    study = grids[plot.study or owner]
     if plot.study not in ("", owner):
-        yield from study._faults_of(plot)
+        yield from grids[plot.study]._faults_of(plot)
     for role in plot.overlays.keys() & plot.roles.keys():
         other = grids[plot.overlays[role]]
         plane = {getattr(other.options, name, None) for name in ("x", "y")} - {None}
@@ -549,17 +520,10 @@ def _misfits(plot: Plot, owner: str, grids: Mapping[str, Study]) -> Iterator[Fau
         broken = ""
         if other.quantity != needed:
             broken = f"must be a study of the quantity {needed}"
-        elif not _normalizations(study) <= _normalizations(other):
-            broken = f"must be computed for the same {NORM}"
         elif {"x", "y"} <= plot.axes.keys() and not plane <= {*plot.axes.values()}:
             broken = "must be computed in the plane of the figure"
         if broken:
             yield Fault.of(("overlays", role), other.study, broken)
-
-
-def _normalizations(study: Study) -> set[str]:
-    """The normalisations of the modes in a grid."""
-    return {*study.points.get(NORM, [study.fixed.get(NORM)])}
 
 
 # ---- From files to studies

@@ -16,11 +16,10 @@ from disc_model.data.columns import result_dataset
 from disc_model.data.variables import COMMON
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.mode_units import mode_number_in_si
-from disc_model.parameters import PLATE, Parameters, foreign_case
-from disc_model.provenance import canonical_json, versions_text
+from disc_model.parameters import Parameters, foreign_case
+from disc_model.provenance import versions_text
 from disc_model.studies.compute import Call, compute, is_of_case, stack
 from disc_model.studies.grid import Points, expand
-from disc_model.studies.quantity import NUMERICAL, QUANTITIES
 from disc_model.studies.run import coordinate_attributes
 from disc_model.units import in_si, is_number
 
@@ -60,7 +59,7 @@ def sweep(
     ------
     ParameterError
         If a name is neither a number of the case nor an argument of the function, or a value cannot be; or if the
-        function refuses its arguments at the first point that is a case. Points whose numbers break a rule have failed.
+        function refuses its arguments, or the numbers break a rule, at all points. Otherwise such points have failed.
 
     Examples
     --------
@@ -76,10 +75,6 @@ def sweep(
     (Frozen({'N_Omega': 2}), array([385., 300.]))
     """
     raise_faults(foreign_case(case))
-    require(
-        (callable(function), "function", function, "must be one, such as disc_model.floquet"),
-        (callable(map), "map", map, "must be a function, such as map of an executor"),
-    )
     arguments = dict(inspect.signature(function).parameters)
     arguments.pop(next(iter(arguments), ""), None)
     over = over or {}
@@ -96,10 +91,12 @@ def sweep(
 
     name = str(getattr(function, "__name__", type(function).__name__))
     call = Call(partial(_gathered, function, name, {*points, *dims}), case.replace, options)
-    _try_first(call, rows, {"function", *arguments})
     results = compute(call, rows, map=map, title=name, progress=progress)
     sizes = {dim: len(frame) for dim, frame in dims.items()}
     found = stack(results, np.array([*points.index], int).reshape(len(rows), -1), sizes)
+    messages = found["message"].values.ravel().tolist()
+    if all(text.startswith("ParameterError") for text in messages):
+        raise ParameterError(f"no point of the sweep has a result: {messages[0]}")
     for said in ("status", "message"):
         found[said].attrs.setdefault("long_name", COMMON[said].long_name)
     given = {key: x.default for key, x in arguments.items()}
@@ -109,7 +106,6 @@ def sweep(
         "function": name,
         "options": json.dumps(used, sort_keys=True, default=repr),
         "parameters": case.canonical_json,
-        "base": _base(case, name, used),
         "versions": versions_text(),
     }
     return found.assign_coords(_coordinates(dims, over)).assign_attrs(attrs)
@@ -162,36 +158,6 @@ def _column(name: str, values: Any, case: Parameters) -> list[Any]:
         column.append(float(value) if is_number(value) else value)
     raise_faults(faults)
     return column
-
-
-def _try_first(call: Call, rows: Points, arguments: set[str]) -> None:
-    """Call the function at the first point that is a case, and raise what it says of its arguments."""
-    refused: list[Exception] = []
-    for row in rows:
-        try:
-            case = call.case_at(row)
-        except NUMERICAL as error:
-            refused.append(error)
-            continue
-        try:
-            call.function(case, **call.options_at(row))
-        except ParameterError as error:
-            if any(fault.path and fault.path[0] in arguments for fault in error.faults):
-                raise
-        except NUMERICAL:
-            pass
-        return
-    raise ParameterError(f"no point of the sweep makes a case: {refused[0]}")
-
-
-def _base(case: Parameters, function: str, options: Mapping[str, Any]) -> str:
-    """What the case states, in JSON, but for what the function varies by itself."""
-    without = {str(options.get("name", ""))}
-    if function in QUANTITIES:
-        without |= {str(options.get(own, own)) for own in QUANTITIES[function].own}
-    if case.disc is not None:
-        without.update(PLATE)
-    return canonical_json({name: x for name, x in case.canonical.items() if name not in without})
 
 
 def _coordinates(dims: Mapping[str, pd.DataFrame], over: Mapping[str, Any]) -> dict[str, Any]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,12 +13,13 @@ from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.studies.quantity import found, listed, quantity
-from disc_model.units import Positive, Seconds, Tolerance
+from disc_model.units import Seconds, Tolerance
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
-BEGINS = ("static", "displaced")
+LATE = 2.0
+"""The last stretch, over which all is measured, s."""
 RATE = 8000.0
 """Samples per second: an extreme between two of them is missed by less than 0.2 % of the range up to
 300 Hz, and by far less in a window of many periods."""
@@ -26,39 +28,33 @@ RATE = 8000.0
 @quantity(
     points_per_job=350,
     rules=(
-        (
-            lambda o: o.evaluation_time < min(o.horizon, o.displaced_horizon),
-            "evaluation_time={0.evaluation_time:g} must be < horizon={0.horizon:g} and < "
-            "displaced_horizon={0.displaced_horizon:g}",
-        ),
+        (lambda o: min(o.horizon, o.displaced_horizon) > LATE, f"horizons must be > {LATE:g} s"),
     ),
 )
 def range_law(
     case: Parameters,
     *,
-    displacement: Positive = 2.0,
     horizon: Seconds = 80.0,
     displaced_horizon: Seconds = 40.0,
-    evaluation_time: Seconds = 2.0,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Range of the slider's height where contact is lost again and again, from the static start and from a
     displaced one, and the range `disc_model.pinned_range` at the frequency of its vibration.
 
+    The second start is displaced downward, slider and disc, by two static deflections: contact is lost at once. All is
+    measured over the last two seconds.
+
     Parameters
     ----------
-    displacement : downward displacement of the second start, of slider and disc, in static deflections: large enough
-        that contact is lost at once
     horizon : time simulated from the static start
     displaced_horizon : time simulated from the displaced start
-    evaluation_time : length of the last stretch of each, over which all is measured
     tol : tolerance of simulations: error of event times after a second of motion
 
     Examples
     --------
     >>> import disc_model as dm
     >>> case = dm.Parameters(N=385, Omega=15)
-    >>> found = dm.range_law(case, horizon=2, displaced_horizon=5, evaluation_time=1)
+    >>> found = dm.range_law(case, horizon=3, displaced_horizon=6)
     >>> print(f"{found['pinned_range'].sel(begin='displaced').item():.3f} m")
     0.034 m
     """
@@ -66,22 +62,15 @@ def range_law(
     from disc_model.simulation.states import perturb, static_start
 
     static = static_start(case)
-    displaced = perturb(case, static, u=displacement * static.u)
+    starts = (static, horizon), (perturb(case, static, u=2 * static.u), displaced_horizon)
     rows = []
-    for begin, state, end in zip(
-        BEGINS, (static, displaced), (horizon, displaced_horizon), strict=True
-    ):
-        first = end - evaluation_time
-        run = simulate(case, first, tol=tol, initial_state=state, events=False)
-        if run.status.complete:
-            windows = {"late": Window(start=first, stop=end, rate=RATE)}
-            on = run.final_state
-            run = simulate(case, end, windows, tol=tol, initial_state=on, events=False)
-        if not run.status.complete:
-            status = {"status": run.status.value}
-            return found("range_law", status, f"{begin} start: {run.message}", begin=BEGINS)
-        rows.append(_measure(run))
-    return found("range_law", {"status": "ok", **listed(rows)}, begin=BEGINS)
+    for state, end in starts:
+        on = partial(simulate, case, tol=tol, events=False)
+        before = on(end - LATE, initial_state=state).raise_for_status()
+        windows = {"late": Window(start=end - LATE, stop=end, rate=RATE)}
+        run = on(end, windows=windows, initial_state=before.final_state)
+        rows.append(_measure(run.raise_for_status()))
+    return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
 
 
 def _measure(run: Result) -> dict[str, Any]:
