@@ -202,7 +202,7 @@ FAULTS: list[tuple[str, dict[str, Any], str]] = [
     ("outcome", {"start": {"w": 1}}, "start.*w"),
     ("ramps", {"bounds": (3, 2), "rates": [1]}, "must ascend"),
     ("ramps", {"bounds": (2, 3), "rates": {"start": 0, "stop": 1, "count": 2}}, "must be > 0"),
-    ("range_law", {"horizon": 1}, "evaluation_time=2 must be < horizon=1"),
+    ("range_law", {"horizon": 1}, "horizon=1 must be > 2"),
     (
         "critical_speed",
         {"step": 0.5, "precision": 0.2},

@@ -30,7 +30,11 @@ RATE = 8000.0
 @quantity(
     points_per_job=350,
     rules=(
-        (lambda o: min(o.horizon, o.displaced_horizon) > LATE, f"horizons must be > {LATE:g} s"),
+        (lambda o: o.horizon > LATE, "horizon={0.horizon:g} must be > 2"),
+        (
+            lambda o: o.displaced_horizon > LATE,
+            "displaced_horizon={0.displaced_horizon:g} must be > 2",
+        ),
     ),
 )
 def range_law(
