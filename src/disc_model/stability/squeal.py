@@ -7,9 +7,10 @@ friction over the speed, to a case without friction's work on tangential motion,
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
+from pandas import DataFrame
 from pydantic import Field
 from scipy.optimize import brentq
 
@@ -19,9 +20,6 @@ from disc_model.simulation.states import engine_case
 from disc_model.stability.continuation import Bounds, require_interval
 from disc_model.stability.sliding import LAWS, FollowedModes, follow_modes
 from disc_model.units import Count, checked
-
-if TYPE_CHECKING:
-    from pandas import DataFrame
 
 SHARES = np.linspace(1, 0, 5).tolist()  # of a cause, along which a mode is followed until it is off
 ROUNDING = 1e-12  # to which onsets are located, relatively
@@ -84,8 +82,6 @@ def squeal(
     >>> table[["frequency", "onset", "cause"]].round(1).values.tolist()[0]
     [71.2, 10.0, 'falling friction']
     """
-    from pandas import DataFrame
-
     require_interval(case, name, bounds)
     values = np.linspace(*bounds, points).tolist()
     followed = follow_modes([case.replace(**{name: value}) for value in values])
