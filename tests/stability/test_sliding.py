@@ -184,6 +184,7 @@ LOOSE = {"k_p": 0, "mu_k": 0}
         ({"Omega": 1520.0, "k": 100.0}, SlidingStatus.OK),
         # a lower speed was advised, which changes nothing without a load
         ({"N": 0}, SlidingStatus.NO_LOAD),
+        ({"N": 0, "friction_offset": "surface"}, SlidingStatus.NO_LOAD),
         ({"N": 0, "Omega": 1520.0}, SlidingStatus.NO_LOAD),
         (BONDED, SlidingStatus.OK),
         # a bond that pulls tilts the disc against the slip

@@ -358,7 +358,7 @@ class _Response:
 
     def equilibria(self) -> list[Balanced]:
         """All equilibria that are found, up to twice the drive's rate."""
-        if not self.t.any():
+        if not (self.load and self.t.any()):
             start = self.solve(self.p.Omega)
             return [start] if math.isfinite(start.V) else []
         found = list[Balanced]()

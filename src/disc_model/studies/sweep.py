@@ -125,7 +125,7 @@ def _number_fastest(call: Call, rows: Points, results: Sequence[xr.Dataset]) -> 
 
 
 def _gathered(
-    function: Callable[..., Any], name: str, taken: set[str], case: Parameters, **options: Any
+    function: Callable[..., Any], name: str, taken: set[str], case: Parameters, /, **options: Any
 ) -> xr.Dataset:
     """What a function returns, as a dataset without variables and dimensions of one value that the sweep
     has itself."""
