@@ -88,6 +88,14 @@ def sliding(options: argparse.Namespace) -> bool:
     return True
 
 
+def squeal(options: argparse.Namespace) -> bool:
+    """Find the modes of steady sliding that grow within a range of speeds, and why."""
+    bounds = tuple(options.bounds)
+    case = case_of([f"Omega={bounds[-1]}", *options.case])
+    show_table("Modes that grow (Hz, 1/s, rad/s)", dm.squeal(case, bounds))
+    return True
+
+
 def modes(options: argparse.Namespace) -> bool:
     """Find the modes of the disc, and its frequencies with the slider at rest."""
     import pandas as pd
@@ -130,7 +138,7 @@ def parser() -> argparse.ArgumentParser:
     whole.add_argument("--version", action="version", version=f"disc_model {dm.__version__}")
     commands = whole.add_subparsers(required=True, metavar="COMMAND")
     made = {}
-    for command in (run, floquet, sliding, modes, study):
+    for command in (run, floquet, sliding, squeal, modes, study):
         words = str(command.__doc__)
         made[command] = commands.add_parser(command.__name__, help=words, description=words)
         made[command].set_defaults(command=command)
@@ -143,6 +151,9 @@ def parser() -> argparse.ArgumentParser:
     made[run].add_argument("--plot", type=Path, help="draw contact force and displacement")
     made[run].add_argument("--save", type=Path, help="write the result as netCDF")
     made[run].add_argument("--csv", type=Path, help="write the events as text into this folder")
+
+    what = "lowest and highest speed (rad/s, or with units)"
+    made[squeal].add_argument("--bounds", nargs=2, required=True, help=what)
 
     what = "universal file of a modal test or of finite elements"
     made[modes].add_argument("--from", dest="source", type=Path, metavar="FILE", help=what)
