@@ -4,7 +4,6 @@ and Lyapunov exponents of the motion."""
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -216,6 +215,6 @@ def _row(curve: StabilityCurve) -> dict[str, Any]:
         "multiplier_re": curve.multipliers.real,
         "multiplier_im": curve.multipliers.imag,
     }
-    for name, value in asdict(curve.resonance).items():
+    for name, value in curve.resonance._asdict().items():
         row[f"resonance_{name}"] = value
     return row
