@@ -27,7 +27,6 @@ from disc_model.stability.continuation.curve import (
     check_step,
     follow_curve,
     passes,
-    solve,
     spectrum_of,
 )
 from disc_model.stability.continuation.cycles import (
@@ -97,19 +96,12 @@ class BorderProblem:
 
     def first(self, x: Array, mu: complex) -> CurvePoint:
         """The point of the border next to a cycle of the case at the point x of its section, with
-        `mu` as its critical multiplier, by the shortest way on the surface."""
+        `mu` as its critical multiplier."""
         z = self.cycles.place(x)
         found = self.cycles.evaluate(z)
         self._keep_vectors(found.jacobian, mu)
-        for _ in range(MOST_CORRECTIONS):
-            value, mu = self._test(found.jacobian)
-            here = self._point(z, found, mu)
-            if abs(value) < ON_BORDER:
-                return here
-            guess = here.z - value * here.gradient / (here.gradient @ here.gradient)
-            rows = np.vstack([here.tangent, here.gradient / np.linalg.norm(here.gradient)])
-            z, found = solve(self.cycles, guess, rows, np.vstack([here.by, rows]))
-        raise Rejected(DIVERGES)
+        _, mu = self._test(found.jacobian)
+        return self._correct(self._point(z, found, mu), 0.0)
 
     def next_point(self, points: Sequence[CurvePoint], ds: float) -> list[CurvePoint]:
         """The border's point at arclength ds beyond the last of some; raises `Rejected` if a
