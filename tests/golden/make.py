@@ -23,6 +23,8 @@ RTOL = 1e-9
 WORST = 1e-6
 GRAZING = 1e-4
 """The same of an end where a switch is grazed: the map has an infinite slope there."""
+SHORTEST = 1e-6
+"""Tolerance of such an end at least: it is known to the shortest step, 1e-7 of the arclength."""
 TIGHTER = 1e-13
 """Tolerance of cycles that check others, of 1e-12."""
 
@@ -252,6 +254,8 @@ def with_tolerances(row, **limits):
         rtol = tolerance(errors(other, point), worst)
         if math.isnan(rtol):
             return []
+        if point["kind"] == "grazing":
+            rtol = max(rtol, SHORTEST)
         points.append({**point, "rtol": rtol})
     return points
 

@@ -106,6 +106,9 @@ class ToyMap:
             singular = math.nan
         return Orbit(outcome, *known, end, jacobian, by * singular)
 
+    def apart(self, x, y):
+        return float(np.linalg.norm(x - y)) / self.deflection
+
     def returns(self, x, most):
         for _ in range(most):
             orbit = self.evaluate(x, tangent=False)

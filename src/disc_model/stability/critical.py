@@ -401,26 +401,21 @@ def _doubtful_shares(first: ComplexArray, second: ComplexArray) -> list[float]:
     if not (len(first) and len(second)):
         return [0.5] if len(first) != len(second) else []
     shares = set[float]()
+    distances = np.abs(first[:, None] - second[None, :])
     for exponent in MATCHES:  # each beside the one that it becomes
-        distance = np.abs(first[:, None] - second[None, :])
-        rows, columns = linear_sum_assignment(distance**exponent)
-        shares |= _shares_of_change(first[rows], second[columns])
+        rows, columns = linear_sum_assignment(distances**exponent)
+        before, after = first[rows], second[columns]
+        between = turns_of(before, after)
+        longest = float(np.abs(between.turns).max(initial=0))
+        shares |= {each.share for each in passings(between) if 0 < each.share < 1}
+        # a pair that passes through the real axis looks like one that has turned back
+        angles = np.array([between.angles, between.angles + between.turns])
+        for ends in (angles, math.pi - angles):
+            way = ends.sum(axis=0)
+            may_have_met = (ends > 0).all(axis=0) & (way <= MAY_HAVE_MET * longest)
+            shares.update((ends[0][may_have_met] / way[may_have_met]).tolist())
+        slow = are_slow(before, after)
+        on_axis = [np.sum(slow & (each.imag == 0)) for each in (before, after)]
+        if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
+            shares.add(0.5)
     return sorted(shares)
-
-
-def _shares_of_change(before: ComplexArray, after: ComplexArray) -> set[float]:
-    """As `_doubtful_shares`, from multipliers that are matched."""
-    between = turns_of(before, after)
-    later = between.angles + between.turns
-    longest = float(np.abs(between.turns).max(initial=0))
-    shares = {each.share for each in passings(between) if 0 < each.share < 1}
-    # a pair that passes through the real axis looks like one that has turned back
-    for start, end in ((between.angles, later), (math.pi - between.angles, math.pi - later)):
-        way = start + end
-        may_have_met = (start > 0) & (end > 0) & (way <= MAY_HAVE_MET * longest)
-        shares.update((start[may_have_met] / way[may_have_met]).tolist())
-    slow = are_slow(before, after)
-    on_axis = [int(np.sum(slow & (each.imag == 0))) for each in (before, after)]
-    if longest > LONGEST_TURN or on_axis[0] != on_axis[1]:
-        shares.add(0.5)
-    return shares

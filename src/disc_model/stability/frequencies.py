@@ -10,14 +10,12 @@ import math
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from disc_model.arrays import Array, ComplexArray
-from disc_model.disc.plate import mode_arrays
+from disc_model.arrays import Array
 from disc_model.engine.jit.cache import compiling
 from disc_model.parameters import Parameters
-from disc_model.simulation.states import State
 from disc_model.stability.cycle import SAME_POINT, FloquetResult, find_cycle
 from disc_model.stability.return_map import ReturnMap, newton
-from disc_model.stability.sliding import SlidingModes, sliding_modes, split_rows
+from disc_model.stability.sliding import SlidingModes, sliding_modes
 
 SETTLED = 300
 """Releases after which the motion is compared with a cycle: after fewer it may still be on its way."""
@@ -40,7 +38,10 @@ def frequencies(p: Parameters, *, tol: float = 1e-12) -> tuple[FloquetResult, Sl
     map_ = ReturnMap(p, tol)
     orbit = map_.evaluate(map_.point(cycle.state), releases=cycle.releases)
     multipliers, vectors = np.linalg.eig(orbit.jacobian)
-    shapes = _on_section(map_, cycle.state, modes.shapes[:, disc])
+    shapes = np.transpose(
+        [map_.point_of(x.real) + 1j * map_.point_of(x.imag) for x in modes.shapes[:, disc].T]
+    )
+    shapes /= np.linalg.norm(shapes, axis=0)
 
     # two multipliers may match a mode: one resembles its shape, one the conjugate
     both = np.hstack([shapes.conj(), shapes])
@@ -85,25 +86,3 @@ def may_be_near(cycle: FloquetResult) -> bool | None:
         and np.linalg.norm(other.start - motion.end) < distance
     )
     return not is_near_another and bool(cycle.growth_rate * motion.period < GROWTH)
-
-
-def _on_section(map_: ReturnMap, state: State, shapes: ComplexArray) -> ComplexArray:
-    """Shapes of modes of steady sliding, of the length one, as columns in the coordinates of the
-    return map's section, which are linear in them."""
-    disc_rows, _, height = split_rows(mode_arrays(map_.parameters), shapes)
-    if not len(height):
-        height = np.zeros((2, shapes.shape[1]))
-
-    def points(rows: list[Array]) -> Array:
-        found = []
-        for a, alpha, b, beta, u, velocity in zip(*(row.T for row in rows), strict=True):
-            modal = {"a": a, "b": b, "alpha": alpha, "beta": beta}
-            # in separation, because in contact the height would be the disc's
-            own = {"phase": "separation", "direction": 0, "_roots": (0, 0)}
-            there = state.replace(u=float(u), u_velocity=float(velocity), **modal, **own)
-            found.append(map_.point(there))
-        return np.array(found).T
-
-    rows = [*disc_rows, *height]
-    on_section = points([row.real for row in rows]) + 1j * points([row.imag for row in rows])
-    return np.asarray(on_section / np.linalg.norm(on_section, axis=0), dtype=complex)

@@ -17,6 +17,7 @@ from typing import Any, ClassVar, NamedTuple
 import numpy as np
 
 from disc_model.arrays import Array
+from disc_model.disc.plate import mode_arrays
 from disc_model.engine import columns, loop, section, step_size, tangent, transitions
 from disc_model.engine import state as motion
 from disc_model.engine.model import Model, blocks_of, build_state
@@ -31,6 +32,7 @@ from disc_model.simulation.states import (
     series_tolerance,
     write_state,
 )
+from disc_model.stability.sliding import split_rows
 
 PARAMETERS = (
     "Omega",
@@ -380,6 +382,20 @@ class ReturnMap:
         """The point of the section of a state that lies on it."""
         write_state(self._case, state, self._state)
         return self._coordinates()
+
+    def point_of(self, rows: Array) -> Array:
+        """Coordinates on the section of a state, or of a change of one, in the rows of
+        `SteadySliding.jacobian`."""
+        modes = mode_arrays(self.parameters)
+        (a, alpha, b, beta), slider, height = split_rows(modes, rows)
+        column = np.zeros(self._tangent.rows)
+        for places, values in zip(
+            motion.mode_places(modes.diameters), (a, b, alpha, beta), strict=True
+        ):
+            exists = places >= 0
+            column[places[exists]] = values[exists]
+        column[self._rows[len(self.diameters) :]] = [*slider[: len(self.slider)], *height]
+        return np.asarray(column[self._rows] * self.scale, dtype=float)
 
     def state(self, x: Array) -> State:
         """The point `x` of the section as a `State` (time 0, at the end of stick)."""

@@ -141,20 +141,6 @@ class SlippingMap(ReturnMap):
         self._put(x)
         return read_state(self._case, self._state)
 
-    def point_of(self, rows: Array) -> Array:
-        """Coordinates on the section of a state, or of a change of one, in the rows of
-        `SteadySliding.jacobian`."""
-        modes = mode_arrays(self.parameters)
-        (a, alpha, b, beta), slider, height = split_rows(modes, rows)
-        column = np.zeros(self._tangent.rows)
-        for places, values in zip(
-            motion.mode_places(modes.diameters), (a, b, alpha, beta), strict=True
-        ):
-            exists = places >= 0
-            column[places[exists]] = values[exists]
-        column[self._rows[len(self.diameters) :]] = [slider[0], *height]
-        return np.asarray(column[self._rows] * self.scale, dtype=float)
-
     # ---- The engine's state and columns
 
     def _put(self, x: Array) -> None:

@@ -16,7 +16,7 @@ resonance, and must lie where the step leads to expect it.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import cached_property, partial
+from functools import cached_property, lru_cache, partial
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -67,6 +67,9 @@ USUAL = {
 SMALLEST = 0.2  # of a parameter's scale, over its typical value
 SMALLEST_OF_SPAN = 0.1  # of a parameter's scale, over the largest value of interest
 DIFFERENCE = 1e-5  # over a parameter's scale: orbits are accurate to 1e-13, their second derivatives of order one
+MAPS_AT_HAND = (
+    8  # of the cases last used: points between two others are computed before these are kept
+)
 
 FASTEST_TURN = 1.2  # rad, of a multiplier within a step: its sense would be in doubt beyond pi
 RESONANT = 2.0  # distance from a resonance at which it shows, over its width
@@ -79,7 +82,7 @@ SMALLEST_PEAK = 1e-5  # the same, over the static deflection
 # may have a corner, as where a switch that is just touched changes nothing else: at a jump of the
 # map no corrector comes to a point so near.
 CORNER = 1e-5
-PRECISION = 1e-11  # of the share of a step at which a point is located
+PRECISION = 1e-9  # of the share of a step at which a point is located: what remains is its square
 EVEN = 0.5  # least slope over the largest one, of a curve without folds between two points
 STEEP = 0.1  # slope of the tangent above which a step ends at a given parameter, so that one map serves it
 
@@ -156,8 +159,7 @@ class CycleProblem:
         self.n = self.reference.size
         self.size = self.reference.deflection
         self._differentiable = tuple(name for name in names if name in PARAMETERS)
-        self._map: Any = None  # the map of the parameters last used
-        self._values: list[float] = []
+        self._map_of = lru_cache(MAPS_AT_HAND)(self._new_map)
 
     def values(self, z: Array) -> Array:
         """The free parameters at a point."""
@@ -165,22 +167,24 @@ class CycleProblem:
 
     def case(self, z: Array) -> Parameters:
         """The case at a point; raises `ParameterError` where there is none."""
-        return self.base.replace(**dict(zip(self.names, self.values(z).tolist(), strict=True)))
+        return self._case_of(self.values(z).tolist())
+
+    def _case_of(self, values: Sequence[float]) -> Parameters:
+        return self.base.replace(**dict(zip(self.names, values, strict=True)))
 
     def map_at(self, z: Array) -> Any:
         """The return map of the case at a point."""
-        values = z[self.n :].tolist()
-        if values != self._values:
-            try:
-                p = self.case(z)
-                if min(p.Omega, p.N, p.k_p) <= 0:
-                    raise Rejected("the drive, the preload or the in-plane spring vanishes")
-                patient = self.releases > 0
-                self._map = self.make_map(p, self.tol, self._differentiable, patient=patient)
-            except (ParameterError, ModeError) as fault:
-                raise Rejected(str(fault)) from None
-            self._values = values
-        return self._map
+        return self._map_of(*self.values(z).tolist())
+
+    def _new_map(self, *values: float) -> Any:
+        try:
+            p = self._case_of(values)
+            if min(p.Omega, p.N, p.k_p) <= 0:
+                raise Rejected("the drive, the preload or the in-plane spring vanishes")
+            patient = self.releases > 0
+            return self.make_map(p, self.tol, self._differentiable, patient=patient)
+        except (ParameterError, ModeError) as fault:
+            raise Rejected(str(fault)) from None
 
     def turn(self, z: Array) -> Array:
         """Factors from the coordinates of the map at z to those of the case `base`."""
