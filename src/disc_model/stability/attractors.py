@@ -179,11 +179,11 @@ def sweep(
         begin = 0.0 if state is None else state.time
 
         # the stay at this value, doubled until the motion has settled
-        stay = dwell
+        stay = dwell / 2
         legs = list[Result]()
         reached = Arrival(Settling())
-        while not reached.settled and (not legs or 2 * stay <= longest):
-            stay = 2 * stay if legs else dwell
+        while not reached.settled and 2 * stay <= longest:
+            stay *= 2
             legs.append(simulate(case, begin + stay, tol=tol, initial_state=state))
             if not legs[-1].status.complete:
                 yield step, legs[-1], None, Arrival(Settling())
