@@ -3,21 +3,24 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
+from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.studies.quantity import found, listed, quantity
-from disc_model.units import Positive, Seconds, Tolerance
+from disc_model.units import Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
 BEGINS = ("static", "displaced")
+EARLIER = 0.75
+"""Share of a run at which the earlier stretch ends, whose range says whether the motion has settled."""
 RATE = 8000.0
 """Samples per second: an extreme between two of them is missed by less than 0.2 % of the range up to
 300 Hz, and by far less in a window of many periods."""
@@ -36,10 +39,12 @@ RATE = 8000.0
 def range_law(
     case: Parameters,
     *,
-    displacement: Positive = 2.0,
+    displacement: Annotated[Finite, Field(ge=0)] = 2.0,
+    blow: Annotated[Finite, Unit("m/s")] = 0.0,
     horizon: Seconds = 80.0,
     displaced_horizon: Seconds = 40.0,
     evaluation_time: Seconds = 2.0,
+    in_contact: bool = False,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Range of the slider's height where contact is lost again and again, from the static start and from a
@@ -49,9 +54,11 @@ def range_law(
     ----------
     displacement : downward displacement of the second start, of slider and disc, in static deflections: large enough
         that contact is lost at once
+    blow : upward velocity of the second start, of slider and disc
     horizon : time simulated from the static start
     displaced_horizon : time simulated from the displaced start
     evaluation_time : length of the last stretch of each, over which all is measured
+    in_contact : whether motions that keep contact are measured as well
     tol : tolerance of simulations: error of event times after a second of motion
 
     Examples
@@ -66,13 +73,16 @@ def range_law(
     from disc_model.simulation.states import perturb, static_start
 
     static = static_start(case)
-    displaced = perturb(case, static, u=displacement * static.u)
+    displaced = perturb(case, static, u=displacement * static.u, u_velocity=blow)
     rows = []
     for begin, state, end in zip(
         BEGINS, (static, displaced), (horizon, displaced_horizon), strict=True
     ):
         first = end - evaluation_time
-        run = simulate(case, first, tol=tol, initial_state=state, events=False)
+        start = max(0.0, EARLIER * end - evaluation_time)
+        earlier = {"earlier": Window(start=start, stop=start + evaluation_time, rate=RATE)}
+        run = simulate(case, first, earlier, tol=tol, initial_state=state, events=False)
+        before = run
         if run.status.complete:
             windows = {"late": Window(start=first, stop=end, rate=RATE)}
             on = run.final_state
@@ -80,19 +90,21 @@ def range_law(
         if not run.status.complete:
             status = {"status": run.status.value}
             return found("range_law", status, f"{begin} start: {run.message}", begin=BEGINS)
-        rows.append(_measure(run))
+        row = {"first_separation": np.fmin(before.first_separation, run.first_separation)}
+        if in_contact or run.statistics["n_separations"]:
+            row |= _measure(run)
+            row["earlier_range"] = np.ptp(before["earlier"]["u"].values)
+        rows.append(row)
     return found("range_law", {"status": "ok", **listed(rows)}, begin=BEGINS)
 
 
 def _measure(run: Result) -> dict[str, Any]:
-    """Columns of a stretch of motion; none if contact is not lost."""
+    """Columns of a stretch of motion."""
     from disc_model.analysis.classify import separation_location
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
     from disc_model.analysis.spectra import main_vibration, vibration_at
 
     count = run.statistics["n_separations"]
-    if not count:
-        return {}
     samples = run["late"]
     time = samples["time"].values
     height = samples["u"].values
@@ -110,6 +122,7 @@ def _measure(run: Result) -> dict[str, Any]:
         "pinned_range": pinned,
         "deviation": extent / pinned - 1,
         "flight_excess": excess_of_flights(apart),
+        "lowest_force": float(samples["P"].min()),
         "vibration_frequency": vibration.frequency,
         "vibration_share": vibration.share,
         "force_share": vibration_at(time, samples["P"].values, vibration.frequency).share,
