@@ -144,16 +144,10 @@ class SlippingMap(ReturnMap):
     def point_of(self, rows: Array) -> Array:
         """Coordinates on the section of a state, or of a change of one, in the rows of
         `SteadySliding.jacobian`."""
-        modes = mode_arrays(self.parameters)
-        (a, alpha, b, beta), slider, height = split_rows(modes, rows)
-        column = np.zeros(self._tangent.rows)
-        for places, values in zip(
-            motion.mode_places(modes.diameters), (a, b, alpha, beta), strict=True
-        ):
-            exists = places >= 0
-            column[places[exists]] = values[exists]
-        column[self._rows[len(self.diameters) :]] = [slider[0], *height]
-        return np.asarray(column[self._rows] * self.scale, dtype=float)
+        disc, (psi, f), height = split_rows(mode_arrays(self.parameters), rows)
+        u, v = height if len(height) else (0.0, 0.0)
+        modes = dict(zip(("a", "alpha", "b", "beta"), disc, strict=True))
+        return self.point(State(0.0, "slip", 1, psi, f, u, v, **modes))
 
     # ---- The engine's state and columns
 

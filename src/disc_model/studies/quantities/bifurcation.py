@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -50,13 +50,15 @@ def _settled(
     **_: Any,
 ) -> State:
     """The state in which samples begin."""
-    from disc_model.simulation.starts import state_after
+    from disc_model.simulation.starts import make_initial_state, state_after
+    from disc_model.stability.attractors import settle
 
     if section == "stroboscopic":
         return state_after(case, start, transient, tol)
-    before = _transient_of(case, start, transient, max_transient, tol)
-    before.run.raise_for_status()
-    return before.end
+    legs, reached = settle(
+        case, make_initial_state(case, start, tol), transient, max_transient, tol
+    )
+    return reached.end(legs[-1].raise_for_status())
 
 
 @quantity(
@@ -105,8 +107,7 @@ def bifurcation(
     if section == "stroboscopic":
         values, message = _once_a_turn(case, start, transient, samples, theta, tol)
     else:
-        before = _transient_of(case, start, transient, max_transient, tol)
-        values, message = _at_switches(case, before, samples, tol)
+        values, message = _at_switches(case, start, transient, max_transient, samples, tol)
     return found("bifurcation", values, message, sample=range(samples))
 
 
@@ -152,74 +153,26 @@ def _once_a_turn(
     return values, ""
 
 
-class _Transient(NamedTuple):
-    """The time left out before samples at events.
-
-    Attributes
-    ----------
-    run : its last part
-    reached : what it has come to
-    length : in all, s
-    first : time of its first separation, s, nan without
-    separations : their number
-    """
-
-    run: Result
-    reached: Arrival
-    length: float
-    first: float
-    separations: int
-
-    @property
-    def end(self) -> State:
-        """The state in which samples begin: on the attractor, if that is known exactly."""
-        near = self.reached.near
-        if near is None:
-            return self.run.final_state
-        assert near.cycle.state is not None
-        return near.cycle.state
-
-
-def _transient_of(
-    case: Parameters, start: Start, transient: float, max_transient: float, tol: float
-) -> _Transient:
-    """The transient, doubled until the motion has settled; its run may end early."""
-    from disc_model.simulation.api import simulate
-    from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.attractors import Arrival, arrival
-
-    state = make_initial_state(case, start, tol)
-    length = transient
-    first = np.nan
-    separations = 0
-    legs: list[Result] = []
-    while True:
-        run = simulate(case, length, tol=tol, initial_state=state)
-        if np.isnan(first):
-            first = run.first_separation
-        separations += int(run.statistics["n_separations"])
-        if not run.status.complete:
-            return _Transient(run, Arrival(Settling()), length, first, separations)
-        legs.append(run)
-        state = run.final_state
-        reached = arrival(case, legs)
-        if reached.settled or 2 * length > max_transient:
-            return _Transient(run, reached, length, first, separations)
-        length *= 2
-
-
-def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float) -> Answer:
+def _at_switches(
+    case: Parameters, start: Start, transient: float, max_transient: float, samples: int, tol: float
+) -> Answer:
     """Samples at separations, or at releases where there are none."""
     from disc_model.simulation.api import simulate
+    from disc_model.simulation.starts import make_initial_state
+    from disc_model.stability.attractors import settle
     from disc_model.stability.segments import stick_share
 
-    if not before.run.status.complete:
-        return _ended_early(before.run, before.first, before.separations)
-    state = before.end
-    reached = before.reached
-    record = simulate(case, state.time + FIRST_LEG, tol=tol, initial_state=state)
-    first = record.first_separation if np.isnan(before.first) else before.first
-    separations = before.separations + int(record.statistics["n_separations"])
+    state = make_initial_state(case, start, tol)
+    legs, reached = settle(case, state, transient, max_transient, tol)
+    run = legs[-1]
+    record = run
+    if run.status.complete:
+        state = reached.end(run)
+        record = simulate(case, state.time + FIRST_LEG, tol=tol, initial_state=state)
+        legs.append(record)
+    separated = [leg.first_separation for leg in legs if not np.isnan(leg.first_separation)]
+    first = min(separated, default=np.nan)
+    separations = sum(int(leg.statistics["n_separations"]) for leg in legs)
     if not record.status.complete:
         return _ended_early(record, first, separations)
     if reached.calm is not None:  # the run has its transient
@@ -227,7 +180,7 @@ def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float)
     elif reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
     else:
-        stick = stick_share(before.run)
+        stick = stick_share(run)
     events = record.events
     apart = bool((events["kind"] == "separation").any())
     taken = events[events["kind"] == ("separation" if apart else "stick_to_slip")]
@@ -237,17 +190,17 @@ def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float)
         "psi_velocity": case.Omega - shown["f"].to_numpy(dtype=float),
         "P": shown["P"].to_numpy(dtype=float),
         "u": shown["u"].to_numpy(dtype=float),
-        **_answer(reached.settling, _motion_reached(case, reached, before.run, tol)),
+        **_answer(reached.settling, _motion_reached(case, reached, run, tol)),
         "status": "ok",
         "phase": ["separation" if apart else "stick"] * len(shown),
         "first_separation": first,
         "separations": separations,
         "stick_fraction": stick,
-        "transient_time": before.length,
+        "transient_time": reached.stay,
     }
     if reached.settled:
         return values, ""
-    message = f"not settled after {before.length:g} s: {reached.settling}"
+    message = f"not settled after {reached.stay:g} s: {reached.settling}"
     if taken.empty:
         message = f"{message}; no event in the {FIRST_LEG:g} s sampled after that"
     return values, f"{message}; raise max_transient"
