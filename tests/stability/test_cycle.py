@@ -9,13 +9,7 @@ import pytest
 from disc_model import Parameters, floquet, simulate, steady_sliding, sweep
 from disc_model.data.variables import CycleStatus, Outcome
 from disc_model.errors import DiscModelError
-from disc_model.stability.cycle import (
-    CycleError,
-    FloquetResult,
-    cycle_of,
-    find_cycle,
-    run_through_once,
-)
+from disc_model.stability.cycle import CycleError, cycle_of, find_cycle, run_through_once
 from disc_model.stability.follower import find_cycle_near
 from disc_model.stability.return_map import RETURNED, Counts, Orbit, Passage, ReturnMap
 from tests.stability.test_return_map import BASE, DAMPED, central_differences
@@ -124,26 +118,23 @@ def test_a_cycle_that_is_run_through_twice_is_told_from_one_of_double_period():
 
 def test_a_motion_comes_to_a_stable_cycle_and_not_to_an_unstable_one():
     stable = P.replace(c=0.1)
-    result = floquet(stable)
     map_ = ReturnMap(stable)
-    assert result.stable
-    x = map_.point(result.state)
+    x = map_.point(floquet(stable).state)
     away = x + 1e-4 * np.linalg.norm(x) * np.eye(len(x))[0]
     found = find_cycle_near(map_, Passage(RETURNED, 0.0, away), 1e-4, 6)
     assert found.follows_cycle
     assert found.cycle.releases == 1  # not six times around
     assert found.kind is Outcome.STICK_SLIP
-    assert found.cycle.growth_rate == pytest.approx(result.growth_rate, rel=1e-6)
-    assert not floquet(P).stable
+    assert found.cycle.growth_rate == pytest.approx(floquet(stable).growth_rate, rel=1e-6)
+
+    # nor one that leaves it as the multipliers predict, unless that is asked for
     map_ = ReturnMap(P)
     x = map_.point(floquet(P).state)
-    assert not find_cycle_near(map_, Passage(RETURNED, 0.0, x), 0.0, 1).follows_cycle
-    # nor one that leaves it as the multipliers predict, unless that is asked for
     values, vectors = np.linalg.eig(map_.evaluate(x).jacobian)
     leaving = np.real(vectors[:, np.argmax(abs(values))])
     away = x + 0.001 * np.linalg.norm(map_.static) * leaving / np.linalg.norm(leaving)
-    for waits, follows in (((), False), ((0.0,), True)):
-        near = find_cycle_near(map_, Passage(RETURNED, 2.0, away), 0.0, 1, unstable=waits)
+    for start, waits, follows in ((x, (), False), (away, (), False), (away, (0.0,), True)):
+        near = find_cycle_near(map_, Passage(RETURNED, 2.0, start), 0.0, 1, unstable=waits)
         assert near.follows_cycle is follows
         assert near.time == 2.0
 
@@ -217,31 +208,15 @@ def test_multipliers_of_random_cases_are_those_of_a_differenced_return_map(seed:
     assert passed_over < 5
 
 
-def cycle_of_all_events() -> FloquetResult:
-    """Of a section with a static deflection of 0.5, which it misses by 1e-6."""
+def test_numbers_of_a_cycle_are_of_its_period_and_over_the_deflection():
     counts = Counts(3, 2, 4, 5, 7)
     start = np.array([0.1])
-    end = start + 1e-6
-    slope = np.array([[0.5]])
     by = np.zeros((1, 0))
-    orbit = Orbit(RETURNED, 0.02, 0.005, counts, start, end, slope, by)
+    orbit = Orbit(RETURNED, 0.02, 0.005, counts, start, start + 1e-6, np.array([[0.5]]), by)
     map_ = SimpleNamespace(parameters=P, tol=1e-12, deflection=0.5, state=lambda x: None)
-    return cycle_of(map_, orbit)
-
-
-def test_a_cycle_has_its_events_by_their_kinds():
-    cycle = cycle_of_all_events()
-    assert cycle.releases == 3
-    assert cycle.backward_releases == 2
-    assert cycle.reversals == 4
-    assert cycle.separations == 5
-    assert cycle.sticks == 7
-    events = "3 releases, 2 backward releases, 4 slip reversals, 5 separations"
-    assert cycle.message == f"ok: cycle of 0.02 s with {events}"
-
-
-def test_numbers_of_a_cycle_are_relative_to_its_period_and_the_deflection():
-    cycle = cycle_of_all_events()
+    cycle = cycle_of(map_, orbit)
+    assert tuple(getattr(cycle, name) for name in Counts._fields) == counts
+    assert "3 releases, 2 backward releases, 4 slip reversals, 5 separations" in cycle.message
     assert cycle.stick_fraction == pytest.approx(0.25)
     assert cycle.stick_time == pytest.approx(0.005 / 3)
     assert math.isnan(cycle.slip_time), "the slider is off the disc for a part of the rest"
@@ -249,21 +224,16 @@ def test_numbers_of_a_cycle_are_relative_to_its_period_and_the_deflection():
     assert cycle.residual == pytest.approx(2e-6, rel=1e-9)
 
 
-def test_the_modulus_of_a_complex_multiplier_is_stated():
-    values = np.array([0.3 + 0.4j, 0.3 - 0.4j])
-    cycle = FloquetResult(P, 1e-12, CycleStatus.OK, "made up", multipliers=values)
-    said = dict(cycle._summary())
-    assert said["leading multiplier"] == "0.3+0.4j, modulus 0.5"
-
-
-def test_times_of_stick_and_slip_make_up_the_period() -> None:
+@COMPILED
+def test_times_and_rates_of_a_cycle_have_the_names_that_sweeps_give_them() -> None:
     case = Parameters(N=385, Omega=15)
     cycle = floquet(case)
-    assert cycle.stick_time == pytest.approx(cycle.stick_fraction * cycle.period, rel=1e-12)
     assert cycle.stick_time + cycle.slip_time == pytest.approx(cycle.period, rel=1e-12)
+    assert cycle.sliding_growth_rate == steady_sliding(case).growth_rate
     swept = sweep(floquet, case, N=[385])
     assert swept["slip_time"].item() == cycle.slip_time
     assert swept["slip_time"].attrs["units"] == "s"
+    assert swept["sliding_growth_rate"].item() == cycle.sliding_growth_rate
 
 
 SLOW = Parameters(
@@ -287,13 +257,3 @@ def test_a_motion_that_comes_slowly_to_its_cycle_is_followed_for_longer() -> Non
     later = floquet(SLOW, guess=simulate(SLOW, 20).final_state)
     assert cycle.stable
     assert cycle.period == pytest.approx(later.period, rel=1e-9)
-
-
-@pytest.mark.compiled
-def test_a_cycle_has_the_growth_rate_of_sliding_by_the_name_that_sweeps_give_it() -> None:
-    """A sweep of floquet has sliding_growth_rate; its result had none."""
-    case = Parameters(N=385, Omega=15)
-    cycle = floquet(case)
-    assert cycle.sliding_growth_rate == steady_sliding(case).growth_rate
-    swept = sweep(floquet, case, Omega=[15])
-    assert swept["sliding_growth_rate"].item() == cycle.sliding_growth_rate

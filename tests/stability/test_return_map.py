@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from disc_model import Parameters, floquet, simulate
-from disc_model.disc.plate import mode_arrays
-from disc_model.engine import section, transitions
+from disc_model.engine import transitions
 from disc_model.stability import return_map
 from disc_model.stability.cycle import bifurcation_type, cycle_of
 from disc_model.stability.return_map import PARAMETERS, RETURNED, Counts, Orbit, ReturnMap, newton
@@ -188,32 +187,26 @@ def test_a_slider_that_is_pulled_loose_at_once_is_not_on_the_section() -> None:
 def test_an_orbit_in_pieces_is_the_same_orbit(monkeypatch: pytest.MonkeyPatch) -> None:
     """Between pieces Ctrl-C is answered: kernels cannot be interrupted, and a mass of 1e12 kg kept
     them busy for minutes."""
-    calls = []
-    integrate = section.integrate
-    monkeypatch.setattr(
-        section, "integrate", lambda *arguments: calls.append(1) or integrate(*arguments)
-    )
     map_ = ReturnMap(P.replace(c=0.2))
-    how = {"releases": 3}
-    whole = map_.evaluate(map_.static, **how)
-    bare = map_.evaluate(map_.static, tangent=False, **how)
-    release = map_.next_release(simulate(map_.parameters, 0.003).final_state)
-    assert len(calls) == 3
+    middle = simulate(map_.parameters, 0.003).final_state
+
+    def orbits() -> tuple[Orbit, Orbit, np.ndarray]:
+        orbit = map_.evaluate(map_.static, releases=3)
+        bare = map_.evaluate(map_.static, releases=3, tangent=False)
+        return orbit, bare, map_.next_release(middle).x
+
+    whole, *ends = orbits()
     monkeypatch.setattr(return_map, "WORK_PER_PIECE", 3)
-    again = map_.evaluate(map_.static, **how)
-    assert len(calls) > 10
-    bare_again = map_.evaluate(map_.static, tangent=False, **how)
-    release_again = map_.next_release(simulate(map_.parameters, 0.003).final_state)
+    again, *ends_again = orbits()
     assert again.counts == whole.counts
     assert again.period == pytest.approx(whole.period, rel=1e-13)
     assert again.stick_time == pytest.approx(whole.stick_time, rel=1e-11)
     # shorter steps; the map is accurate to 1e-12
-    size = map_.deflection
-    np.testing.assert_allclose(again.end, whole.end, rtol=0, atol=1e-11 * size)
-    np.testing.assert_allclose(bare_again.end, bare.end, rtol=0, atol=1e-11 * size)
+    exact = {"rtol": 0, "atol": 1e-11 * map_.deflection}
+    np.testing.assert_allclose(ends_again[0].end, ends[0].end, **exact)
+    np.testing.assert_allclose(ends_again[1], ends[1], **exact)
+    np.testing.assert_allclose(again.end, whole.end, **exact)
     np.testing.assert_allclose(again.jacobian, whole.jacobian, rtol=0, atol=1e-9)
-    np.testing.assert_allclose(release_again.x, release.x, rtol=0, atol=1e-11 * size)
-    assert release_again.time == pytest.approx(release.time, rel=1e-12)
     # the limit of time is that of the whole orbit
     slides = ReturnMap(P.replace(c_p=1.0, Omega=9.0, N=2.0))
     assert slides.first_release.outcome == transitions.TIME_OVER
@@ -388,25 +381,3 @@ def test_the_jacobian_is_that_of_simulated_motion_on_a_moving_surface(law: str) 
         expected = differences(lambda h, along=along: end(x + h * along), 4e-7)
         apart = np.linalg.norm(jacobian @ along - expected)
         assert apart < 1e-6 * np.linalg.norm(expected)
-
-
-def test_one_coordinate_alone_compresses_a_compliant_contact() -> None:
-    case = Parameters(N=385, Omega=14.9, contact_compliance=1e-8)
-    section_map = ReturnMap(case)
-    psi = mode_arrays(case).psi
-
-    def compressions(moved: np.ndarray) -> float:
-        state = section_map.state(np.linalg.solve(section_map.compression, moved))
-        return state.u - float(psi @ np.array(state.a))
-
-    changes = np.array([compressions(unit) for unit in np.eye(section_map.size)])
-    height = section_map.size - 2
-    expected = np.zeros(section_map.size)
-    expected[height] = 1 / section_map.scale[height]
-    assert changes == pytest.approx(
-        expected, abs=1e-16
-    )  # of rounding, over displacements of 1e-3 m
-
-
-def test_rigid_contact_leaves_coordinates_as_they_are() -> None:
-    assert np.array_equal(ReturnMap(P).compression, np.eye(ReturnMap(P).size))

@@ -127,7 +127,7 @@ def test_the_branch_of_a_disc_ends_where_steady_sliding_loses_stability() -> Non
     ("options", "fault"),
     [
         ({"kind": "sliding"}, "kind='sliding': must be one of stick_slip, slipping"),
-        ({"kind": "slipping", "guess": dm.State, "releases": 2}, "must be left out of a cycle"),
+        ({"kind": "slipping", "guess": dm.State, "releases": 2}, "releases=2: must be"),
     ],
 )
 def test_wrong_requests_are_named(options, fault) -> None:

@@ -82,7 +82,7 @@ class Arrival(NamedTuple):
     settling : the answer, with rates
     calm : rest or steady sliding that is reached; None if neither is proven
     near : stable cycle that the motion follows by its multipliers; None if that is not proven
-    stay : s, for which the motion was followed at a value of a sweep
+    stay : s, for which the motion was followed
     """
 
     settling: Settling
@@ -93,6 +93,13 @@ class Arrival(NamedTuple):
     @property
     def settled(self) -> bool:
         return self.settling.answer is Settled.SETTLED
+
+    def end(self, run: Result) -> State:
+        """The state after the last run: on the attractor, if that is known exactly."""
+        state = run.final_state
+        if self.near is not None and self.near.cycle.state is not None:
+            state = self.near.cycle.state
+        return state
 
 
 def arrival(p: Parameters, legs: Sequence[Result]) -> Arrival:
@@ -153,6 +160,25 @@ def _cycle_reached(p: Parameters, leg: Result, most: int) -> NearCycle | None:
     return find_cycle_near(map_, release, change, period)
 
 
+def settle(
+    p: Parameters, state: State | None, stay: float, longest: float, tol: float
+) -> tuple[list[Result], Arrival]:
+    """Legs of the motion from a state, over a stay (s) that is doubled until it has settled, `longest` s
+    at most; and its arrival. The last leg may end early."""
+    begin = 0.0 if state is None else state.time
+    legs = list[Result]()
+    while True:
+        leg = simulate(p, begin + stay, tol=tol, initial_state=state)
+        legs.append(leg)
+        if not leg.status.complete:
+            return legs, Arrival(Settling())
+        reached = arrival(p, legs)
+        if reached.settled or 2 * stay > longest:
+            return legs, reached._replace(stay=stay)
+        state = leg.final_state
+        stay *= 2
+
+
 def sweep(
     p: Parameters,
     name: str,
@@ -176,26 +202,12 @@ def sweep(
     down = [(1, i) for i in reversed(range(len(values)))]
     for step in up + down:
         case = p.replace(**{name: values[step[1]]})
-        begin = 0.0 if state is None else state.time
-
-        # the stay at this value, doubled until the motion has settled
-        stay = dwell
-        legs = list[Result]()
-        reached = Arrival(Settling())
-        while not reached.settled and (not legs or 2 * stay <= longest):
-            stay = 2 * stay if legs else dwell
-            legs.append(simulate(case, begin + stay, tol=tol, initial_state=state))
-            if not legs[-1].status.complete:
-                yield step, legs[-1], None, Arrival(Settling())
-                return
-            state = legs[-1].final_state
-            reached = arrival(case, legs)
-
-        # its description, from the cycle itself if one was reached
-        if reached.near is not None:
-            state = reached.near.cycle.state
-        result, segment = final_segment(case, state, late, late, tol)
-        yield step, result, segment, reached._replace(stay=stay)
+        legs, reached = settle(case, state, dwell, longest, tol)
+        if not legs[-1].status.complete:
+            yield step, legs[-1], None, reached
+            return
+        result, segment = final_segment(case, reached.end(legs[-1]), late, late, tol)
+        yield step, result, segment, reached
         state = result.final_state
 
 

@@ -170,17 +170,14 @@ class FloquetResult(Summarised, EqualByValue):
 def guess_faults(guess: object, releases: object, kind: object) -> list[str]:
     """Faults of a guess for the search for a cycle, of the number of its releases, and of its
     kind."""
-    counts = is_whole(releases) and releases >= 1 and (isinstance(guess, State) or releases == 1)
-    known = isinstance(kind, str) and kind in KINDS
-    slips = known and kind == SLIPPING
-    fits = not (slips and counts) or releases == 1
-    rule = "must be a whole number >= 1, and 1 without a state to look near"
+    near_state = isinstance(guess, State) and kind != SLIPPING
+    counts = is_whole(releases) and releases >= 1 and (near_state or releases == 1)
+    rule = "must be a whole number >= 1, and 1 without a state to look near, and of a cycle in slip"
     hint = ", such as its attribute state" if hasattr(guess, "state") else ""
     return violations(
         (isinstance(guess, State | None), "guess", guess, f"must be a State{hint}"),
         (counts, "releases", releases, rule),
-        (known, "kind", kind, f"must be one of {', '.join(KINDS)}"),
-        (fits, "releases", releases, "must be left out of a cycle that never sticks"),
+        (kind in KINDS, "kind", kind, f"must be one of {', '.join(KINDS)}"),
     )
 
 

@@ -434,24 +434,20 @@ def newton(
     follow = partial(map_.evaluate, releases=releases, may_separate=may_separate)
     goal = map_.tol * map_.deflection
     orbit = follow(x, coarse=True)
+    jacobian = orbit.jacobian
     for computed in range(1, MOST_JACOBIANS + 1):
         better = None
         if orbit.returned and orbit.residual > goal:
-            better = _search_along_step(follow, orbit, orbit.jacobian, MOST_HALVINGS)
+            better = _search_along_step(follow, orbit, jacobian, MOST_HALVINGS)
         if better is None:
             break
-
         # a good step is followed by another with its Jacobian, which must not shorten that
-        jacobian = orbit.jacobian
-        remaining = better.residual / orbit.residual
-        while remaining <= SLOW and better.residual > goal:
+        while goal < better.residual <= SLOW * orbit.residual:
             orbit = better
             better = _search_along_step(follow, orbit, jacobian, 1) or orbit
-            remaining = better.residual / orbit.residual
         orbit = better
-        if orbit.residual <= goal:
-            break
-        orbit = follow(orbit.start, coarse=computed < COARSE_JACOBIANS)
+        if orbit.residual > goal:
+            jacobian = follow(orbit.start, coarse=computed < COARSE_JACOBIANS).jacobian
 
     solution = follow(orbit.start)
     largest = rounding(map_.tol, 1e4) * map_.deflection

@@ -277,7 +277,7 @@ def _equilibrium(case: Parameters) -> SteadySliding:
         return _absent(case, SlidingStatus.AT_REST)
     disc = _Response(case)
     linear = disc.equilibria()
-    every = [_slip_at(case, disc.rows_of(each)) for each in linear]
+    every = [_slip(case, disc.rows_of(each)) for each in linear]
     if disc.model.has_stretching:
         every = [slip for each in every if (slip := _stretched(case, each)) is not None]
     carried = [each for each in every if each.force > 0 or case.contact == "bilateral"]
@@ -447,7 +447,7 @@ def _stretched(p: Parameters, slip: "_Slip") -> "_Slip | None":
     rows = slip.rows
     for share in np.arange(1, LOADS + 1) / LOADS:
         for _ in range(MOST_ITERATIONS):
-            slip = _slip_at(p, rows, float(share**2))
+            slip = _slip(p, rows, float(share**2))
             if not np.isfinite(slip.jacobian).all():
                 return None
             change = np.linalg.lstsq(slip.jacobian, slip.rates, rcond=None)[0]
@@ -456,7 +456,7 @@ def _stretched(p: Parameters, slip: "_Slip") -> "_Slip | None":
                 break
         else:
             return None
-    return _slip_at(p, rows)
+    return _slip(p, rows)
 
 
 # ---- The equations of slip
@@ -474,57 +474,40 @@ class _Slip(NamedTuple):
     denominator: float
 
 
-def _slip_at(p: Parameters, rows: Array, stretching: float = 1.0) -> _Slip:
+def _slip(p: Parameters, rows: Array, stretching: float = 1.0) -> _Slip:
     """Slip at a state, on a plate that stretches by a share of what it does."""
-    moved = rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows))
-    rates, *numbers = _slip(p, moved, stretching)
-    first = [float(np.ravel(number)[0].real) for number in numbers]
-    return _Slip(rows, rates.real[:, 0], rates.imag / LAWS.TINY, *first)
-
-
-def _slip(p: Parameters, rows: Any, stretching: float) -> tuple[Any, Any, Any, Any]:
-    """Rates, the rate g, contact force and its denominator, as `_Slip`, at states in columns."""
     modes = mode_arrays(p)
     model = engine_case(p).model
-    (a, alpha, b, beta), (psi, f), height = split_rows(modes, rows)
-    l = modes.diameters[:, None]
-    weight = modes.psi[:, None]
-    tangential = tangential_amplitudes(p)[:, None]
+    moved = rows[:, None] + 1j * LAWS.TINY * np.eye(len(rows))
+    (a, alpha, b, beta), (psi, f), height = split_rows(modes, moved)
+    tangential = tangential_amplitudes(p)
     w2 = modes.omega[:, None] ** 2
     d = modal_damping(p)[:, None]
-    surface = np.sum(tangential * beta, axis=0)
+    surface = tangential @ beta
     g = f - surface / p.r_0
-    rate_a = alpha + l * g * b
-    rate_b = beta - l * g * a
-    free_along = l * g * beta - d * alpha - w2 * a
-    free_across = -l * g * alpha - d * beta - w2 * b
+    turned = modes.diameters[:, None] * g
+    rate_a = alpha + turned * b
+    rate_b = beta - turned * a
+    free_along = turned * beta - d * alpha - w2 * a
+    free_across = -turned * alpha - d * beta - w2 * b
     if model.has_stretching:
         along, across = membrane_forces(p, a, b)
         free_along = free_along - stretching * along
         free_across = free_across - stretching * across
-    w = np.sum(weight * a, axis=0)
-    velocity = np.sum(weight * rate_a, axis=0)
-    u = w
-    v = velocity
-    if len(height):
-        u, v = height
+    w = modes.psi @ a
+    velocity = modes.psi @ rate_a
+    u, v = height if len(height) else (w, velocity)
     i = LAWS.Instant(
-        N=p.N,
-        k=p.k,
-        c=p.c,
-        m=p.m,
-        k_p=p.k_p,
-        c_p=p.c_p,
-        Omega=p.Omega,
+        **{name: getattr(p, name) for name in ("N", "k", "c", "m", "k_p", "c_p", "Omega")},
         compliance=contact_compliance(p),
         psi=psi,
         g=g,
         w=w,
         w_velocity=velocity,
-        dw_dtheta=np.sum(weight * (l * b), axis=0),
-        free=np.sum(weight * (free_along + l * g * rate_b), axis=0),
+        dw_dtheta=(modes.diameters * modes.psi) @ b,
+        free=modes.psi @ (free_along + turned * rate_b),
         surface_velocity=surface,
-        surface_free=np.sum(tangential * free_across, axis=0),
+        surface_free=tangential @ free_across,
         u=u,
         u_velocity=v,
     )
@@ -532,13 +515,15 @@ def _slip(p: Parameters, rows: Any, stretching: float) -> tuple[Any, Any, Any, A
     denominator = LAWS.slip_denominator(model, p.m, friction, i.dw_dtheta)
     force = LAWS.slip_numerator(model, i) / denominator
     V, H, rate_g = LAWS.slip_rates(model, i, friction, force)
-    free_across = free_across + tangential * H
-    rate_f = rate_g + np.sum(tangential * free_across, axis=0) / p.r_0
-    disc = (rate_a, free_along - weight * V, rate_b, free_across)
+    free_along = free_along - modes.psi[:, None] * V
+    free_across = free_across + tangential[:, None] * H
+    rate_f = rate_g + tangential @ free_across / p.r_0
     acceleration = (V - p.N - p.k * (u - model.u_0) - p.c * v) / p.m
     lift = (v, acceleration)[: len(height)]
+    disc = (rate_a, free_along, rate_b, free_across)
     rates = join_rows(modes, disc, (p.Omega - f, rate_f), lift)
-    return rates, g, force, denominator
+    first = [float(np.ravel(number)[0].real) for number in (g, force, denominator)]
+    return _Slip(rows, rates.real[:, 0], rates.imag / LAWS.TINY, *first)
 
 
 def split_rows(modes: Modes, rows: Any) -> tuple[Any, Any, Any]:

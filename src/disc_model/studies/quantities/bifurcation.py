@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 import xarray as xr
@@ -34,7 +34,8 @@ def _settled(
 
     if section == "stroboscopic":
         return state_after(case, start, transient, tol)
-    return _transient_of(case, start, transient, options["max_transient"], tol).end
+    legs, reached = _transient_of(case, start, transient, options["max_transient"], tol)
+    return reached.end(legs[-1])
 
 
 @quantity(
@@ -82,9 +83,9 @@ def bifurcation(
         values = _once_a_turn(case, start, transient, samples, tol)
         length, advice = transient, "transient"
     else:
-        before = _transient_of(case, start, transient, max_transient, tol)
-        values = _at_switches(case, before, samples, tol)
-        length, advice = before.length, "max_transient"
+        legs, reached = _transient_of(case, start, transient, max_transient, tol)
+        values = _at_switches(case, legs, reached, samples, tol)
+        length, advice = reached.stay, "max_transient"
     message = ""
     if values["settled"] != "settled":
         message = f"{values['settled']} after {length:g} s: raise {advice}"
@@ -120,61 +121,31 @@ def _once_a_turn(
     }
 
 
-class _Transient(NamedTuple):
-    """The time left out before samples at events.
-
-    Attributes
-    ----------
-    legs : its parts
-    reached : what it has come to
-    length : in all, s
-    """
-
-    legs: list[Result]
-    reached: Arrival
-    length: float
-
-    @property
-    def end(self) -> State:
-        """The state in which samples begin: on the attractor, if that is known exactly."""
-        near = self.reached.near
-        if near is None:
-            return self.legs[-1].final_state
-        assert near.cycle.state is not None
-        return near.cycle.state
-
-
 def _transient_of(
     case: Parameters, start: Start, transient: float, max_transient: float, tol: float
-) -> _Transient:
-    """The transient, doubled until the motion has settled; raises `SimulationError`."""
-    from disc_model.simulation.api import simulate
+) -> tuple[list[Result], Arrival]:
+    """The runs of the time left out before samples at events, and what they have come to; raises
+    `SimulationError`."""
     from disc_model.simulation.starts import make_initial_state
-    from disc_model.stability.attractors import arrival
+    from disc_model.stability.attractors import settle
 
     state = make_initial_state(case, start, tol)
-    length = transient
-    legs: list[Result] = []
-    while True:
-        leg = simulate(case, length, tol=tol, initial_state=state).raise_for_status()
-        legs.append(leg)
-        state = leg.final_state
-        reached = arrival(case, legs)
-        if reached.settled or 2 * length > max_transient:
-            return _Transient(legs, reached, length)
-        length *= 2
+    legs, reached = settle(case, state, transient, max_transient, tol)
+    legs[-1].raise_for_status()
+    return legs, reached
 
 
-def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float) -> dict[str, Any]:
+def _at_switches(
+    case: Parameters, legs: list[Result], reached: Arrival, samples: int, tol: float
+) -> dict[str, Any]:
     """Samples at separations, or at releases where there are none."""
     from disc_model.simulation.api import simulate
     from disc_model.stability.segments import stick_share
 
-    state = before.end
-    reached = before.reached
-    last = before.legs[-1]
+    last = legs[-1]
+    state = reached.end(last)
     record = simulate(case, state.time + FIRST_LEG, tol=tol, initial_state=state).raise_for_status()
-    every = [*before.legs, record]
+    every = [*legs, record]
     firsts = [run.first_separation for run in every if not np.isnan(run.first_separation)]
     if reached.calm is None and reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
