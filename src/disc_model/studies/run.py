@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.coded import table_of
-from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
+from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.described import described
 from disc_model.data.variables import (
     EXCLUDED,
@@ -96,9 +96,8 @@ def _along_points(
     """Results in one dataset, with what varies as coordinates along `point`."""
     places = np.arange(len(rows))[:, np.newaxis]
     varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    said = {"source_hash": physics_hash(), "versions": versions_text()}
     results = stack(rows, places, {POINT: len(rows)}, columns)
-    return results.assign_coords(varied).assign_attrs(said, names=json.dumps([*varied]))
+    return results.assign_coords(varied).assign_attrs(names=json.dumps([*varied]))
 
 
 def _points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
@@ -148,7 +147,8 @@ def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str])
         "quantity": quantity.name,
         **{name: json_attribute(x) for name, x in stated.items()},
         "git_commit": git_commit(),
-        **common_provenance(parts),
+        "source_hash": physics_hash(),
+        "versions": versions_text(),
     }
     return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
 
