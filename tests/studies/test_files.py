@@ -125,10 +125,7 @@ def test_a_figure_may_show_the_grid_of_another_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("change", "words"),
-    [
-        ({"cases": {"A": CASE}}, "grids alone"),
-        ({"quantity": "critical_sped"}, "critical_sped"),
-    ],
+    [({"cases": {"A": CASE}}, "grids alone"), ({"quantity": "critical_sped"}, "critical_sped")],
 )
 def test_a_fault_of_another_file_is_named(change: Any, words: str, tmp_path: Path) -> None:
     (tmp_path / "other.yaml").write_text(yaml.safe_dump({**GRID, "study": "other", **change}))

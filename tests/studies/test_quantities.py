@@ -655,6 +655,29 @@ def test_separation_holds_the_range_where_contact_is_lost(
     assert found["deviation"].item() == pytest.approx(found["flight_excess"].item(), abs=0.01)
 
 
+MOTIONS = [
+    # changes of the case, the blow, range in mm, lowest force in N, separations in the last second
+    ({"stretching": "clamped"}, 0.0, 0.0, 200.0, False),
+    ({"stretching": "clamped"}, 5.0, 7.4, 0.0, True),
+]
+
+
+@pytest.mark.compiled
+@pytest.mark.parametrize(("changes", "blow", "extent", "force", "lost"), MOTIONS)
+def test_motions_in_contact_are_measured_where_asked(
+    changes: dict[str, Any], blow: float, extent: float, force: float, lost: bool
+) -> None:
+    """A plate that stretches, as published: quiet from rest, and separating after a blow of 5 m/s."""
+    case = Parameters(N=200, Omega=20, **changes)
+    options: dict[str, Any] = {"displacement": 0, "horizon": 5}
+    found = dm.range_law(case, displaced_horizon=50, blow=blow, in_contact=True, **options)
+    motion = found.sel(begin="displaced")
+    assert 1e3 * motion["range"].item() == pytest.approx(extent, abs=0.1)
+    assert motion["earlier_range"].item() == pytest.approx(motion["range"].item(), abs=1e-4)
+    assert motion["lowest_force"].item() == pytest.approx(force, abs=2)
+    assert (motion["separation_rate"].item() > 0) is lost
+
+
 LOCKS = [
     # start, changes of the case, what the motion does
     ({"parameters": {"N": 385, "Omega": 15.1}, "time": 70}, {}, "without_stick"),

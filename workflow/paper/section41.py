@@ -293,5 +293,4 @@ def slow_growth_and_separation(study: xr.Dataset, share: float) -> Found:
         "most": fastest,
         "part": fastest / critical,
         "size": separates.size,
-        "inferred": int(np.sum(flag_names(study["method"]) == "inferred")),
     }

@@ -168,7 +168,7 @@ def _transient_of(
 def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float) -> dict[str, Any]:
     """Samples at separations, or at releases where there are none."""
     from disc_model.simulation.api import simulate
-    from disc_model.stability.segments import shares
+    from disc_model.stability.segments import stick_share
 
     state = before.end
     reached = before.reached
@@ -179,7 +179,7 @@ def _at_switches(case: Parameters, before: _Transient, samples: int, tol: float)
     if reached.calm is None and reached.near is not None:  # the attractor is known exactly
         stick = reached.near.cycle.stick_fraction
     else:
-        stick = shares(last if reached.calm is None else record).stick
+        stick = stick_share(last if reached.calm is None else record)
     events = record.events
     apart = bool((events["kind"] == "separation").any())
     taken = events[events["kind"] == ("separation" if apart else "stick_to_slip")]

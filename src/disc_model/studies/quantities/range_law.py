@@ -4,22 +4,25 @@ from __future__ import annotations
 
 import math
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 import xarray as xr
+from pydantic import Field
 
 from disc_model.data.variables import PHASES
 from disc_model.parameters import Parameters
 from disc_model.simulation.case import Window
 from disc_model.studies.quantity import found, listed, quantity
-from disc_model.units import Seconds, Tolerance
+from disc_model.units import Finite, Seconds, Tolerance, Unit
 
 if TYPE_CHECKING:
     from disc_model.simulation.result import Result
 
 LATE = 2.0
 """The last stretch, over which all is measured, s."""
+EARLIER = 0.75
+"""Share of a run at which the earlier stretch ends, whose range says whether the motion has settled."""
 RATE = 8000.0
 """Samples per second: an extreme between two of them is missed by less than 0.2 % of the range up to
 300 Hz, and by far less in a window of many periods."""
@@ -34,20 +37,24 @@ RATE = 8000.0
 def range_law(
     case: Parameters,
     *,
+    displacement: Annotated[Finite, Field(ge=0)] = 2.0,
+    blow: Annotated[Finite, Unit("m/s")] = 0.0,
     horizon: Seconds = 80.0,
     displaced_horizon: Seconds = 40.0,
+    in_contact: bool = False,
     tol: Tolerance = 1e-10,
 ) -> xr.Dataset:
     """Range of the slider's height where contact is lost again and again, from the static start and from a
-    displaced one, and the range `disc_model.pinned_range` at the frequency of its vibration.
-
-    The second start is displaced downward, slider and disc, by two static deflections: contact is lost at once. All is
-    measured over the last two seconds.
+    displaced one, and the range `disc_model.pinned_range` at the frequency of its vibration, over the last two seconds.
 
     Parameters
     ----------
+    displacement : downward displacement of the second start, of slider and disc, in static deflections: large enough
+        that contact is lost at once
+    blow : upward velocity of the second start, of slider and disc
     horizon : time simulated from the static start
     displaced_horizon : time simulated from the displaced start
+    in_contact : whether motions that keep contact are measured as well
     tol : tolerance of simulations: error of event times after a second of motion
 
     Examples
@@ -62,26 +69,30 @@ def range_law(
     from disc_model.simulation.states import perturb, static_start
 
     static = static_start(case)
-    starts = (static, horizon), (perturb(case, static, u=2 * static.u), displaced_horizon)
+    displaced = perturb(case, static, u=displacement * static.u, u_velocity=blow)
     rows = []
-    for state, end in starts:
+    for state, end in ((static, horizon), (displaced, displaced_horizon)):
         on = partial(simulate, case, tol=tol, events=False)
-        before = on(end - LATE, initial_state=state).raise_for_status()
+        start = max(0.0, EARLIER * end - LATE)
+        windows = {"earlier": Window(start=start, stop=start + LATE, rate=RATE)}
+        before = on(end - LATE, windows, initial_state=state).raise_for_status()
         windows = {"late": Window(start=end - LATE, stop=end, rate=RATE)}
-        run = on(end, windows=windows, initial_state=before.final_state)
-        rows.append(_measure(run.raise_for_status()))
+        run = on(end, windows, initial_state=before.final_state).raise_for_status()
+        row = {"first_separation": np.fmin(before.first_separation, run.first_separation)}
+        if in_contact or run.statistics["n_separations"]:
+            row |= _measure(run)
+            row["earlier_range"] = np.ptp(before["earlier"]["u"].values)
+        rows.append(row)
     return found("range_law", {"status": "ok", **listed(rows)}, begin=("static", "displaced"))
 
 
 def _measure(run: Result) -> dict[str, Any]:
-    """Columns of a stretch of motion; none if contact is not lost."""
+    """Columns of a stretch of motion."""
     from disc_model.analysis.classify import separation_location
     from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
     from disc_model.analysis.spectra import main_vibration, vibration_at
 
     count = run.statistics["n_separations"]
-    if not count:
-        return {}
     samples = run["late"]
     time = samples["time"].values
     height = samples["u"].values
@@ -99,6 +110,7 @@ def _measure(run: Result) -> dict[str, Any]:
         "pinned_range": pinned,
         "deviation": extent / pinned - 1,
         "flight_excess": excess_of_flights(apart),
+        "lowest_force": float(samples["P"].min()),
         "vibration_frequency": vibration.frequency,
         "vibration_share": vibration.share,
         "force_share": vibration_at(time, samples["P"].values, vibration.frequency).share,
