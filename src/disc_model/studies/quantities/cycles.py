@@ -4,7 +4,6 @@ and Lyapunov exponents of the motion."""
 from __future__ import annotations
 
 import math
-from dataclasses import asdict
 from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
@@ -177,7 +176,7 @@ def neutral_curves(
             "multiplier_re": curve.multipliers.real,
             "multiplier_im": curve.multipliers.imag,
         }
-        row |= {f"resonance_{name}": value for name, value in asdict(curve.resonance).items()}
+        row |= {f"resonance_{name}": value for name, value in curve.resonance._asdict().items()}
         rows.append(row)
     values = {
         "status": "ok",
