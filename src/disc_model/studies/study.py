@@ -22,7 +22,7 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Wit
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import PERTURBATIONS, values_text
+from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
@@ -42,7 +42,7 @@ from disc_model.simulation.case import (
 )
 from disc_model.studies.grid import Base, Columns, case_of, dimensions, expand, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
-from disc_model.units import Count, Seconds, Strict, Tolerance
+from disc_model.units import Count, Seconds, Strict, Tolerance, must
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
@@ -106,10 +106,14 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
 
 
+_RULE = "must not be the name of a parameter or variable of results"
+WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, _RULE))]
+
+
 class RecordSpec(Strict):
     """What is recorded of a case. Figures and claims refer to windows by their names."""
 
-    windows: dict[Name, Window | None] = Field({})  # None drops one that is inherited
+    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
     poincare: Poincare | None = None
     events: bool | Span = True
 

@@ -112,7 +112,7 @@ def sweep(
 
 
 def _gathered(
-    function: Callable[..., Any], name: str, taken: set[str], case: Parameters, **options: Any
+    function: Callable[..., Any], name: str, taken: set[str], case: Parameters, /, **options: Any
 ) -> xr.Dataset:
     """What a function returns, as a dataset without variables and dimensions of one value that the sweep
     has itself."""
