@@ -7,6 +7,7 @@ import json
 import logging
 import sys
 from collections.abc import Iterator
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -58,10 +59,12 @@ def _compute_part(job: str, output: Path) -> xr.Dataset:
 
 def grid(output: str, failed: str, remarked: str, folder: str) -> None:
     """Merge the parts of a grid, and list points that failed and remarks on others."""
-    from disc_model.studies.run import merge, told_points
+    from disc_model.studies.run import merge, points_of, told_points
 
     plan = read_plan()
-    study = merge(plan["layout"], [*_parts(plan["jobs"], Path(folder))], plan["attrs"])
+    parts = _parts(plan["jobs"], Path(folder))
+    points, results = zip(*chain.from_iterable(map(points_of, parts)), strict=True)
+    study = merge(plan["layout"], points, results, plan["attrs"])
     for path, points in zip((failed, remarked), told_points(study), strict=True):
         text = "no point" if points.empty else points.to_string(index=False)
         Path(path).write_text(f"{text}\n", encoding="utf-8")

@@ -14,7 +14,7 @@ import xarray as xr
 import disc_model as dm
 from disc_model.studies.compute import stack
 from disc_model.studies.grid import expand
-from disc_model.studies.run import merge, run_job, told_points
+from disc_model.studies.run import merge, points_of, run_job, told_points
 from disc_model.studies.study import Study, StudyError, parse_study
 
 STUDY: dict[str, Any] = {
@@ -83,9 +83,8 @@ def test_a_study_a_sweep_and_direct_calls_give_equal_numbers() -> None:
         dm.floquet, dm.Parameters(N=385, Omega=15), **{name: sorted(x) for name, x in axes.items()}
     )
     grid = study_of(base={}, axes=axes)
-    merged = merge(
-        json.loads(json.dumps(grid.layout)), [run_job(job) for job in grid.jobs.values()], {}
-    )
+    pairs = [pair for job in grid.jobs.values() for pair in points_of(run_job(job))]
+    merged = merge(json.loads(json.dumps(grid.layout)), *zip(*pairs, strict=True), {})
     for name in ("growth_rate", "period", "stick_fraction"):
         assert study[name].dims == swept[name].dims == ("N", "Omega", "mu_k")
         np.testing.assert_array_equal(study[name], swept[name])

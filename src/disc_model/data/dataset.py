@@ -5,7 +5,7 @@ times are stored, so that equal runs give equal bytes."""
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -201,17 +201,6 @@ def load_cases(paths: Iterable[str | Path]) -> dict[str, xr.DataTree]:
 def json_attribute(value: Any) -> str:
     """A mapping or list as JSON text, because netCDF attributes cannot hold these, None or bool."""
     return json.dumps(value, sort_keys=True)
-
-
-def common_provenance(datasets: Sequence[xr.Dataset]) -> dict[str, str]:
-    """Attributes that say what made datasets; a value that differs between them becomes the list of
-    all, as text."""
-    provenance = {}
-    for name in ("source_hash", "git_commit", "versions"):
-        texts = sorted({str(each.attrs[name]) for each in datasets if name in each.attrs})
-        if texts:
-            provenance[name] = json_attribute(texts) if len(texts) > 1 else texts[0]
-    return provenance
 
 
 # ---- Access to the tree of one case, for claims and figures; a missing part is explained

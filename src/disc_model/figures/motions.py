@@ -228,7 +228,7 @@ def basins(study: xr.Dataset, x: str) -> Figure:
     names = [f"{i // 2}" for i in range(2 * len(parts))]
     below = ["attractors"] * len(parts) + ["critical"] * len(parts)
     figure, axes = panels([names, below], PAGE, 2.2)
-    interval = f"{100 * options['confidence']:g} % interval: separating"
+    interval = "95 % interval: separating"
     for i, (_, part) in enumerate(parts):
         axes[f"{i}"].set_title(value_text(part["energy"]))
         _shares(axes[f"{i}"], part, x, interval)

@@ -133,23 +133,21 @@ def _common_coordinates(
 ) -> tuple[dict[str, xr.Variable], list[dict[str, xr.Variable]]]:
     """Coordinates along dimensions of the results' own, and the variables of each. A coordinate that
     differs between points is a variable along a dimension without one."""
-    coords: dict[str, xr.Variable] = {}
-    differing: dict[str, str] = {}
+    coords: dict[Any, xr.Variable] = {}
+    renamed = {}
     for result in results:
         for name in result.dims & result.coords.keys():
             own = result.variables[name]
-            if not own.equals(coords.setdefault(str(name), own)):
-                differing[str(name)] = f"{name}_index"
-    for name in differing:
-        del coords[name]
+            if not own.equals(coords.setdefault(name, own)):
+                renamed[name] = f"{name}_index"
+    coords = {name: own for name, own in coords.items() if name not in renamed}
     rows = []
     for result in results:
-        renamed = {dim: to for dim, to in differing.items() if dim in result.dims}
-        own_variables = result.drop_vars(coords, errors="ignore").variables
         row = {}
-        for key, x in own_variables.items():
-            dims = [renamed.get(str(dim), dim) for dim in x.dims]
-            row[str(key)] = xr.Variable(dims, x.values, x.attrs)
+        for name, x in result.variables.items():
+            if name not in coords:
+                dims = [renamed.get(dim, dim) for dim in x.dims]
+                row[str(name)] = xr.Variable(dims, x.values, x.attrs)
         rows.append(row)
     return coords, rows
 

@@ -15,7 +15,7 @@ import pandas as pd
 import xarray as xr
 
 from disc_model.data.coded import table_of
-from disc_model.data.dataset import CONVENTIONS, common_provenance, json_attribute
+from disc_model.data.dataset import CONVENTIONS, json_attribute
 from disc_model.data.described import described
 from disc_model.data.variables import (
     EXCLUDED,
@@ -69,7 +69,7 @@ def run_job(job: str, known: Iterable[xr.Dataset] = ()) -> xr.Dataset:
     """
     layout = json.loads(job)
     points = layout["points"]
-    there = {tuple(point.items()): row for part in known for point, row in _points_of(part)}
+    there = {tuple(point.items()): row for part in known for point, row in points_of(part)}
     missing = [point for point in points if tuple(point.items()) not in there]
     for point, row in zip(missing, compute(call_of(layout), missing), strict=True):
         there[tuple(point.items())] = row
@@ -96,12 +96,11 @@ def _along_points(
     """Results in one dataset, with what varies as coordinates along `point`."""
     places = np.arange(len(rows))[:, np.newaxis]
     varied = {name: (POINT, [point[name] for point in points]) for name in points[0]}
-    said = {"source_hash": physics_hash(), "versions": versions_text()}
     results = stack(rows, places, {POINT: len(rows)}, columns)
-    return results.assign_coords(varied).assign_attrs(said, names=json.dumps([*varied]))
+    return results.assign_coords(varied).assign_attrs(names=json.dumps([*varied]))
 
 
-def _points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
+def points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
     """The points of a job's results, and the result at each."""
     names = json.loads(part.attrs["names"])
     results = part.drop_vars(names)
@@ -110,19 +109,24 @@ def _points_of(part: xr.Dataset) -> Iterable[tuple[dict[str, Any], xr.Dataset]]:
         yield {name: x[i] for name, x in zip(names, columns, strict=True)}, results.isel(point=i)
 
 
-def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str]) -> xr.Dataset:
-    """The results of all jobs of a grid over its dimensions, which a variable has in the order of the
+def merge(
+    layout: Layout,
+    rows: Sequence[Mapping[str, Any]],
+    results: Sequence[xr.Dataset],
+    attrs: Mapping[str, str],
+) -> xr.Dataset:
+    """The results at all points of a grid over its dimensions, which a variable has in the order of the
     parameters, before its own.
 
     Parameters
     ----------
-    layout : of `Grid.layout`
-    parts : of `run_job`
+    layout : of `Study.layout`
+    rows : what varies at the points
+    results : of these
     attrs : of the study
     """
     quantity = quantity_of(layout["quantity"])
-    pairs = [pair for part in parts for pair in _points_of(part)]
-    points = pd.DataFrame([point for point, _ in pairs], index=range(len(pairs)))
+    points = pd.DataFrame(rows)
     coords: dict[str, Any] = {}
     sizes = {}
     places = []
@@ -133,8 +137,7 @@ def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str])
         sizes[dim] = len(frame)
         for name, values in columns.items():
             coords[name] = (dim, values, coordinate_attributes(name))
-    rows = [row for _, row in pairs]
-    study = stack(rows, np.transpose(places), sizes, quantity.columns).assign_coords(coords)
+    study = stack(results, np.transpose(places), sizes, quantity.columns).assign_coords(coords)
     ranks = {dim: VARIED.index(next(iter(columns))) for dim, columns in layout["dims"].items()}
     ranks |= {name: VARIED.index(name) for name in map(str, study.dims) if name in VARIED}
     ranked = sorted(study.dims, key=lambda dim: ranks.get(str(dim), len(VARIED)))
@@ -148,7 +151,8 @@ def merge(layout: Layout, parts: Sequence[xr.Dataset], attrs: Mapping[str, str])
         "quantity": quantity.name,
         **{name: json_attribute(x) for name, x in stated.items()},
         "git_commit": git_commit(),
-        **common_provenance(parts),
+        "source_hash": physics_hash(),
+        "versions": versions_text(),
     }
     return described(study.transpose(*ranked).assign_attrs(every), quantity.name, options)
 
@@ -234,6 +238,5 @@ def _run_grid(study: Study, map: Callable[..., Iterable[Any]], progress: bool) -
     call = call_of(study.layout)
     call = replace(call, make=partial(_known_or_made, *study.case, call.make))
     points: Points = study.points.to_dict("records")
-    rows = compute(call, points, map=map, title=study.of.name, progress=progress)
-    part = _along_points(points, rows, study.of.columns)
-    return merge(study.layout, [part], study.attrs)
+    results = compute(call, points, map=map, title=study.of.name, progress=progress)
+    return merge(study.layout, points, results, study.attrs)

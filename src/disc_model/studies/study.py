@@ -22,13 +22,13 @@ from pydantic import AfterValidator, BeforeValidator, Field, PlainValidator, Wit
 from yaml.constructor import ConstructorError
 
 from disc_model.data.files import MissingFile, unreadable
-from disc_model.data.variables import PERTURBATIONS, values_text
+from disc_model.data.variables import BESIDE_WINDOWS, PERTURBATIONS, values_text
 from disc_model.disc.table import disc_of_table
 from disc_model.display import counted
 from disc_model.errors import Fault, ParameterError, raise_faults, require, suggestion
 from disc_model.figures.schema import CasePlot, Kind, Plot
 from disc_model.figures.shown import IN_WORDS, factors_of
-from disc_model.parameters import DEFAULTS, PLATE, Disc, Parameters
+from disc_model.parameters import DEFAULTS, Disc, Parameters
 from disc_model.provenance import content_key, physics_hash
 from disc_model.simulation.case import (
     CaseSpec,
@@ -42,7 +42,7 @@ from disc_model.simulation.case import (
 )
 from disc_model.studies.grid import Base, Columns, case_of, dimensions, expand, thinned
 from disc_model.studies.quantity import HOMES, Quantity, quantity_of
-from disc_model.units import Count, Seconds, Strict, Tolerance
+from disc_model.units import Count, Seconds, Strict, Tolerance, must
 
 ALL_MOTIONS = 100  # points of a grid up to which a motion of each is stored, some 3 kB each
 GRID_KEYS = frozenset({"options", "axes", "zip", "where", "points_per_job", "discs"})
@@ -106,10 +106,14 @@ def inherit(base: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, An
 Name = Annotated[str, pydantic.StringConstraints(pattern=r"^[A-Za-z]\w*$", max_length=100)]
 
 
+_RULE = "must not be the name of a parameter or variable of results"
+WindowName = Annotated[Name, AfterValidator(must(lambda name: name not in BESIDE_WINDOWS, _RULE))]
+
+
 class RecordSpec(Strict):
     """What is recorded of a case. Figures and claims refer to windows by their names."""
 
-    windows: dict[Name, Window | None] = Field({})  # None drops one that is inherited
+    windows: dict[WindowName, Window | None] = Field({})  # None drops one that is inherited
     poincare: Poincare | None = None
     events: bool | Span = True
 
@@ -306,38 +310,38 @@ class Study(Strict):
     @cached_property
     def points(self) -> pd.DataFrame:
         """What varies, a row for each point; raises `ParameterError`."""
-        return expand(self.dims, self.where, self.fixed)
+        return expand(self.dims, self.where, {**DEFAULTS, **self._base})
 
-    @cached_property
-    def fixed(self) -> dict[str, Any]:
-        """The values of the case that all points have: not of what varies, nor those that something else
-        replaces, nor of a plate that does not stretch."""
-        base = self.base.model_dump(exclude_unset=True)
-        values = {**DEFAULTS, **base}
-        varied = {*self._varied}
-        without = {"stretching"} if values["stretching"] == DEFAULTS["stretching"] else set()
-        if "damping_ratio" in {*varied, *base}:
-            without.add("D_star")
-        if "disc" in {*varied, *base}:
-            without.update((*PLATE, "damping_ratio"))
-            without -= {*base}
-        names = [x for x in Parameters.model_fields if x in values and x not in varied | without]
-        return {name: values[name] for name in names}
+    @property
+    def _base(self) -> dict[str, Any]:
+        """The values that the file gives to all points."""
+        return dict(self.base.model_dump(exclude_unset=True))
 
     @cached_property
     def case(self) -> tuple[Parameters, dict[str, Any]]:
         """The case of the first point that is possible, and what of it varies; raises `ParameterError`,
-        with what is wrong at the first point, if none is."""
-        faults: list[Fault] = []
-        base = {**self.of.unset(self.options), **self.fixed}
+        with what is wrong at the last point, if none is."""
+        faults = [Fault(("where",), "", "leaves no point")]
+        base = {**self.of.unset(self.options), **self._base}
         for point in self.points.to_dict("records"):
             own = {str(name): x for name, x in point.items() if name in Parameters.model_fields}
             try:
                 return case_of(base, self.discs, **own), own
             except ParameterError as error:
-                for each in () if faults else error.faults:
+                faults = []
+                for each in error.faults:
                     faults.append(each.inside(("axes" if each.path[0] in own else "base",)))
-        raise ParameterError(*(faults or [Fault(("where",), "", "leaves no point")]))
+        raise ParameterError(*faults)
+
+    @cached_property
+    def fixed(self) -> dict[str, Any]:
+        """The values of the case that all points have: not of what varies, nor those that something else
+        replaces."""
+        case, _ = self.case
+        without = {*self._varied}
+        if case.damping_ratio is not None:
+            without.add("D_star")
+        return {name: x for name, x in case.canonical.items() if name not in without}
 
     @property
     def layout(self) -> dict[str, Any]:
@@ -378,7 +382,7 @@ class Study(Strict):
         few = dict(self.dims)
         if len(self.points) > ALL_MOTIONS:
             few = {dim: thinned(frame, motion.number) for dim, frame in self.dims.items()}
-        points = expand(few, self.where, self.fixed).to_dict("records")
+        points = expand(few, self.where, {**DEFAULTS, **self._base}).to_dict("records")
         text = _text({**self.layout, "code": physics_hash(), "points": points})
         return {content_key(text): text} if points else {}
 

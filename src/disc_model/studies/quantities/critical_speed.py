@@ -124,6 +124,8 @@ def critical_speed(
             for i in middles:
                 look(i)
     rows = []
+    without: list[str] = []
+    at_bound: list[str] = []
     remarks = [
         f"{value_with_unit('Omega', speed(i))}: {result.message}"
         for i, result in motions.items()
@@ -143,11 +145,15 @@ def critical_speed(
         }
         rows.append(row)
         if math.isnan(lowest):
-            span = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
-            remarks.append(f"no separation within {time:g} s at {span}")
+            without.append(f"{time:g}")
         elif lowest <= speeds[0]:
-            bound = f"at the lower bound, {speeds[0]:g} rad/s"
-            remarks.append(f"contact is already lost within {time:g} s {bound}")
+            at_bound.append(f"{time:g}")
+    if without:
+        scan = f"{len(speeds)} speeds from {speeds[0]:g} to {speeds[-1]:g} rad/s"
+        remarks.append(f"no separation within {', '.join(without)} s at {scan}")
+    if at_bound:
+        bound = f"at the lower bound, {speeds[0]:g} rad/s"
+        remarks.append(f"contact is already lost within {', '.join(at_bound)} s {bound}")
     values: dict[str, Any] = {
         "status": next((x.status for x in motions.values() if x.status != "ok"), "ok"),
         "scan_outcome": [motions[i].word for i in scanned],

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 
 from disc_model.data.variables import OF_QUANTITIES, WORDS, attributes_of_number, value_with_unit
+from disc_model.display import counted
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import BETWEEN, Free, Rules, found, quantity, values_between
@@ -148,7 +149,8 @@ def _reasons(name: str, swept: Sequence[float], values: dict[str, Any]) -> Itera
             yield f"contact is kept at {highest}, where the way down begins"
     doubtful = (values["separation_rate"] == 0) & (values["sweep_settled"] != SETTLED)
     if doubtful.any():
-        yield f"at {doubtful.sum()} stays the motion in contact has not settled: raise max_dwell"
+        stays = counted(int(doubtful.sum()), "stay")
+        yield f"after {stays} the motion in contact had not settled: raise max_dwell"
 
 
 def swept_speeds(sweep: xr.Dataset) -> tuple[xr.DataArray, xr.DataArray]:

@@ -58,9 +58,9 @@ def _late(
     return reached, *final_segment(case, on, duration, evaluation_time, tol)
 
 
-def _come_to(case: Parameters, **options: Any) -> State:
+def come_to(case: Parameters, *args: Any, **options: Any) -> State:
     """The state that the motion has come to."""
-    reached, result, _ = _late(case, **options)
+    reached, result, _ = _late(case, *args, **options)
     state = reached.state
     if last := reached.failed or result:
         state = last.raise_for_status().final_state
@@ -71,7 +71,7 @@ def _come_to(case: Parameters, **options: Any) -> State:
 @quantity(
     points_per_job=80,
     rules=((lambda o: o.evaluation_time <= min(o.after_separation, o.horizon), _TIMES),),
-    motion=Motion(4, COME_TO, _come_to),
+    motion=Motion(4, COME_TO, come_to),
 )
 def outcome(
     case: Parameters,

@@ -12,7 +12,7 @@ import xarray as xr
 
 from disc_model.data.variables import STABLE_CYCLES, Outcome
 from disc_model.parameters import Parameters
-from disc_model.studies.quantity import COME_TO, Motion, found, quantity
+from disc_model.studies.quantity import COME_TO, STATIC, Motion, found, quantity
 from disc_model.units import Finite, Seconds, Tolerance
 
 if TYPE_CHECKING:
@@ -22,17 +22,9 @@ if TYPE_CHECKING:
 
 def _come_to(case: Parameters, *, horizon: float, tol: float, **_: Any) -> State:
     """The state that the motion has come to."""
-    from disc_model.simulation.api import simulate
-    from disc_model.stability.follower import find_outcome
+    from disc_model.studies.quantities.outcome import come_to
 
-    result = find_outcome(case, horizon, tol=tol)
-    near = result.near
-    if near is not None and near.cycle.stable and near.cycle.state is not None:
-        return near.cycle.state
-    # to the horizon, or to what the separation leads to
-    end = horizon if result.state is None else result.state.time + 5.0
-    run = simulate(case, end, tol=tol, initial_state=result.state)
-    return run.raise_for_status().final_state
+    return come_to(case, horizon, STATIC, 1.0, 5.0, True, tol)
 
 
 @quantity(points_per_job=250, motion=Motion(4, COME_TO, _come_to))

@@ -20,47 +20,26 @@ from disc_model.data.variables import OF_QUANTITIES, with_advice
 from disc_model.errors import require
 from disc_model.parameters import Parameters
 from disc_model.studies.quantity import NUMERICAL, Ruled, found, listed, quantity, with_ends
-from disc_model.units import Count, CycleTolerance, Finite, Positive, Seconds, Unit, is_number
+from disc_model.units import Count, CycleTolerance, Finite, Seconds, Unit, is_number
 
 UNSTABLE = ("unstable", "no_cycle", "separates", "unstable_sliding")
 FAILED = "failed"
 
 
 class Uniform(Ruled):
-    """A uniform distribution: all values from `low` to `high` are equally likely."""
+    """A uniform distribution: all values from `low` to `high` are equally likely; `relative`: as multiples
+    of the parameter's own value at the point."""
 
     distribution: Literal["uniform"]
-    relative: bool = (
-        False  # whether numbers are multiples of the parameter's own value at the point
-    )
+    relative: bool = False
     low: Finite
     high: Finite
 
     _rules = ((lambda d: d.low < d.high, "low={0.low:g} must be < high={0.high:g}"),)
 
-    def quantile(self, shares: Array) -> Array:
-        """Values below which there are shares of the distribution."""
-        return self.low + shares * (self.high - self.low)
 
-
-class TruncatedNormal(Uniform):
-    """A normal distribution, restricted to values from `low` to `high`; mean and deviation are
-    those of the whole."""
-
-    distribution: Literal["truncated_normal"]  # type: ignore[assignment]
-    mean: Finite
-    deviation: Positive
-
-    def quantile(self, shares: Array) -> Array:
-        from scipy.stats import truncnorm
-
-        ends = (np.array([self.low, self.high]) - self.mean) / self.deviation
-        return np.asarray(truncnorm.ppf(shares, *ends, loc=self.mean, scale=self.deviation))
-
-
-Distribution = Annotated[Uniform | TruncatedNormal, Field(discriminator="distribution")]
 Distributions = Annotated[
-    dict[str, Distribution],
+    dict[str, Uniform],
     Field(min_length=1),
     Unit({name: Parameters.unit(name) for name in Parameters.model_fields}),
 ]
@@ -147,7 +126,8 @@ def _draws(case: Parameters, distributions: Mapping[str, Any], samples: int, see
         path = f"distributions.{name}"
         require((is_number(own), path, own, "must be of a parameter that is a number"))
         scale = own if distribution.relative else 1.0
-        columns.append(scale * distribution.quantile(shares))
+        width = distribution.high - distribution.low
+        columns.append(scale * (distribution.low + shares * width))
     return np.transpose(columns)
 
 
