@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections import Counter
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Self
 
 from pydantic import BeforeValidator, Field, field_validator, model_validator
 
-from disc_model.display import counted
-from disc_model.errors import Fault, raise_faults
-from disc_model.mode_units import UNCERTAIN, mode_number, mode_numbers
+from disc_model.display import counted, frequencies_text
+from disc_model.errors import Fault, raise_faults, require
+from disc_model.mode_units import UNCERTAIN, mode_number, mode_number_in_si
 from disc_model.units import Count, Finite, Positive, Strict, Unit, limits_faults, within
 
 if TYPE_CHECKING:
@@ -108,61 +107,46 @@ class Disc(Strict):
     @model_validator(mode="after")
     def _consistent(self) -> Self:
         """Check the rules between columns, and refuse modes that are given twice."""
-        raise_faults([*self._column_faults(), *self._radii_faults(), *self._tangential_faults()])
+        count = len(self.diameters)
+        rule = f"must be 1 to {MOST_MODES} modes"
+        require((1 <= count <= MOST_MODES, "diameters", count, rule))
+        rules: list[tuple[object, str, object, str]] = []
+        for name in self._columns:
+            length = len(getattr(self, name))
+            good = length == count or not (length or name in ("omega", "amplitude"))
+            rules.append((good, name, length, f"must be as many as diameters, {count}"))
+        require(*rules)
+
+        lengths = {len(shape) for shape in self.shapes}
+        known = lengths == {len(self.radii)} and len(self.radii) > 1
+        rule = "must be two or more that ascend, with a value of the shape of every mode at each"
+        ascend = all(inner < outer for inner, outer in pairwise(self.radii))
+        still = all(value == 0 for l, value in zip(self.diameters, self.tangential) if l == 0)  # noqa: B905
+        at_axis = "must be 0 for a mode without nodal diameters"
+        require(
+            (ascend and (known or not (lengths or self.radii)), "radii", [*self.radii], rule),
+            # no half of a pair has its node under the slider
+            (still, "tangential", [*self.tangential], at_axis),
+        )
         largest = max(map(abs, self.amplitude))
         raise_faults(limits_faults("largest amplitude", largest, AMPLITUDES))
         self._refuse_repeated_modes()
         return self
 
-    def _column_faults(self) -> Iterator[Fault]:
-        """Yield the faults of the number of modes, and of columns of another length."""
-        count = len(self.diameters)
-        if not 1 <= count <= MOST_MODES:
-            rule = f"must be 1 to {MOST_MODES} modes"
-            yield Fault(("diameters",), f"{count} modes", rule)
-        for name in self._columns:
-            column = getattr(self, name)
-            needed = name in ("omega", "amplitude")
-            if len(column) != count and (column or needed):
-                rule = f"must be as many as diameters, {count}"
-                yield Fault((name,), f"{len(column)} values", rule)
-
-    def _radii_faults(self) -> Iterator[Fault]:
-        """Yield the fault of radii that do not ascend, or do not fit the shapes."""
-        radii = len(self.radii)
-        lengths = {len(shape) for shape in self.shapes}
-        fitting: set[int] = set()
-        if radii:
-            fitting = {radii}
-        if lengths != fitting or radii == 1:
-            rule = "must be two or more, with a value of the shape of every mode at each"
-            yield Fault(("radii",), f"{radii} radii", rule)
-        elif any(inner >= outer for inner, outer in pairwise(self.radii)):
-            yield Fault.of(("radii",), [*self.radii], "must ascend")
-
-    def _tangential_faults(self) -> Iterator[Fault]:
-        """Yield the faults of tangential motion without nodal diameters, where no half of a pair has
-        its node under the slider."""
-        rule = "must be 0 for a mode without nodal diameters"
-        for i, (diameters, value) in enumerate(zip(self.diameters, self.tangential, strict=False)):
-            if diameters == 0 and value != 0:
-                yield Fault.of(("tangential", str(i)), value, rule)
-
     def _refuse_repeated_modes(self) -> None:
         """Raise `ParameterError` if a mode is given twice, or as the two halves of a pair."""
         counted = "circles" not in self.model_fields_set  # by frequency: no two are alike
-        for i, j in combinations(range(len(self.diameters)), 2):
-            if self.diameters[i] != self.diameters[j]:
+        modes = enumerate(zip(self.diameters, self.circles, self.omega, strict=True))
+        for (i, (l, circles, omega)), (j, (other, its_circles, its_omega)) in combinations(
+            modes, 2
+        ):
+            if l != other:
                 continue
-            highest = max(self.omega[i], self.omega[j])
-            apart = abs(self.omega[j] - self.omega[i]) / highest
-            same = self.circles[i] == self.circles[j]
-            if counted:
-                same = apart < SAME_FREQUENCY
-            if same:
-                rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
-                rule += GIVEN_ONCE if self.diameters[i] else NO_PAIR
-                raise_faults([Fault.of(("omega", str(j)), self.omega[j], rule)])
+            apart = abs(its_omega - omega) / max(omega, its_omega)
+            same = apart < SAME_FREQUENCY if counted else circles == its_circles
+            rule = f"modes {i + 1} and {j + 1} have as many diameters and are {100 * apart:.2g} % apart: "
+            rule += GIVEN_ONCE if l else NO_PAIR
+            require((not same, f"omega.{j}", its_omega, rule))
 
     @field_validator("damping_ratio", "circles")
     @classmethod
@@ -170,21 +154,17 @@ class Disc(Strict):
         """Fill in a column that is left out: no damping, and circles counted by frequency."""
         diameters = info.data.get("diameters", ())
         omega = info.data.get("omega", ())
-        if column or len(omega) != len(diameters) or len(omega) > MOST_MODES:
+        if column or len(omega) != len(diameters):
             return column
-        if info.field_name == "damping_ratio":
-            return (0.0,) * len(diameters)
-        return _circles_by_frequency(diameters, omega)
-
-    def __eq__(self, other: object) -> bool:
-        """Whether all numbers are equal."""
-        return isinstance(other, Disc) and dict(self) == dict(other)
+        circles = [0] * len(omega)
+        below: Counter[int] = Counter()  # modes met so far, by their diameters
+        for i in sorted(range(len(omega)), key=omega.__getitem__):
+            circles[i] = below[diameters[i]]
+            below[diameters[i]] += 1
+        return (0.0,) * len(omega) if info.field_name == "damping_ratio" else tuple(circles)
 
     def __repr__(self) -> str:
-        low = f"{min(self.omega) / math.tau:.5g}"
-        high = f"{max(self.omega) / math.tau:.5g}"
-        extent = low if low == high else f"{low} to {high}"
-        return f"Disc({counted(len(self.omega), 'mode')}, {extent} Hz)"
+        return f"Disc({counted(len(self.omega), 'mode')}, {frequencies_text(self.omega)})"
 
     __str__ = __repr__
 
@@ -205,7 +185,9 @@ class Disc(Strict):
 
     def with_numbers(self, **changes: Quantity) -> Disc:
         """The disc with some of its `numbers` changed, also to texts with units."""
-        numbers = mode_numbers(changes)
+        faults: list[Fault] = []
+        numbers = {name: mode_number_in_si(name, x, faults) for name, x in changes.items()}
+        raise_faults(faults)
         columns: dict[str, list[float]] = {}
         for column in UNCERTAIN:
             given = enumerate(getattr(self, column))
@@ -350,13 +332,3 @@ class Disc(Strict):
 
         material = {"E": E, "nu": nu, "rho": rho, "damping_ratio": damping_ratio}
         return disc_of_section(section, size, material, clamped, slider, highest_Hz)
-
-
-def _circles_by_frequency(diameters: tuple[int, ...], omega: tuple[float, ...]) -> tuple[int, ...]:
-    """Return the numbers of circles of modes: those of as many diameters below its frequency."""
-    circles = [0] * len(omega)
-    below: Counter[int] = Counter()  # modes met so far, by their diameters
-    for i in sorted(range(len(omega)), key=omega.__getitem__):
-        circles[i] = below[diameters[i]]
-        below[diameters[i]] += 1
-    return tuple(circles)

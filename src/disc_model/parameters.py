@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 import pydantic
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
-from disc_model.errors import Fault, ImplausibleValue, as_text, raise_faults, violations
+from disc_model.errors import Fault, ImplausibleValue, as_text, require
 from disc_model.modal_disc import Disc
 from disc_model.modal_disc import Quantity as Quantity
 from disc_model.provenance import canonical_json, content_key
@@ -208,17 +208,15 @@ class Parameters(Strict):
     def _consistent(self) -> Self:
         """Check the rules between parameters, what a disc excludes, and that the plate has one
         damping. A rule on a parameter that is absent, as in `SomeParameters`, does not count."""
-        raise_faults([*self._faults_of_disc(), *self._faults_of_replaced()])
-        raise_faults(self._faults_of_related())
+        self._check_disc()
+        self._check_related()
         for text in self._doubts():
             warnings.warn(text, ImplausibleValue, stacklevel=READER)
         return self
 
     def _doubts(self) -> Iterator[str]:
         """Yield what is implausible of the plate and the damping, which mistaken units make so."""
-        damping = [self.damping_ratio or 0.0]
-        if self.disc is not None:
-            damping = [*self.disc.damping_ratio]
+        damping = (self.damping_ratio or 0.0,) if self.disc is None else self.disc.damping_ratio
         if max(damping) > MOST_DAMPED:
             yield f"damping ratio above {MOST_DAMPED:g}: it is a fraction of critical damping, not per cent"
         if self.disc is not None or None in (self.a, self.b, self.h, self.E):
@@ -235,40 +233,37 @@ class Parameters(Strict):
             return (*PLATE, "damping_ratio")
         return () if self.damping_ratio is None else ("D_star",)
 
-    def _faults_of_replaced(self) -> Iterator[Fault]:
-        """Yield faults of parameters that are given, but replaced."""
-        rule = "must be left out where damping_ratio is given"
-        if self.disc is not None:
-            rule = "must be left out where a disc is given: it is a parameter of the plate"
+    def _check_disc(self) -> None:
+        """Refuse parameters that are replaced, and laws of contact that need to know more of a disc
+        given by its modes."""
+        disc = self.disc
+        by = "damping_ratio is given" if disc is None else "a disc is given: it is of the plate"
+        replaced = []
         for name in self._replaced:
             value = getattr(self, name)
-            if value != type(self).model_fields[name].default:
-                yield Fault.of((name,), value, rule)
-
-    def _faults_of_disc(self) -> list[str]:
-        """Faults of laws of contact that need to know more of a disc given by its modes."""
-        if self.disc is None:
-            return []
-        surface = self.disc.tangential or self.friction_offset != SURFACE
+            kept = value == type(self).model_fields[name].default
+            replaced.append((kept, name, value, f"must be left out where {by}"))
+        surface = disc is None or disc.tangential or self.friction_offset != SURFACE
         need = "must be a number for a disc whose table has no column tangential_per_sqrt_kg"
-        known = not self.contact_arc or self.contact_compliance != RESIDUAL
+        known = disc is None or not self.contact_arc or self.contact_compliance != RESIDUAL
         point = "must be a number beside contact_arc for a disc given by its modes: "
         point += "its static_compliance is that at a point"
-        return violations(
+        require(
+            *replaced,
             (surface, "friction_offset", SURFACE, need),
             (known, "contact_compliance", RESIDUAL, point),
         )
 
-    def _faults_of_related(self) -> list[str]:
-        """Faults of parameters that must not exceed another one, and of a flexural rigidity beyond
-        the range of floats."""
+    def _check_related(self) -> None:
+        """Refuse parameters that exceed another one, and a flexural rigidity beyond the range of
+        floats."""
         mu_s, mu_k, a, b, r_0, E, h, nu = (getattr(self, name) for name in RELATED[:8])
         if None in (mu_s, mu_k, a, b, r_0, E, h, nu):
-            return []
+            return
         rigidity = E * (h * h * h) / 12 / (1 - nu**2)  # a power would not overflow to inf
         finite = f"must give a finite, positive E h^3/12/(1-nu^2), not {as_text(rigidity)}"
         plate = self.disc is None  # a disc given by its modes has other radii
-        return violations(
+        require(
             (mu_k <= mu_s, "mu_k", mu_k, f"must be <= mu_s={as_text(mu_s)}"),
             (a < r_0 or not plate, "a", a, f"must be < r_0={as_text(r_0)}"),
             (r_0 <= b or not plate, "r_0", r_0, f"must be <= b={as_text(b)}"),
@@ -290,20 +285,13 @@ class Parameters(Strict):
     def numbers(self) -> dict[str, float]:
         """All numbers of the case that may change continuously, by name: parameters and
         `Disc.numbers`, tangential ones where friction acts on the surface."""
-        unused = [*self._replaced]
-        for name, without in _WITHOUT_LAW.items():
-            if getattr(self, name) == without:
-                unused.append(name)
-
-        numbers: dict[str, float] = {}
-        for name, value in self:
-            if isinstance(value, float) and name not in unused:
-                numbers[name] = value
-        if self.disc is not None:
-            for name, value in self.disc.numbers.items():
-                if self.friction_offset == SURFACE or not name.startswith("tangential"):
-                    numbers[name] = value
-        return numbers
+        without = [name for name, value in _WITHOUT_LAW.items() if getattr(self, name) == value]
+        unused = (*self._replaced, *without)
+        numbers = {} if self.disc is None else self.disc.numbers
+        if self.friction_offset != SURFACE:
+            numbers = {x: y for x, y in numbers.items() if not x.startswith("tangential")}
+        own = {x: y for x, y in self if isinstance(y, float) and x not in unused}
+        return own | numbers
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
         """What is given, and not as in Table 1."""
