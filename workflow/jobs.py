@@ -81,9 +81,12 @@ def _parts(jobs: dict[str, str], folder: Path) -> Iterator[xr.Dataset]:
 
 def figure(pdf: str, png: str) -> None:
     """Draw a figure from its files by name."""
+    import gc
+
     from disc_model.figures.kinds import kind_of, render
     from disc_model.figures.kinds import save as save_figure
 
+    gc.disable()  # a job ends before its cycles of references fill the memory
     plan = read_plan()
     shown = {name: load_result(file) for name, file in plan["files"].items()}
     for name, title in plan["titles"].items():
