@@ -88,7 +88,7 @@ def figure(pdf: str, png: str) -> None:
 
     gc.disable()  # a job ends before its cycles of references fill the memory
     plan = read_plan()
-    shown = {name: load_result(file) for name, file in plan["files"].items()}
+    shown = {name: load_result(file, lazy=True) for name, file in plan["files"].items()}
     for name, title in plan["titles"].items():
         shown[name].attrs["title"] = title
     options = plan["plot"]

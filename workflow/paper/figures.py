@@ -29,7 +29,6 @@ from disc_model.figures.runs import (
     mark_slider,
     number_of,
     shade_phases,
-    window_of,
 )
 from disc_model.figures.schema import (
     IN_FULL,
@@ -44,7 +43,7 @@ from disc_model.figures.schema import (
     case_figure,
     grid_figure,
 )
-from disc_model.figures.shown import label, placed, value_text, words
+from disc_model.figures.shown import label, placed, value_text, window_of, words
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
 

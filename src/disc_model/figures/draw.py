@@ -89,7 +89,6 @@ def finish(figure: Figure, title: str = "") -> Figure:
     explain(figure, axes)
     if title:
         figure.suptitle(fill(title, int(LETTERS_PER_INCH * figure.get_figwidth())))
-    figure.align_ylabels()
     return figure
 
 
@@ -421,6 +420,16 @@ def opened(x: Any, y: Any, jump: float) -> Any:
     steps = np.abs(np.diff(np.arcsinh(finite / LINEAR_RATE)))
     breaks = np.flatnonzero(steps > jump) + 1
     return np.insert(x, breaks, np.nan), np.insert(finite, breaks, np.nan)
+
+
+def one_line(x: DataArray, y: DataArray) -> list[NDArray[np.float64]]:
+    """Several lines as one that is open between them, which is drawn faster.
+
+    x, y : shape (line, point); `x` may have the same dimensions in another order, or less
+    """
+    ends = ((0, 0), (0, 1))
+    lines = (each.values for each in (x.broadcast_like(y).transpose(*y.dims), y))
+    return [np.pad(each, ends, constant_values=np.nan).ravel() for each in lines]
 
 
 def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:

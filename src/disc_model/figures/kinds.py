@@ -129,4 +129,5 @@ def save(figure: Figure, path: str | Path, title: str = "") -> None:
         if layout is not None:
             layout.execute(figure)
             figure.set_layout_engine(None)
+            figure.align_ylabels()
         figure.savefig(path, metadata={**metadata, stamp: None}, **options)

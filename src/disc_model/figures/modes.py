@@ -16,6 +16,7 @@ from disc_model.figures.draw import (
     lines,
     mark_missing,
     mark_points,
+    one_line,
     panels,
     rate_axis,
     strip,
@@ -91,11 +92,10 @@ def _modes(ax: Axes, modes: Dataset, name: str) -> None:
 
 def _joined(ax: Axes, y: DataArray, name: str, lw: float, **look: Any) -> None:
     """Modes as one line, open between them, with dots at points that have none beside."""
-    heights = np.pad(y.values, ((0, 0), (0, 1)), constant_values=np.nan).ravel()
+    x, heights = one_line(y["x"], y)
     known = np.isfinite(heights)
     alone = np.flatnonzero(known & ~np.roll(known, 1) & ~np.roll(known, -1))
     if known.any():
-        x = np.tile([*y["x"].values, np.nan], y.sizes["mode"])
         ax.plot(x, heights, ".-", lw=lw, ms=lw, mew=0, markevery=alone, label=name, **look)
 
 

@@ -24,6 +24,7 @@ from disc_model.figures.draw import bar_of, break_label, colours_of, explain, sh
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
+from disc_model.figures.shown import window_of as shown_window
 from disc_model.figures.studies import draw_lines, draw_map
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
@@ -162,7 +163,7 @@ def window_of(case: DataTree, name: Any, which: str = "window", **variables: Any
     variables : those whose samples it must hold, by the arguments that name them
     """
     with refused(which, name):
-        samples = runs.window_of(case, str(name))
+        samples = shown_window(case, str(name))
     for argument, variable in variables.items():
         held = isinstance(variable, str) and variable in samples
         require((held, argument, variable, f"is not among the samples of the window {name}"))

@@ -20,10 +20,10 @@ from disc_model.analysis.classify import FEWEST, first_settled
 from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import radial_range
-from disc_model.figures.draw import COLUMN, PAGE, compare, mark_points, number_map, panels
+from disc_model.figures.draw import COLUMN, PAGE, compare, edges, frame, mark_points, panels
 from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SKY, Options
 from disc_model.figures.schema import Cases, Either, Recorded, Sampled, Samples, case_figure
-from disc_model.figures.shown import label, value_text, words
+from disc_model.figures.shown import label, value_text, window_of, words
 from disc_model.parameters import Parameters
 from disc_model.units import Positive, Unit
 
@@ -31,21 +31,6 @@ Hertz = Annotated[Positive, Unit("Hz")]
 
 
 # ---- Windows of a case
-
-
-def window_of(case: DataTree, name: str) -> Dataset:
-    """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
-    if it has fewer than two samples."""
-    if name not in case.children:
-        why = {"failed": "failed"}
-        raise Missing(why.get(case["status"].item(), f"did not record {name}"))
-    window: Dataset = case.children[name].to_dataset(inherit=False).copy()
-    if window.sizes["time"] < 2:
-        raise Missing(f"has too few samples in {name}")
-    for variable, x in window.items():
-        if "w_point" in str(variable):
-            x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
-    return window
 
 
 def number_of(case: DataTree, name: str) -> float:
@@ -325,7 +310,11 @@ def levels_of(windows: Sequence[Dataset], variable: str) -> list[DataArray]:
 def draw_spectrogram(ax: Axes, level: DataArray, highest: float) -> Any:
     """Draw levels of power up to a frequency, Hz; returns the mesh, for a bar."""
     part = level.sel(frequency=slice(0, highest))
-    return number_map(ax, part, cmap=cm.lipari, norm=Normalize(-100, 0))
+    ends = [*edges(part["time"])[[0, -1]], *edges(part["frequency"])[[0, -1]]]
+    look: Options = {"extent": ends, "origin": "lower", "interpolation": "nearest"}
+    mesh = ax.imshow(part, cm.lipari, Normalize(-100, 0), aspect="auto", **look)
+    frame(ax, part)
+    return mesh
 
 
 # ---- The whole disc

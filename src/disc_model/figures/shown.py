@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from xarray import DataArray, Dataset, DataTree
 
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset
 from disc_model.data.variables import attributes as attributes_in_files
 from disc_model.parameters import Parameters
@@ -41,11 +42,25 @@ def shown(data: Dataset, units: Mapping[str, str] | None = None) -> Dataset:
 
 
 def shown_case(case: DataTree, units: Mapping[str, str] | None = None) -> DataTree:
-    """The tree of a case, with all of its groups as readers see them."""
-    groups = {node.path: node.to_dataset(inherit=False) for node in case.subtree}
-    tree = DataTree.from_dict({path: shown(each, units) for path, each in groups.items()})
-    tree.attrs = case.attrs
+    """The tree of a case, with its numbers as readers see them; `window_of` shows one of its windows."""
+    tree = DataTree(shown(case.to_dataset(inherit=False), units), children=dict(case.children))
+    tree.attrs["shown_in"] = units
     return tree
+
+
+def window_of(case: DataTree, name: str) -> Dataset:
+    """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
+    if it has fewer than two samples."""
+    if name not in case.children:
+        why = {"failed": "failed"}
+        raise Missing(why.get(case["status"].item(), f"did not record {name}"))
+    window = shown(case.children[name].to_dataset(inherit=False), case.attrs.get("shown_in"))
+    if window.sizes["time"] < 2:
+        raise Missing(f"has too few samples in {name}")
+    for variable, x in window.items():
+        if "w_point" in str(variable):
+            x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
+    return window
 
 
 def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:

@@ -1,5 +1,6 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
+from collections.abc import Sequence
 from itertools import product
 from typing import Annotated, Any, Literal
 
@@ -31,6 +32,7 @@ from disc_model.figures.draw import (
     mark_missing,
     mark_points,
     number_map,
+    one_line,
     panels,
     rate_axis,
     sign_changes,
@@ -114,7 +116,7 @@ def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
     mesh = number_map(ax, plane, why, **colours)
     if is_rate(plane):
         mark_stable(ax, plane, why)
-        borders(ax, None, plane)
+        borders([ax], None, plane)
     if doubt is not None:
         cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
     return mesh
@@ -267,8 +269,7 @@ def region_map(
         beside = curves
         if curves is not None and by in curves.dims:
             beside = curves.sel({by: part[by].item()})
-        borders(outcome, beside, rate)
-        borders(growth, beside, rate)
+        borders([outcome, growth], beside, rate)
     for name, mark in marks.items():
         draw_mark(axes[above[0]], name, mark, study[x], study[y])
     bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
@@ -281,7 +282,7 @@ def titled(title: str, study: Dataset) -> str:
     return f"{title}: outcome within {horizon:g} s".removeprefix(": ")
 
 
-def borders(ax: Axes, curves: Dataset | None, rate: DataArray) -> None:
+def borders(axes: Sequence[Axes], curves: Dataset | None, rate: DataArray) -> None:
     """Continued curves beside a stable cycle: thin where they do not pass between an area in which the
     cycle of a map is stable and one beyond, both two cells wide or more, but are of another cycle, or
     finer than the cells. Without curves, the line at which the rate changes its sign.
@@ -289,7 +290,9 @@ def borders(ax: Axes, curves: Dataset | None, rate: DataArray) -> None:
     rate : of dimensions (up, across)
     """
     if curves is None:
-        sign_changes(ax, rate.where(around(rate < 0) & around(rate >= 0)), SIGN)
+        known = rate.where(around(rate < 0) & around(rate >= 0))
+        for ax in axes:
+            sign_changes(ax, known, SIGN)
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
     known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
@@ -297,10 +300,11 @@ def borders(ax: Axes, curves: Dataset | None, rate: DataArray) -> None:
     beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
     for (kind, (name, style)), wide in product(BORDERS.items(), (True, False)):
         chosen = known & (beside == wide) & (curves["kind"] == kind)
-        part = up.where(chosen).transpose("curve_point", ...)
+        part = up.where(chosen).transpose(..., "curve_point")
         text = name if wide else "thin: narrow, or of another cycle"
-        if part.notnull().any():
-            ax.plot(across.T, part, style, color=BLACK, lw=1 if wide else 0.4, label=text)
+        for ax in axes if part.notnull().any() else ():
+            line = one_line(across, part)
+            ax.plot(*line, style, color=BLACK, lw=1 if wide else 0.4, label=text)
 
 
 def around(area: DataArray) -> DataArray:
@@ -426,7 +430,7 @@ def behind(ax: Axes, plane: Dataset, curves: Dataset | None) -> None:
     folds of a stable cycle that leave the panel through its upper edge."""
     merged = plane["outcome"].where(plane["outcome"] != "other_cycle", "growing")
     class_map(ax, merged, {"growing": LOOKS["growing"]._replace(label=MERGED)})
-    borders(ax, curves, plane["growth_rate"])
+    borders([ax], curves, plane["growth_rate"])
     if curves is None:
         return
     speeds, loads = folds(curves)
