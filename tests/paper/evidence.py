@@ -24,7 +24,11 @@ from workflow.paper.judging_tables import COMPLIANT, ENERGIES, GROWTHS, POWERS
 from workflow.paper.measures import CaseView
 
 ROOT = Path(__file__).parents[2]
-SPECS = load_study(ROOT / "config" / "paper.yaml").specs
+SPECS = {
+    name: spec
+    for name, spec in load_study(ROOT / "config" / "paper.yaml").specs.items()
+    if spec.parameters.normalization == "as_published"
+}
 STORIES = Path(__file__).with_name("stories.yaml")
 TEXTS = yaml.safe_load(STORIES.read_text(encoding="utf-8"))
 Groups = dict[str, xr.Dataset]
@@ -35,7 +39,7 @@ Groups = dict[str, xr.Dataset]
 
 @cache
 def simulated(*names: str, normalization: str = "as_published") -> dict[str, xr.DataTree]:
-    """Return cases of the paper, all unless some are named: half a minute of one core."""
+    """Return cases of the paper, all on a linear plate unless some are named: half a minute of one core."""
     specs = {}
     for name in names or SPECS:
         spec = SPECS[name]
@@ -153,7 +157,6 @@ WORDS = (
     "settled",
     "changing",
     "simulation",
-    "inferred",
     "undecided",
 )
 """Words of flags."""

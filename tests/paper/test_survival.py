@@ -1,4 +1,4 @@
-"""Conclusions under five models.
+"""Conclusions under seven models.
 
 Each is judged by made-up data on which it is true, on which it is not, and which do not tell.
 """
@@ -328,10 +328,10 @@ def grids_of_all_models() -> dict[str, xr.DataTree]:
     for name, values in zip(CHANGED, zip(*MODELS.values(), strict=True), strict=True):
         numbers = [1e-3 * value if isinstance(value, bool) else value for value in values]
         coordinates[name] = ("model", numbers)
-    outcomes = ("qqsqgs", "qqsqgs", "qssqgs", "qqqqgg", "qqsqgs")
+    outcomes = ("qqsqgs", "qqsqgs", "qssqgs", "qqqqgg", "qqsqgs", "qqsqgs", "qqqqgg")
     parts = {
-        "curves": [curves("fold", 29.0, 29.0)] * 5,
-        "growth": [growth(*STABLE_AND_NOT)] * 5,
+        "curves": [curves("fold", 29.0, 29.0)] * len(MODELS),
+        "growth": [growth(*STABLE_AND_NOT)] * len(MODELS),
         "outcome": [outcome(letters) for letters in outcomes],
     }
     nodes = {}
@@ -343,10 +343,10 @@ def grids_of_all_models() -> dict[str, xr.DataTree]:
 
 def cases_of_all_models() -> dict[str, xr.DataTree]:
     """Return a case of each model, with shares of stick that differ."""
-    shares = (1e-4, 0.01, 1e-4, 6e-4, 0.01)
+    shares = (1e-4, 0.01, 1e-4, 6e-4, 0.01, 1e-4, 0.01)
     nodes = {}
     for share, (name, model) in zip(shares, MODELS.items(), strict=True):
-        scale, compliant, force, on_surface = model
+        scale, compliant, force, on_surface, stretching = model
         p = Parameters(
             N=200,
             Omega=20,
@@ -354,6 +354,7 @@ def cases_of_all_models() -> dict[str, xr.DataTree]:
             contact_force=force,
             contact_compliance="residual" if compliant else 0.0,
             friction_offset="surface" if on_surface else 0.0,
+            stretching=stretching,
         )
         node = case(stick=share).node
         root = node.to_dataset().assign_attrs(parameters=p.canonical_json)
@@ -369,9 +370,9 @@ def test_each_model_is_judged_by_its_own_data() -> None:
     page, *sections = survival.pages_of(table)
     rows = page[2].set_index("Conclusion").drop(columns="True if")
     verdicts = dict(zip(BY_TITLE, rows.to_numpy().tolist(), strict=True))
-    assert verdicts[ONSET] == [TRUE, TRUE, FALSE, NOT_COMPUTED, TRUE]
-    assert verdicts[STICK] == [TRUE, FALSE, TRUE, TRUE, FALSE]
-    assert verdicts[CRITICAL] == [NOT_COMPUTED] * 5
+    assert verdicts[ONSET] == [TRUE, TRUE, FALSE, NOT_COMPUTED, TRUE, TRUE, NOT_COMPUTED]
+    assert verdicts[STICK] == [TRUE, FALSE, TRUE, TRUE, FALSE, TRUE, FALSE]
+    assert verdicts[CRITICAL] == [NOT_COMPUTED] * 7
 
     assert [heading for heading, _, _ in sections] == [*BY_TITLE]
     told = (

@@ -249,6 +249,45 @@ def test_the_ledger_names_its_evidence_and_counts_verdicts(judged: pd.DataFrame)
     assert "54.42 s, where the paper has 54.5 s" in first
 
 
+STRETCHED = [
+    # ranges at three quarters of the time and in the end from rest, mm; first separation, s; separations a
+    # second after a blow; what is said
+    ((0.2, 0.2), np.nan, 0, "no separation in 300 s, range 0.2 mm in the end"),
+    ((0.2, 0.3), np.nan, 0, "no separation in 300 s, range 0.3 mm in the end (not settled)"),
+    ((4.0, 4.0), 157.57, 40, "separates at 157.6 s, range 4 mm in the end"),
+    ((0.2, 0.2), np.nan, 195, "but after a blow of 5 m/s it goes on separating"),
+]
+
+
+@pytest.mark.parametrize(("ranges", "first", "rate", "said"), STRETCHED)
+def test_rows_say_what_stretching_makes_of_their_motions(
+    ranges: tuple[float, float], first: float, rate: float, said: str
+) -> None:
+    case = evidence.simulated("F13")["F13"]
+    at_rest = rate if first > 0 else 0.0
+    columns = {
+        "earlier_range": [1e-3 * ranges[0], 1e-3],
+        "range": [1e-3 * ranges[1], 1e-3],
+        "first_separation": [first, np.nan],
+        "separation_rate": [at_rest, rate],
+    }
+    study = xr.Dataset(
+        {name: (("point", "stretching", "begin"), [[each]]) for name, each in columns.items()},
+        {
+            "N": ("point", [385.0]),
+            "Omega": ("point", [15.1]),
+            "stretching": ["clamped"],
+            "begin": ["static", "displaced"],
+        },
+        {"base": "{}"},
+    )
+    known = {"F13": case, "stretching_motions": xr.DataTree(study)}
+    table = ledger.check_claims(views(known)).set_index("id")
+    assert table.loc["F13", "stretched"].startswith("385 N, 15.1 rad/s: ")
+    assert said in table.loc["F13", "stretched"]
+    assert table.loc["eq17", "stretched"] == ""
+
+
 def test_cases_stand_beside_those_by_eq_17() -> None:
     names = ("F02", "F02free", "F04", "F13", "F17", "F20", "T2kp18", "S43N550", "S43N550a")
     models = {}

@@ -1,6 +1,7 @@
 """Plates that stretch: the engine against two given scenes, an own integrator in long double, and
 the linear engine."""
 
+import math
 import re
 from pathlib import Path
 
@@ -188,6 +189,16 @@ def test_energy_over_a_long_time():
     p = Parameters(N=200, Omega=50, normalization="orthonormal", stretching="clamped")
     run = simulate(p, 100, tol=1e-14, initial_state=start_of(p, -0.00225), events=False)
     assert run.statistics["energy_residual"] < 1e-12
+
+
+@pytest.mark.compiled
+@pytest.mark.slow
+@pytest.mark.parametrize(("N", "Omega", "first"), [(200, 50, 157.5728), (800, 30, math.nan)])
+def test_first_separations_of_the_physical_disc(N, Omega, first):
+    """As another program has them; slow growth multiplies what differs by 1e4."""
+    p = Parameters(N=N, Omega=Omega, normalization="orthonormal", stretching="clamped")
+    run = simulate(p, 200, events=False)
+    assert run.first_separation == pytest.approx(first, abs=2e-3, nan_ok=True)
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ SCANS = (
     "map_k",
     "map_k_p",
     "map_m",
+    "stretching_motions",
 )
 """Grid studies that rows of the ledger use."""
 

@@ -1,4 +1,4 @@
-"""The paper's figures, from named cases, and one from maps: kinds such as ``paper.response``."""
+"""The paper's figures, from named cases, and some from studies: kinds such as ``paper.response``."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -188,6 +188,9 @@ def light_slider(case: DataTree, zoom: Samples = "zoom") -> Figure:
 
 # ---- Whole runs
 
+WITH_AND_WITHOUT = ("with separation", "separation ignored")
+"""Labels of a case and of the one in which separation is ignored."""
+
 
 @case_figure()
 def with_and_without(case: DataTree, ignored: Case, history: Ranges = "history") -> Figure:
@@ -199,13 +202,18 @@ def with_and_without(case: DataTree, ignored: Case, history: Ranges = "history")
 
 
 def draw_both(
-    ax: Axes, case: DataTree, ignored: DataTree, name: str, until: float | None = None
+    ax: Axes,
+    case: DataTree,
+    ignored: DataTree,
+    name: str,
+    until: float | None = None,
+    labels: tuple[str, str] = WITH_AND_WITHOUT,
 ) -> None:
-    """Draw the range of the disc with separation over that without."""
+    """Draw the range of the disc in a case over that in another."""
     followed = ranges_of(case, name, until)
     without = ranges_of(ignored, name, float(followed["time"][-1]))
-    draw_range(ax, without, "w_point", color="0.6", label="separation ignored")
-    draw_range(ax, followed, "w_point", color=BLUE, label="with separation")
+    draw_range(ax, without, "w_point", color="0.6", label=labels[1])
+    draw_range(ax, followed, "w_point", color=BLUE, label=labels[0])
     shown = followed["w_point_max"]
     ax.set(xlabel=label(followed["time"]), ylabel=label(shown))
     mark_first_separation([ax], case)
@@ -253,8 +261,9 @@ def composite(
     force: tuple[str, Finite],
     until: Seconds,
     history: Ranges = "history",
+    labels: tuple[str, str] = WITH_AND_WITHOUT,
 ) -> Figure:
-    """(a) The model, (b) the disc's vibration with separation and, in the case `ignored`, without,
+    """(a) The model, (b) the disc's vibration and that in the case `ignored`, by their labels,
     (c) the contact force in 40 ms.
 
     force : window of the contact force, and the time at which the stretch shown begins, s
@@ -264,7 +273,7 @@ def composite(
     figure, axes = panels(layout, PAGE, 2.5, width_ratios=(1, 1.15, 1.3))
     axes["model"].imshow(imread(MODEL))
     axes["model"].set_axis_off()
-    draw_both(axes["growth"], case, ignored, history, until)
+    draw_both(axes["growth"], case, ignored, history, until, labels)
     draw_look(axes["force"], case, force, 0.04, "P")
     axes["force"].set_ylim(bottom=0)
     return figure
@@ -617,3 +626,51 @@ def draw_times(ax: Axes, points: Mapping[str, Dataset], firsts: Any) -> None:
     ax.set(xscale="log", xlabel="First separation (s)")
     ax.set_yticks(range(len(firsts)), [*firsts.index])
     ax.margins(x=0.06)
+
+
+# ---- Motions of a plate that stretches
+
+MOTIONS: dict[tuple[str, str], tuple[str, float, dict[str, Any]]] = {
+    ("none", "static"): ("linear, from rest", -0.15, {"marker": "s", "color": ORANGE}),
+    ("none", "displaced"): ("linear, after a blow", 0.15, {"marker": "D", "color": ORANGE}),
+    ("clamped", "static"): ("stretches, from rest", -0.15, {"marker": "o", "color": BLUE}),
+    ("clamped", "displaced"): ("stretches, after a blow", 0.15, {"marker": "^", "color": BLUE}),
+}
+"""Plates and starts: their names, places in a row, and marks."""
+
+
+@grid_figure("range_law", takes=True)
+def stretched_ranges(study: xr.Dataset) -> Figure:
+    """Range of motions over the range R at which vibration at their frequency loses contact, on the
+    linear plate and on one that stretches, from rest and after a blow: one row for each case, one
+    panel for each normalisation; filled where contact is lost."""
+    (along,) = study["N"].dims
+    panel_names = dict.fromkeys(study["normalization"].values.tolist())
+    figure, axes = panels([[*panel_names]], PAGE, 2.6)
+    for name, ax in axes.items():
+        part = study.isel({along: (study["normalization"] == name).values})
+        rows = np.arange(part.sizes[along])
+        for (stretching, begin), (text, shift, look) in MOTIONS.items():
+            motion = part.sel(stretching=stretching, begin=begin)
+            ratio = (motion["range"] / motion["pinned_range"]).values
+            lost = (motion["separation_rate"] > 0).values
+            ax.plot(ratio[lost], rows[lost] + shift, label=text, ls="", **look)
+            ax.plot(ratio[~lost], rows[~lost] + shift, mfc="white", ls="", **look)
+        ax.axvline(1, color=BLACK, lw=0.8, ls="--", label="range R at which contact is lost")
+        ax.set(
+            xscale="log", xlabel="Range / R", title=value_text(part[along][:1]["normalization"][0])
+        )
+        ax.set_yticks(rows, [_row_name(part.isel({along: i})) for i in rows])
+        ax.invert_yaxis()
+    return figure
+
+
+def _row_name(point: xr.Dataset) -> str:
+    """Preload and speed of a motion, and what differs from Table 1."""
+    text = f"{point['N'].item():g} N, {point['Omega'].item():g} rad/s"
+    usual = Parameters(N=1, Omega=1)
+    for name in ("D_star", "c_p", "k_p", "m"):
+        value = point[name].item() / point[name].attrs.get("factor", 1.0)
+        if not np.isclose(value, getattr(usual, name), rtol=1e-9, atol=0):
+            text += f", {value_text(point[name])}"
+    return text

@@ -19,6 +19,7 @@ from workflow.paper import (
     section41,
     section43,
     section44,
+    stretching,
 )
 from workflow.paper.measures import CaseView, extent, or_none, place, rate_text, repeats
 from workflow.paper.model import FALSE, TRUE, VERDICTS, Row, read_texts, rows_of
@@ -30,7 +31,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {}
 for _module in (paper_tables, section2, section41, section43, section44):
     FUNCTIONS |= {name: each for name, each in vars(_module).items() if not ismodule(each)}
 FUNCTIONS |= {"extent": extent, "repeats": repeats, "named": place}
-COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "matters", "notes"]
+COLUMNS = ["id", "section", "place", "quote", "verdict", "here", "stretched", "matters", "notes"]
 COLUMNS += ["rule", "figures", "data", "computed", "counts"]
 NUMBER = r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
 
@@ -47,14 +48,21 @@ def check_claims(
 
     Returns
     -------
-    table : with `COLUMNS`; ``figures`` and ``data`` are links from the paper's results, by their words
+    table : with `COLUMNS`; ``stretched`` says what the row's motions come to if the plate stretches,
+        ``figures`` and ``data`` are links from the paper's results, by their words
     """
     made = dict(tables or {})
     for name in JUDGING_TABLES:
         needed = TABLE_CASES[name]
         if name not in made and cases.keys() >= {*needed}:
             made[name] = paper_tables.TABLES[name]({each: cases[each] for each in needed})
-    rows = [{**_stated(row), **row.judge(cases, made, FUNCTIONS)._asdict()} for row in ROWS]
+    motions = cases[stretching.STUDY].node.to_dataset() if stretching.STUDY in cases else None
+    rows = []
+    for row in ROWS:
+        judged = row.judge(cases, made, FUNCTIONS)._asdict()
+        own = [cases[name] for name in row.cases if name in cases]
+        stretched = "" if motions is None else stretching.with_stretching(own, motions)
+        rows.append({**_stated(row), **judged, "stretched": stretched})
     return pd.DataFrame(rows)[COLUMNS]
 
 
@@ -125,7 +133,8 @@ def compare(models: Mapping[str, Mapping[str, CaseView]]) -> list[Section]:
         Any, str
     ] = {}  # each set of parameters once, without repetitions at another tolerance
     for name, case in models["published"].items():
-        if name in models["orthonormal"] and case.from_rest:
+        of_paper = case.parameters.normalization == "as_published"
+        if of_paper and name in models["orthonormal"] and case.from_rest:
             names.setdefault(case.parameters, name)
     old, new = ([models[model][name] for name in names.values()] for model in NAMES)
     failed = np.array([[case.status == "failed" for case in cases] for cases in (old, new)])

@@ -119,7 +119,7 @@ rule judge_survival:
             "results/paper/survival.html",
             caption="report/survival.rst",
             category="Model sensitivity",
-            labels={"page": "The paper's conclusions under five models"},
+            labels={"page": "The paper's conclusions under seven models"},
         ),
         png=report(
             "results/paper/survival_growth.png",

@@ -1,4 +1,4 @@
-"""Model sensitivity: the paper's main conclusions, judged like rows of the ledger under five models."""
+"""Model sensitivity: the paper's main conclusions, judged like rows of the ledger under seven models."""
 
 import math
 from collections.abc import Iterator, Mapping
@@ -17,16 +17,18 @@ from workflow.paper import ledger, measures, section41
 from workflow.paper.measures import Cases, CaseView, Found, rate_text, sound
 from workflow.paper.model import read_texts, rows_of
 
-CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset")
-"""Parameters by which the models differ; of the second and the last, whether they are 0."""
+CHANGED = ("normalization", "contact_compliance", "contact_force", "friction_offset", "stretching")
+"""Parameters by which the models differ; of the second and the fourth, whether they are 0."""
 MODELS = {
-    "as published": ("as_published", False, "vertical", False),
-    "orthonormal": ("orthonormal", False, "vertical", False),
-    "+ residual flexibility": ("orthonormal", True, "vertical", False),
-    "+ normal contact force": ("orthonormal", True, "normal", False),
-    "+ friction on the surface": ("orthonormal", True, "normal", True),
+    "as published": ("as_published", False, "vertical", False, "none"),
+    "orthonormal": ("orthonormal", False, "vertical", False, "none"),
+    "+ residual flexibility": ("orthonormal", True, "vertical", False, "none"),
+    "+ normal contact force": ("orthonormal", True, "normal", False, "none"),
+    "+ friction on the surface": ("orthonormal", True, "normal", True, "none"),
+    "as published, stretching": ("as_published", False, "vertical", False, "clamped"),
+    "orthonormal, stretching": ("orthonormal", False, "vertical", False, "clamped"),
 }
-"""The models by name, each with one more change."""
+"""The models by name: five, each with one more change, and the first two on a plate that stretches."""
 SLOW = 1e-3
 """Growth rate in 1/s below which a cycle counts as neither stable nor unstable."""
 
@@ -40,7 +42,7 @@ def by_model(cases: Mapping[str, CaseView]) -> dict[str, dict[str, CaseView]]:
     for name, case in cases.items():
         known = case.node.to_dataset().variables if case.is_grid else vars(case.parameters)
         columns = [np.atleast_1d(known[parameter]).tolist() for parameter in CHANGED]
-        points = [(n, bool(c), f, bool(o)) for n, c, f, o in zip(*columns, strict=True)]
+        points = [(n, bool(c), f, bool(o), s) for n, c, f, o, s in zip(*columns, strict=True)]
         for model, values in MODELS.items():
             if points.count(values) == 1:
                 models[model][name] = case

@@ -1,4 +1,4 @@
-"""Judge the paper's conclusions under five models of disc and contact: evidence as CSV, and the
+"""Judge the paper's conclusions under seven models of disc and contact: evidence as CSV, and the
 page."""
 
 from disc_model.data.dataset import load_cases

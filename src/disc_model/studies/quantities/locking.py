@@ -11,7 +11,6 @@ import xarray as xr
 from pydantic import Field
 
 from disc_model.parameters import Parameters
-from disc_model.simulation.case import Window
 from disc_model.studies.quantity import STATIC, Starting, found, quantity
 from disc_model.units import Count, Seconds, Tolerance
 
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
     from disc_model.simulation.result import Result
     from disc_model.stability.locking import Lock
 
-RATE = 1e5  # Hz, of the contact force at releases: a stick lasts half a millisecond
+RELEASES = 50  # whose phases are stored
 
 
 @quantity(
@@ -38,7 +37,6 @@ def locking(
     record: Seconds = 20.0,
     max_record: Seconds = 160.0,
     multipliers: bool = True,
-    releases: Annotated[Count, Field(ge=1, le=10_000)] = 50,
     probes: Annotated[Count, Field(ge=0, le=10_000)] = 0,
     start: Starting = STATIC,
     tol: Tolerance = 1e-10,
@@ -53,7 +51,6 @@ def locking(
     max_record : longest time recorded
     multipliers : whether the motion counts as locked only if Newton's method finds a stable cycle at it, whose period
         is then given; without this, that of a motion which still settles may be a multiple
-    releases : number of releases whose phases are stored
     probes : number of places at which the map of release phases is computed
     start : start of the motion
     tol : tolerance of simulations: error of event times after a second of motion
@@ -69,22 +66,17 @@ def locking(
     from disc_model.simulation.starts import state_after
     from disc_model.stability.locking import phase_map
 
-    own = {"release": range(releases), "probe": range(probes)}
     state = state_after(case, start, transient, tol)
     while True:
-        run = simulate(case, duration=record, tol=tol, initial_state=state)
-        if not run.status.complete:
-            return found("locking", {"status": run.status.value}, run.message, **own)
+        run = simulate(case, duration=record, tol=tol, initial_state=state).raise_for_status()
         values, lock = _read(run)
         if values["motion"] != "undecided" or 2 * record > max_record:
             break
         record *= 2
-    for name in ("release_phase", "release_separations"):
-        values[name] = values.get(name, np.empty(0))[:releases]
     values |= {"status": "ok", "record_time": record}
     message = ""
     if lock is not None and multipliers:
-        proof = _proof(run, lock, tol)
+        proof = _proof(run, lock)
         if proof is None:
             values["motion"] = "undecided"
             message = f"no stable cycle of {lock.releases} releases was found at the motion"
@@ -97,7 +89,7 @@ def locking(
             "map_separations": phases.vibrations.astype(float),
             "map_slope": phases.slopes,
         }
-    return found("locking", values, message, **own)
+    return found("locking", values, message, release=range(RELEASES), probe=range(probes))
 
 
 def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
@@ -118,41 +110,34 @@ def _read(run: Result) -> tuple[dict[str, Any], Lock | None]:
         "motion": "undecided",
         "separations_per_release": float(np.mean(taken.vibrations)),
         "separation_interval": taken.vibration,
-        "release_phase": taken.phases,
-        "release_separations": taken.vibrations.astype(float),
+        "release_phase": taken.phases[:RELEASES],
+        "release_separations": taken.vibrations[:RELEASES].astype(float),
     }
     if lock is not None:
         values |= {"motion": "locked", **_columns_of(lock)}
     return values, lock
 
 
-def _proof(run: Result, lock: Lock, tol: float) -> dict[str, Any] | None:
+def _proof(run: Result, lock: Lock) -> dict[str, Any] | None:
     """Columns of the stable cycle that a motion is on; None without one."""
-    from disc_model.simulation.api import simulate
     from disc_model.stability.cycle import multipliers
-    from disc_model.stability.locking import cycle_at, lock_on, releases_of, swing_multiplier
+    from disc_model.stability.locking import locked_cycle, releases_of
 
-    case = run.parameters
-    state = run.final_state
-    cycle = cycle_at(case, state, lock)
-    if cycle is None:
+    taken = releases_of(run)
+    assert taken is not None
+    found = locked_cycle(run.parameters, run.final_state, lock, taken)
+    if found is None:
         return None
+    cycle, lock = found
     known = multipliers(cycle.jacobian)
     if not abs(known[0]) < 1:
         return None
-    taken = releases_of(run)
-    assert taken is not None
-    lock = lock_on(cycle, taken, lock)
-    length = 1.1 * lock.period
-    windows = {"force": Window(last=length, rate=RATE)}
-    period = simulate(case, windows=windows, duration=length, tol=tol, initial_state=state)
     real = known[np.abs(known.imag) <= 1e-9 * np.abs(known)].real
     return {
         **_columns_of(lock),
         "leading_multiplier": float(abs(known[0])),
         "growth_rate": math.log(abs(known[0])) / lock.period,
         "real_multiplier": float(real.max(initial=-math.inf)),
-        "swing_multiplier": swing_multiplier(case, period, lock),
     }
 
 

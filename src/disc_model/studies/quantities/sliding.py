@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Annotated, Any
 
 import numpy as np
@@ -40,10 +41,11 @@ def sliding_modes(
     >>> found["unstable_modes"].values
     array([2, 2, 2])
     """
-    from disc_model.stability.sliding import follow_modes
+    from disc_model.stability.sliding import follow_modes, height_of_slider
 
     values = values_between(bounds, step)
-    followed = follow_modes([_case_at(case, name, value) for value in values])
+    cases = [_case_at(case, name, value) for value in values]
+    followed = follow_modes(cases)
     n_modes = max(int(numbers.max(initial=-1)) + 1 for _, _, numbers, _ in followed)
     columns: dict[str, Any] = {}
     for column, variable in OF_QUANTITIES["sliding_modes"]["columns"].items():
@@ -61,6 +63,7 @@ def sliding_modes(
         row = {
             "unstable_modes": sliding.growing.size,
             "contact_force": sliding.contact_force,
+            "height": height_of_slider(cases[i], sliding) if sliding.status.exists else math.nan,
             "largest_growth_rate": sliding.growth_rate,
         }
         rows.append(row)
