@@ -223,6 +223,7 @@ def test_motions_say_what_they_are_and_those_that_failed_are_left_out() -> None:
 @pytest.mark.parametrize("name", [each.__name__ for each in KINDS_OF_STUDIES])
 def test_every_variable_of_a_quantity_is_on_the_page(name: str) -> None:
     study: Any = EXAMPLES[name]().inputs["study"]
+    study = study.drop_vars([coordinate for coordinate, x in study.coords.items() if not x.ndim])
     contents = unpacked(study_contents(name, study, None, STATED))
     on_page = {variable for group in contents["groups"] for variable in group["points"]}
     assert {variable for variable, x in study.items() if x.size} <= on_page

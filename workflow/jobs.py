@@ -87,7 +87,7 @@ def figure(pdf: str, png: str) -> None:
     from disc_model.figures.kinds import save as save_figure
 
     plan = read_plan()
-    shown = {name: load_result(file) for name, file in plan["files"].items()}
+    shown = {name: load_result(file, lazy=True) for name, file in plan["files"].items()}
     for name, title in plan["titles"].items():
         shown[name].attrs["title"] = title
     options = plan["plot"]

@@ -86,7 +86,6 @@ HISTORY = {"kind": "history", "case": "A", "window": "late"}
         ({"kind": "heat_map", "x": "Omega", "y": "N"}, "variable: is required"),
         ({**MAP, "colour": "red"}, "colour.*unknown"),
         ({**MAP, "xs": "Omega"}, "xs.*did you mean x"),
-        ({**MAP, "log": "much"}, "log='much'"),
         ({**MAP, "width": "narrow"}, "width='narrow'.*column.*page"),
         ({**MAP, "units": {"speed": "rpm"}}, "units.speed='rpm': no parameter or variable"),
         ({**MAP, "units": {"Omega": "mm"}}, "units.Omega=.*mm'.*rad/s"),
@@ -136,7 +135,6 @@ def test_examples_are_what_files_may_say(name: str) -> None:
 NORMAL = {"normalization": ["as_published"]}
 PLANE = {"Omega": [10.0, 12.0], "N": [100.0, 200.0], **NORMAL}
 CUBE = {**PLANE, "k": [2e4, 5e4]}
-CLASSES = ("outcome", "status")
 
 
 def faults_of(phrase: Mapping[str, Any], dims: Mapping[str, Sequence[Any]]) -> list[Fault]:
@@ -145,14 +143,13 @@ def faults_of(phrase: Mapping[str, Any], dims: Mapping[str, Sequence[Any]]) -> l
     variables = {"period": dims, "outcome": dims, "exponent": {**dims, "exponent_number": [1, 2]}}
     plot: Kind = plot_of(phrase)
     assert isinstance(plot, Plot)
-    return [*plot.faults(dims, variables, CLASSES)]
+    return [*plot.faults(dims, variables)]
 
 
 OUTCOME = {"kind": "sliding_outcome", "x": "Omega", "y": "N", "overlays": {"sliding": "s"}}
 FAULTS: list[tuple[dict[str, Any], dict[str, Any], str, str, str]] = [
     # a variable
     ({**MAP, "variable": "perid"}, PLANE, "variable", "'perid'", "unknown variable, did you mean"),
-    ({**MAP, "variable": "outcome", "log": True}, PLANE, "log", "True", "is for numbers"),
     (
         {**CURVE, "variable": "exponent"},
         {**NORMAL, "Omega": [1, 2]},
@@ -172,7 +169,6 @@ FAULTS: list[tuple[dict[str, Any], dict[str, Any], str, str, str]] = [
     # lines and panels
     ({**CURVE, "by": "k"}, PLANE, "by", "'k'", "needs the dimension k"),
     ({**CURVE, "by": "N"}, {**PLANE, "N": [*range(13)]}, "by", "'N'", "has 13 values"),
-    ({**CURVE, "by": "N", "names": {"1": "low"}}, PLANE, "names", "'1'", "must be one of"),
     # what remains
     (MAP, CUBE, "at.k", "", "is required, one of [20000.0, 50000.0]; or by: k"),
     ({"kind": "campbell"}, {"N": [1, 2]}, "at.N", "", "is required, one of [1, 2]"),

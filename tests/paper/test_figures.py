@@ -13,7 +13,7 @@ from disc_model import Parameters, Poincare, Window, simulate
 from disc_model.data.variables import PHASES
 from disc_model.figures.kinds import render
 from disc_model.figures.schema import CasePlot, Plot
-from disc_model.figures.shown import shown, shown_case
+from disc_model.figures.shown import shown, shown_case, window_of
 from disc_model.studies.study import load_study
 from tests.damages import DAMAGES, damaged
 from tests.paper import evidence
@@ -79,7 +79,7 @@ def test_a_case_that_lacks_what_is_shown_says_so(name: str, damage: str) -> None
 
 def test_one_separation_is_in_millimetres_micrometres_and_milliseconds() -> None:
     both, gap = drawn("fig03").axes
-    start, stop = figures.first_complete(shown_case(case())["zoom"].to_dataset()) or (0, 0)
+    start, stop = figures.first_complete(window_of(shown_case(case()), "zoom")) or (0, 0)
     assert f"Time after {start:.9g} s (ms)" == gap.get_xlabel()
     samples = case()["zoom"].to_dataset().sel(time=slice(start, stop))
     rest = float(case()["u_0"])
@@ -100,10 +100,11 @@ def test_the_thickness_is_to_scale() -> None:
 
 def test_spectra_in_time_show_the_stick_slip_frequency() -> None:
     figure = drawn("fig25")
-    panels = [ax for ax in figure.axes if ax.get_ylim() == (0, 300) and ax.collections]
-    mesh = panels[0].collections[0]
-    frequency = mesh.get_coordinates()[:-1, 0, 1] + 0.5
-    level = np.asarray(mesh.get_array()).mean(axis=1)
+    panels = [ax for ax in figure.axes if ax.get_ylim() == (0, 300) and ax.images]
+    image = panels[0].images[0]
+    level = np.asarray(image.get_array()).mean(axis=1)
+    *_, low, high = image.get_extent()
+    frequency = low + (high - low) * (np.arange(level.size) + 0.5) / level.size
     peak = frequency[frequency > 20][int(np.argmax(level[frequency > 20]))]
     # a cycle lasts 14.8 ms, 67.7 Hz; a multiple of it, or beside it by a turn
     assert min(abs(peak - n * 67.7) for n in (1, 2, 3, 4)) < 4
@@ -117,7 +118,7 @@ def test_the_disc_between_the_angles_is_the_disc() -> None:
         name: Window(start=0.5, stop=0.52, rate=2e4, theta=angle) for name, angle in angles.items()
     }
     tree = shown_case(simulate(p, 0.52, windows).to_tree())
-    there = tree["elsewhere/w_point"]
+    there = window_of(tree, "elsewhere")["w_point"]
     w = figures.deflection_around(tree, p, there["time"])
     assert w.attrs["units"] == "mm"
     found = w.sel(r=p.r_0).sel(theta=2 * np.pi / 3, method="nearest")

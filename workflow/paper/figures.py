@@ -5,13 +5,13 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.patheffects import withStroke
 from pydantic import Field
+from xarray import DataArray, Dataset, DataTree
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
@@ -29,9 +29,10 @@ from disc_model.figures.runs import (
     mark_slider,
     number_of,
     shade_phases,
-    window_of,
 )
 from disc_model.figures.schema import (
+    IN_FULL,
+    IN_TIME,
     Case,
     Cases,
     InTime,
@@ -39,16 +40,12 @@ from disc_model.figures.schema import (
     Role,
     Sampled,
     Samples,
-    as_samples,
-    as_spectrum,
     case_figure,
     grid_figure,
 )
-from disc_model.figures.shown import label, placed, value_text, words
+from disc_model.figures.shown import label, placed, value_text, window_of, words
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Unit
-from workflow.paper import section2
-from workflow.paper.model import parameters_of
 
 Seconds = Annotated[Positive, Unit("s")]
 Span = tuple[float, float]
@@ -59,7 +56,7 @@ MODEL = Path(__file__).with_name("figures_model.png")
 # ---- Parts of figures
 
 
-def ranges_of(case: xr.DataTree, name: str, until: float | None = None) -> xr.Dataset:
+def ranges_of(case: DataTree, name: str, until: float | None = None) -> Dataset:
     """Ranges in a window, up to a time in s; raises `Missing` without two."""
     shown = window_of(case, name).sel(time=slice(None, until))
     if shown.sizes["time"] < 2:
@@ -67,14 +64,14 @@ def ranges_of(case: xr.DataTree, name: str, until: float | None = None) -> xr.Da
     return shown
 
 
-def after(samples: xr.Dataset, start: float) -> xr.Dataset:
+def after(samples: Dataset, start: float) -> Dataset:
     """A window with times in ms after one in s."""
     changed = samples.assign_coords(time=1e3 * (samples["time"] - start))
     changed["time"].attrs = {"long_name": f"Time after {start:.9g} s", "units": "ms"}
     return changed
 
 
-def separations(samples: xr.Dataset) -> list[Span]:
+def separations(samples: Dataset) -> list[Span]:
     """Times of the first and the last sample of each separation in a window, s, with those that the
     window cuts off."""
     time = samples["time"].values.tolist()
@@ -84,24 +81,24 @@ def separations(samples: xr.Dataset) -> list[Span]:
     return [(time[first], time[end - 1]) for first, end in zip(firsts, ends, strict=True)]
 
 
-def first_complete(samples: xr.Dataset) -> Span | None:
+def first_complete(samples: Dataset) -> Span | None:
     """The first separation that begins and ends inside a window."""
     first, last = samples["time"].values[[0, -1]]
     inside = [span for span in separations(samples) if first < span[0] and span[1] < last]
     return next(iter(inside), None)
 
 
-def name_of_case(case: xr.DataTree) -> str:
+def name_of_case(case: DataTree) -> str:
     """Preload and speed of a case."""
     return ", ".join(value_text(case.dataset[name]) for name in ("N", "Omega"))
 
 
-def rest_of(case: xr.DataTree, x: xr.DataArray) -> float:
+def rest_of(case: DataTree, x: DataArray) -> float:
     """Height of the static equilibrium in the unit of a displacement."""
     return placed(x, number_of(case, "u_0"))
 
 
-def draw_displacements(ax: Axes, case: xr.DataTree, samples: xr.Dataset) -> None:
+def draw_displacements(ax: Axes, case: DataTree, samples: Dataset) -> None:
     """Draw displacements of disc and slider from static equilibrium."""
     rest = rest_of(case, samples["u"])
     for name, x, colour, style in (
@@ -114,7 +111,7 @@ def draw_displacements(ax: Axes, case: xr.DataTree, samples: xr.Dataset) -> None
     mark_thickness(ax, case, samples["w"])
 
 
-def mark_thickness(ax: Axes, case: xr.DataTree, w: xr.DataArray) -> None:
+def mark_thickness(ax: Axes, case: DataTree, w: DataArray) -> None:
     """Draw a bar as long as the disc is thick beside an axis of its displacement, if it finds room:
     plate theory is linear for less only."""
     h = case["h"]
@@ -142,7 +139,7 @@ def mark_printed(ax: Axes, time: float | None) -> None:
 
 
 @case_figure()
-def contact_force(case: xr.DataTree, history: Ranges = "history", zoom: Samples = "zoom") -> Figure:
+def contact_force(case: DataTree, history: Ranges = "history", zoom: Samples = "zoom") -> Figure:
     """(a) Range of the contact force over the run, (b) the contact force in a window of samples."""
     figure, axes = panels([["run", "zoom"]], PAGE, 2.3)
     draw_history([axes["run"]], ranges_of(case, history), ["P"])
@@ -153,7 +150,7 @@ def contact_force(case: xr.DataTree, history: Ranges = "history", zoom: Samples 
 
 
 @case_figure()
-def one_separation(case: xr.DataTree, zoom: Samples = "zoom") -> Figure:
+def one_separation(case: DataTree, zoom: Samples = "zoom") -> Figure:
     """(a) Displacements from static equilibrium around the first complete separation of a window,
     (b) the gap."""
     layout = [["both"], ["gap"]]
@@ -174,7 +171,7 @@ def one_separation(case: xr.DataTree, zoom: Samples = "zoom") -> Figure:
 
 
 @case_figure()
-def light_slider(case: xr.DataTree, zoom: Samples = "zoom") -> Figure:
+def light_slider(case: DataTree, zoom: Samples = "zoom") -> Figure:
     """Displacements from static equilibrium in a part of a window, with the losses of contact."""
     figure, axes = panels([["a"]], COLUMN, 2.4)
     samples = window_of(case, zoom)
@@ -196,7 +193,7 @@ WITH_AND_WITHOUT = ("with separation", "separation ignored")
 
 
 @case_figure()
-def with_and_without(case: xr.DataTree, ignored: Case, history: Ranges = "history") -> Figure:
+def with_and_without(case: DataTree, ignored: Case, history: Ranges = "history") -> Figure:
     """Range of the disc at r_0 and a fixed angle over the run, with separation and, in the case
     `ignored`, without."""
     figure, axes = panels([["a"]], COLUMN, 2.4)
@@ -206,8 +203,8 @@ def with_and_without(case: xr.DataTree, ignored: Case, history: Ranges = "histor
 
 def draw_both(
     ax: Axes,
-    case: xr.DataTree,
-    ignored: xr.DataTree,
+    case: DataTree,
+    ignored: DataTree,
     name: str,
     until: float | None = None,
     labels: tuple[str, str] = WITH_AND_WITHOUT,
@@ -225,7 +222,7 @@ def draw_both(
 
 @case_figure()
 def histories(
-    case: xr.DataTree,
+    case: DataTree,
     beside: Cases = (),
     history: Ranges = "history",
     until: Seconds | None = None,
@@ -259,7 +256,7 @@ def histories(
 
 @case_figure()
 def composite(
-    case: xr.DataTree,
+    case: DataTree,
     ignored: Case,
     force: tuple[str, Finite],
     until: Seconds,
@@ -282,9 +279,7 @@ def composite(
     return figure
 
 
-def draw_look(
-    ax: Axes, case: xr.DataTree, place: tuple[str, float], length: float, name: str
-) -> None:
+def draw_look(ax: Axes, case: DataTree, place: tuple[str, float], length: float, name: str) -> None:
     """Draw a variable in a stretch of a window that begins at a place, with a length in s; raises
     `Missing` without samples there."""
     window, start = place
@@ -302,8 +297,8 @@ AROUND = 9
 STYLES = ("-", "--", "-.", ":")
 
 
-@case_figure({f"around{i}": as_samples for i in range(AROUND)})
-def instants(case: xr.DataTree) -> Figure:
+@case_figure({f"around{i}": IN_FULL for i in range(AROUND)})
+def instants(case: DataTree) -> Figure:
     """The disc from above, and along its circle of radius r_0, at four instants from the first loss
     of contact to the next, or over the whole stretch without two losses, by nine windows `around0`,
     ..."""
@@ -336,7 +331,7 @@ def instants(case: xr.DataTree) -> Figure:
     return figure
 
 
-def deflection_around(case: xr.DataTree, p: Parameters, time: xr.DataArray) -> xr.DataArray:
+def deflection_around(case: DataTree, p: Parameters, time: DataArray) -> DataArray:
     """Deflection of the disc over time, r and theta, by windows at as many angles as determine the
     harmonics that modes without nodal circles are, in the unit of these; raises `Missing` if they do
     not."""
@@ -355,7 +350,7 @@ def deflection_around(case: xr.DataTree, p: Parameters, time: xr.DataArray) -> x
     w = np.einsum("jt,jr,aj->tra", amplitudes, both, harmonics(theta, orders))
     unit = {"long_name": "Deflection", "units": windows[0]["w_point"].attrs["units"]}
     coordinates = {"time": time.values, "r": radii, "theta": theta}
-    return xr.DataArray(w, coordinates, ("time", "r", "theta"), attrs=unit)
+    return DataArray(w, coordinates, ("time", "r", "theta"), attrs=unit)
 
 
 def harmonics(angles: np.ndarray, orders: np.ndarray) -> np.ndarray:
@@ -379,9 +374,9 @@ TABLE_2 = {
 """Lines of the paper, Hz, by their components; pairs are too close for separate names."""
 
 
-@case_figure(dict.fromkeys(STRETCHES[1:], as_spectrum))
+@case_figure(dict.fromkeys(STRETCHES[1:], IN_TIME))
 def four_stretches(
-    case: xr.DataTree, ignored: Case, history: Ranges = "history", until: Seconds | None = None
+    case: DataTree, ignored: Case, history: Ranges = "history", until: Seconds | None = None
 ) -> Figure:
     """Range of the disc at r_0 and a fixed angle, and its power over time and frequency in four
     stretches, with the lines of Table 2. The last row is the bilateral case `ignored`, which has
@@ -427,7 +422,7 @@ def say_as_above(ax: Axes, above: Axes) -> None:
     ax.text(0.5, 0.5, "as above", ha="center", transform=ax.transAxes)
 
 
-def mark_interval(ax: Axes, level: xr.DataArray, letter: str = "b") -> None:
+def mark_interval(ax: Axes, level: DataArray, letter: str = "b") -> None:
     """Mark the interval of a spectrum in time on the history of its run, with the letter of its
     panel."""
     ends = level["time"].values[[0, -1]]
@@ -446,7 +441,7 @@ def name_lines(ax: Axes) -> None:
 
 @case_figure()
 def response(  # noqa: PLR0913
-    case: xr.DataTree,
+    case: DataTree,
     variable: Sampled,
     window: InTime,
     ignored: Case = None,
@@ -493,10 +488,10 @@ def response(  # noqa: PLR0913
 def draw_spectra(
     figure: Figure,
     axes: Mapping[str, Axes],
-    cases: Mapping[str, xr.DataTree],
+    cases: Mapping[str, DataTree],
     window: str,
     variable: str,
-) -> xr.DataArray:
+) -> DataArray:
     """Draw the spectra in time of cases in panels of their names, with a bar; returns the first."""
     levels = levels_of([window_of(each, window) for each in cases.values()], variable)
     for (name, case), level in zip(cases.items(), levels, strict=True):
@@ -508,7 +503,7 @@ def draw_spectra(
     return levels[0]
 
 
-def mark_highest(ax: Axes, case: xr.DataTree) -> None:
+def mark_highest(ax: Axes, case: DataTree) -> None:
     """Mark the disc's highest natural frequency."""
     p = Parameters.model_validate_json(case.attrs["parameters"])
     natural = float(np.max(plate_modes(p)["omega"])) / (2 * np.pi)
@@ -532,30 +527,39 @@ CELLS = {
 """With which normalization the static start separates. They differ in grey print."""
 RIGHT_OF = ("Fig. 2", "Fig. 7")
 """Marks whose names stand on their right."""
-Regions = Annotated[xr.Dataset, Role("regions", required=True)]
+Regions = Annotated[Dataset, Role("regions", required=True)]
 
 
 @grid_figure("regions", needs=("N", "Omega"), takes=True)
 def scales(
-    study: xr.Dataset, map_D_star: Regions, map_c_p: Regions, map_k_p: Regions, map_m: Regions
+    study: Dataset, map_D_star: Regions, map_c_p: Regions, map_k_p: Regions, map_m: Regions
 ) -> Figure:
     """(a) Squared amplitudes under the slider, (b) where the static start separates on the map over
     speed and preload, (c) first separations on this and further maps."""
+    from workflow.paper import section2  # with all measures, which other figures do without
+
     layout = [["amplitudes", "regions", "times"]]
     figure, axes = panels(layout, PAGE, 2.6, width_ratios=(0.8, 1.25, 1.2))
     maps = {"map_N": study, "map_D_star": map_D_star, "map_c_p": map_c_p, "map_k_p": map_k_p}
-    points = points_on({**maps, "map_m": map_m})
-    draw_amplitudes(axes["amplitudes"])
+    points = points_on({**maps, "map_m": map_m}, section2.SEPARATING)
+    draw_amplitudes(axes["amplitudes"], section2.BASE)
     draw_regions(axes["regions"], study, points)
-    draw_times(axes["times"], points)
+    draw_times(axes["times"], points, section2.first_separations(points))
     return figure
 
 
-def points_on(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
+def points_on(
+    maps: Mapping[str, Dataset], separating: Mapping[str, tuple[str, str]]
+) -> dict[str, Dataset]:
     """The paper's cases that separate, on shown maps, by the names of its figures; raises `Missing`
-    if a map does not have one."""
+    if a map does not have one.
+
+    separating : names of map and case
+    """
+    from workflow.paper.model import parameters_of
+
     points = {}
-    for figure, (name, case) in section2.SEPARATING.items():
+    for figure, (name, case) in separating.items():
         study, p = maps[name], parameters_of(case, "as_published")
         axes = {*study["outcome"].dims} - {"normalization"}
         place = {axis: placed(study[axis], getattr(p, str(axis))) for axis in axes}
@@ -565,11 +569,11 @@ def points_on(maps: Mapping[str, xr.Dataset]) -> dict[str, xr.Dataset]:
     return points
 
 
-def draw_amplitudes(ax: Axes) -> None:
+def draw_amplitudes(ax: Axes, base: Parameters) -> None:
     """Draw the squared amplitudes of the modes with both normalizations."""
     squares = {}
     for scale, look in MARKS.items():
-        modes = plate_modes(section2.BASE.replace(normalization=scale))
+        modes = plate_modes(base.replace(normalization=scale))
         squares[scale] = modes["psi"].to_numpy() ** 2
         ax.plot(modes["diameters"], squares[scale], "o", ms=5, **look)
     published, orthonormal = (float(squares[scale][1]) for scale in SCALES)
@@ -579,13 +583,13 @@ def draw_amplitudes(ax: Axes) -> None:
     ax.margins(x=0.12)
 
 
-def draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) -> None:
+def draw_regions(ax: Axes, study: Dataset, points: Mapping[str, Dataset]) -> None:
     """Draw with which normalization the static start separates, and the paper's cases, each in the
     colour of its own outcome."""
     outcome = study["outcome"].sel(normalization=[*SCALES]).transpose("normalization", "N", "Omega")
     class_map(ax, outcome[0].copy(data=separates_with(outcome)), CELLS)
     for name, point in points.items():
-        if section2.SEPARATING[name][0] != "map_N":
+        if not {"N", "Omega"} <= {*point.coords}:  # on another map
             continue
         place = (float(point["Omega"]), float(point["N"]))
         face = CELLS[str(separates_with(point["outcome"]))].face
@@ -597,7 +601,7 @@ def draw_regions(ax: Axes, study: xr.Dataset, points: Mapping[str, xr.Dataset]) 
         ax.annotate(name, place, (shift, 0), fontsize=7, **at)
 
 
-def separates_with(outcome: xr.DataArray) -> np.ndarray:
+def separates_with(outcome: DataArray) -> np.ndarray:
     """The class, see `CELLS`, of each point of outcomes whose first dimension is `SCALES`."""
     published, orthonormal = words(outcome) == "separation"
     said = np.where(published, "published", "neither")
@@ -605,10 +609,10 @@ def separates_with(outcome: xr.DataArray) -> np.ndarray:
     return np.where(published & orthonormal, "both", said)
 
 
-def draw_times(ax: Axes, points: Mapping[str, xr.Dataset]) -> None:
+def draw_times(ax: Axes, points: Mapping[str, Dataset], firsts: Any) -> None:
     """Draw the first separation with both normalizations, a row for each figure of the paper; an
     arrow up to the horizon of the map where there is none by Eq. (17)."""
-    firsts = section2.first_separations(points).sort_values("as_published", ascending=False)
+    firsts = firsts.sort_values("as_published", ascending=False)
     lost = int(firsts["orthonormal"].isna().sum())
     text = f"none by Eq. (17) up to the horizon, {lost} of {len(firsts)}"
     for height, (name, row) in enumerate(firsts.iterrows()):

@@ -159,13 +159,13 @@ def load(path: str | Path) -> xr.Dataset | xr.DataTree:
     return tree if tree.children else tree.to_dataset()
 
 
-def load_tree(path: str | Path) -> xr.DataTree:
-    """As `load`, always as a tree."""
+def load_tree(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
+    """As `load`, always as a tree; if it is lazy, numbers are read when they are used."""
     file = regular_file(path)
+    read = xr.open_datatree if lazy else xr.load_datatree
     try:
-        return xr.load_datatree(file, engine="netcdf4", decode_timedelta=False).map_over_datasets(
-            _with_words
-        )
+        tree = read(file, engine="netcdf4", decode_timedelta=False)
+        return tree.map_over_datasets(_with_words)
     except FileNotFoundError:
         raise MissingFile(f"{file}: there is no such file") from None
     except Exception as error:  # whatever a file of another kind leads the libraries to
@@ -178,11 +178,11 @@ def _with_words(group: xr.Dataset) -> xr.Dataset:
     return group.assign(words)
 
 
-def load_result(path: str | Path) -> xr.DataTree:
+def load_result(path: str | Path, *, lazy: bool = False) -> xr.DataTree:
     """As `load_tree`, of a file of a study's results: `UnreadableFile` has a remedy, and the variables of
     a run say what they are in today's words."""
     try:
-        tree = load_tree(path)
+        tree = load_tree(path, lazy=lazy)
     except UnreadableFile as error:
         raise UnreadableFile(f"{error}\nDelete it, and run the same command again") from None
     if "parameters_key" in tree.attrs:

@@ -20,7 +20,7 @@ import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.cbook import normalize_kwargs
-from matplotlib.colors import AsinhNorm, LogNorm, Normalize
+from matplotlib.colors import AsinhNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch
@@ -28,8 +28,9 @@ from matplotlib.path import Path
 from matplotlib.ticker import LogLocator
 from matplotlib.transforms import Bbox
 from numpy.typing import NDArray
+from xarray import DataArray, Dataset
 
-from disc_model.figures.looks import BLACK, GREY, LOOKS, UNRESOLVED, Look, looks_of
+from disc_model.figures.looks import BLACK, GREY, LOOKS, UNRESOLVED, Look, Options, looks_of
 from disc_model.figures.shown import label, value_text, words
 
 COLUMN = 3.307  # width of a figure of one column, inch
@@ -48,7 +49,7 @@ TICKS_OF_RATES = np.array([-1, -1 / 3, -0.1, 0, 0.1, 1 / 3, 1])  # over the end 
 NO_LOOKS: dict[str, Look] = {}
 MOST_MARKS = 12  # on one line of several
 SIDES = ("right", "left")  # of lines, for their names
-NOTE: dict[str, Any] = {"textcoords": "offset points", "fontsize": 7}
+NOTE: Options = {"textcoords": "offset points", "fontsize": 7}
 LOWER, UPPER = 0.015, 0.985  # places of crosses, share of a panel
 BELOW_ANY = "−∞, below any number"
 
@@ -88,7 +89,6 @@ def finish(figure: Figure, title: str = "") -> Figure:
     explain(figure, axes)
     if title:
         figure.suptitle(fill(title, int(LETTERS_PER_INCH * figure.get_figwidth())))
-    figure.align_ylabels()
     return figure
 
 
@@ -102,7 +102,7 @@ def explain(figure: Any, axes: Sequence[Axes], letters: float = LETTERS_PER_INCH
 
     letters : of the legend in an inch
     """
-    handles: dict[str, Any] = {}
+    handles: Options = {}
     insets = [each for ax in axes for each in ax.child_axes if isinstance(each, Axes)]
     for ax in (*axes, *insets):
         for handle, text in zip(*ax.get_legend_handles_labels(), strict=True):
@@ -164,7 +164,7 @@ def is_geometric(values: NDArray[Any]) -> bool:
     return bool(np.isclose(steps, np.median(steps), rtol=1e-6).mean() > 0.75)
 
 
-def edges(x: xr.DataArray) -> Any:
+def edges(x: DataArray) -> Any:
     """Edges of cells halfway between values, in their ratio where these are equal."""
     values = np.atleast_1d(x.values.astype(float))
     if is_geometric(values):
@@ -180,7 +180,7 @@ def _between(values: NDArray[np.float64]) -> Any:
     return (around[1:] + around[:-1]) / 2
 
 
-def cells(ax: Axes, plane: xr.DataArray, mask: Any, look: Look) -> None:
+def cells(ax: Axes, plane: DataArray, mask: Any, look: Look) -> None:
     """Paint the cells of a mask of the shape of a plane, of dimensions (up, across)."""
     row, column = np.nonzero(np.asarray(mask))
     if not row.size:
@@ -192,7 +192,7 @@ def cells(ax: Axes, plane: xr.DataArray, mask: Any, look: Look) -> None:
     ax.add_artist(PathPatch(outline, lw=0, **paint))
 
 
-def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
+def class_map(ax: Axes, flag: DataArray, looks: Mapping[str, Look] = NO_LOOKS) -> None:
     """Paint each cell in the look of its word, and none where that is "".
 
     flag : words, shape (up, across)
@@ -204,7 +204,7 @@ def class_map(ax: Axes, flag: xr.DataArray, looks: Mapping[str, Look] = NO_LOOKS
     frame(ax, flag)
 
 
-def strip(ax: Axes, flag: xr.DataArray) -> None:
+def strip(ax: Axes, flag: DataArray) -> None:
     """Paint words along the horizontal axis over the height of a panel, and nothing where they are "".
 
     flag : words, shape (x,)
@@ -217,9 +217,7 @@ def strip(ax: Axes, flag: xr.DataArray) -> None:
         ax.fill_between(x, 0, 1, here, transform=place, zorder=0, lw=0.4, **paint)
 
 
-def number_map(
-    ax: Axes, x: xr.DataArray, missing: xr.DataArray | None = None, **colours: Any
-) -> Any:
+def number_map(ax: Axes, x: DataArray, missing: DataArray | None = None, **colours: Any) -> Any:
     """Paint numbers in colours, and points without one in the look of their class.
 
     x : numbers, shape (up, across)
@@ -237,13 +235,13 @@ def number_map(
     return mesh
 
 
-def missing_text(x: xr.DataArray) -> str:
+def missing_text(x: DataArray) -> str:
     """What a legend says of points without a value."""
     why = x.attrs.get("missing", "")
     return f"no value: {why}" if why else "no value"
 
 
-def lone_cells(flag: xr.DataArray) -> xr.DataArray:
+def lone_cells(flag: DataArray) -> DataArray:
     """Single cells of a class between two of another one, along or across: it is narrower than the
     cells."""
     alone = xr.zeros_like(flag, dtype=bool)
@@ -253,12 +251,12 @@ def lone_cells(flag: xr.DataArray) -> xr.DataArray:
     return alone & flag.notnull() & ~flag.isin(["", "excluded"])
 
 
-def unresolved(ax: Axes, flag: xr.DataArray) -> None:
+def unresolved(ax: Axes, flag: DataArray) -> None:
     """Hatch cells of classes that are narrower than cells."""
     cells(ax, flag, lone_cells(flag), UNRESOLVED)
 
 
-def growth_colours(rate: xr.DataArray) -> dict[str, Any]:
+def growth_colours(rate: DataArray) -> Options:
     """Colours of growth rates: neutral at zero, and nearly logarithmic beyond a thirtieth of the
     end of the scale."""
     sizes, end = np.abs(finite_of(rate)), LARGEST_RATE
@@ -267,35 +265,35 @@ def growth_colours(rate: xr.DataArray) -> dict[str, Any]:
     return {"cmap": cm.vik, "norm": AsinhNorm(end / 30, -end, end)}
 
 
-def usual_colours(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
+def usual_colours(x: DataArray) -> Options:
     """Colours of other numbers, around zero if they have both signs."""
-    values = finite_of(x.where(x > 0) if log else x)
+    values = finite_of(x)
     low, high = (values.min(), values.max()) if values.size else (0.1, 1.0)
     if low < 0 < high:
         high = max(-low, high)
         return {"cmap": cm.vik, "norm": Normalize(-high, high)}
-    return {"cmap": cm.batlow, "norm": (LogNorm if log else Normalize)(low, high)}
+    return {"cmap": cm.batlow, "norm": Normalize(low, high)}
 
 
-def finite_of(x: xr.DataArray) -> NDArray[np.float64]:
+def finite_of(x: DataArray) -> NDArray[np.float64]:
     """The finite numbers of an array, shape (n,)."""
     values = x.values.astype(float)
     return values[np.isfinite(values)]
 
 
-def colours_of(x: xr.DataArray, *, log: bool = False) -> dict[str, Any]:
+def colours_of(x: DataArray) -> Options:
     """Colours of any numbers; none of words."""
     if is_words(x):
         return {}
-    return growth_colours(x) if is_rate(x) and not log else usual_colours(x, log=log)
+    return growth_colours(x) if is_rate(x) else usual_colours(x)
 
 
-def is_rate(x: xr.DataArray) -> bool:
+def is_rate(x: DataArray) -> bool:
     """Whether these are growth rates."""
     return str(x.name).endswith("growth_rate")
 
 
-def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
+def bar_of(figure: Any, axes: Any, mesh: Any, x: DataArray) -> None:
     """The bar of colours beside panels; its ends are open where numbers lie beyond them."""
     norm = mesh.norm
     beyond = int((x < norm.vmin).any()) + 2 * int((x > norm.vmax).any())
@@ -307,7 +305,7 @@ def bar_of(figure: Any, axes: Any, mesh: Any, x: xr.DataArray) -> None:
         bar.minorticks_off()
 
 
-def sign_changes(ax: Axes, rate: xr.DataArray, name: str) -> None:
+def sign_changes(ax: Axes, rate: DataArray, name: str) -> None:
     """The line at which a rate changes its sign between cells, of dimensions (up, across)."""
     if min(rate.shape) > 1 and rate.min() < 0 < rate.max():
         up, across = (rate[str(dim)] for dim in rate.dims)
@@ -315,7 +313,7 @@ def sign_changes(ax: Axes, rate: xr.DataArray, name: str) -> None:
         ax.plot([], [], color=BLACK, lw=0.8, label=name)
 
 
-def frame(ax: Axes, plane: xr.DataArray) -> None:
+def frame(ax: Axes, plane: DataArray) -> None:
     """Labels, scales and limits of a map of dimensions (up, across)."""
     up, across = (plane[str(dim)] for dim in plane.dims)
     scale(ax.yaxis, up)
@@ -325,7 +323,7 @@ def frame(ax: Axes, plane: xr.DataArray) -> None:
         ax.label_outer()
 
 
-def scale(axis: Any, x: xr.DataArray) -> None:
+def scale(axis: Any, x: DataArray) -> None:
     """Label an axis, and make it logarithmic, with plain numbers, if the ratios of values are equal."""
     axis.set_label_text(label(x))
     if not is_words(x) and is_geometric(x.values):
@@ -343,18 +341,18 @@ def once(ax: Axes, text: str) -> str:
     return "_nolegend_" if text in ax.get_legend_handles_labels()[1] else text
 
 
-def wished(look: Mapping[str, Any], **usual: Any) -> dict[str, Any]:
+def wished(look: Mapping[str, Any], **usual: Any) -> Options:
     """Options of a line: usual ones, and in their place a reader's, by any name that matplotlib has
     for them."""
     return {**usual, **normalize_kwargs(dict(look), Line2D)}
 
 
-def is_words(x: xr.DataArray) -> bool:
+def is_words(x: DataArray) -> bool:
     """Whether an array has words, or other objects, in place of numbers."""
     return x.dtype.kind in "OUST"
 
 
-def places(axis: Any, x: xr.DataArray) -> NDArray[np.float64]:
+def places(axis: Any, x: DataArray) -> NDArray[np.float64]:
     """The places of numbers, or of words, along an axis; nan for ""."""
     if not is_words(x):
         return x.values.astype(float)
@@ -367,10 +365,10 @@ def places(axis: Any, x: xr.DataArray) -> NDArray[np.float64]:
 
 def lines(
     ax: Axes,
-    y: xr.DataArray,
+    y: DataArray,
     x: str,
     *,
-    doubtful: xr.DataArray | None = None,
+    doubtful: DataArray | None = None,
     doubt: str = "not settled",
     missing: str | None = None,
     edge: float = LOWER,
@@ -390,7 +388,7 @@ def lines(
     """
     by = next((str(dim) for dim in y.dims if dim != x), "")
     unsure = xr.zeros_like(y, dtype=bool) if doubtful is None else doubtful
-    parts = each_value(xr.Dataset({"drawn": y, "unsure": unsure}), by)
+    parts = each_value(Dataset({"drawn": y, "unsure": unsure}), by)
     why = missing_text(y) if missing is None else missing
     if is_words(y) or is_words(y[x]):
         look = wished(look) | {"linestyle": ""}
@@ -424,11 +422,27 @@ def opened(x: Any, y: Any, jump: float) -> Any:
     return np.insert(x, breaks, np.nan), np.insert(finite, breaks, np.nan)
 
 
+def one_line(x: DataArray, y: DataArray) -> list[NDArray[np.float64]]:
+    """Several lines as one that is open between them, which is drawn faster.
+
+    x, y : shape (line, point); `x` may have the same dimensions in another order, or less
+    """
+    ends = ((0, 0), (0, 1))
+    lines = (each.values for each in (x.broadcast_like(y).transpose(*y.dims), y))
+    return [np.pad(each, ends, constant_values=np.nan).ravel() for each in lines]
+
+
 def mark_points(ax: Axes, x: Any, y: Any, name: str, **look: Any) -> None:
-    """Hollow marks at points, which no line joins; nothing without a point."""
-    if np.isfinite(np.asarray(y, dtype=float)).any():
+    """Hollow marks at points, which no line joins; nothing without a point.
+
+    x : of the first dimensions of `y`, or as these
+    """
+    across, heights = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
+    places = across.reshape(across.shape + (1,) * (heights.ndim - across.ndim))
+    known = np.isfinite(heights)
+    if known.any():
         own = wished(look, label=once(ax, name), linestyle="", markerfacecolor="white", zorder=3)
-        ax.plot(x, y, **own)
+        ax.plot(np.broadcast_to(places, heights.shape)[known], heights[known], **own)
 
 
 def mark_missing(
@@ -455,7 +469,7 @@ def rate_axis(ax: Axes, linear: float = LINEAR_RATE) -> None:
 # ---- Shares
 
 
-def shares(ax: Axes, x: xr.DataArray, fractions: xr.DataArray, classes: str) -> None:
+def shares(ax: Axes, x: DataArray, fractions: DataArray, classes: str) -> None:
     """Stacked shares of classes in their order, a bar at each value along a dimension.
 
     fractions : shape (x, classes)
@@ -469,10 +483,3 @@ def shares(ax: Axes, x: xr.DataArray, fractions: xr.DataArray, classes: str) -> 
             ax.bar(sides[:-1], share, np.diff(sides), bottom, align="edge", **looks[word].paint)
             bottom = bottom + share
     ax.set(xlabel=label(x), ylim=(0, 1), xlim=sides[[0, -1]])
-
-
-def wilson(hits: Any, n: Any) -> tuple[Any, Any]:
-    """Middle and half width of Wilson's interval of a share, of 95 %."""
-    share, more = hits / n, 1.96**2 / n
-    spread = np.sqrt(more * (share * (1 - share) + more / 4))
-    return (share + more / 2) / (1 + more), spread / (1 + more)

@@ -5,6 +5,8 @@ from collections.abc import Iterable
 from itertools import cycle
 from typing import Any, NamedTuple
 
+Options = dict[str, Any]
+"""Options of matplotlib by name."""
 BLACK = "#000000"
 GREY = "#8a8a8a"
 BLUE = "#0072B2"
@@ -16,7 +18,7 @@ SKY = "#56B4E9"
 OF_VARIABLE = {"P": "#4d4d4d", "w": BLUE, "w_point": BLUE, "psi": ORANGE, "u": ORANGE}
 """Colours of sampled variables, and of their velocities."""
 OF_PHASE = {"stick": GREEN, "slip": PURPLE, "separation": RED}
-PAPER: dict[str, Any] = {"color": "#F0E442", "markeredgecolor": BLACK, "markeredgewidth": 0.8}
+PAPER: Options = {"color": "#F0E442", "markeredgecolor": BLACK, "markeredgewidth": 0.8}
 """The look of what the paper says."""
 
 
@@ -29,7 +31,7 @@ class Look(NamedTuple):
     ink: str = BLACK
 
     @property
-    def paint(self) -> dict[str, Any]:
+    def paint(self) -> Options:
         """What matplotlib calls them."""
         ink = self.ink if self.hatch else "none"
         return {"label": self.label, "fc": self.face, "hatch": self.hatch, "ec": ink}

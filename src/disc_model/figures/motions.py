@@ -1,22 +1,23 @@
 """Figures of motions over a parameter: what they come to, from where, and after how long they
 repeat."""
 
-from itertools import groupby
-from operator import itemgetter
 from typing import Annotated
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from xarray import DataArray, Dataset
 
 from disc_model.data.dataset import Missing
 from disc_model.data.variables import stated_in
 from disc_model.figures.draw import (
+    NOTE,
     PAGE,
     UPPER,
     each_value,
     lines,
+    mark_missing,
     mark_points,
     once,
     panels,
@@ -25,9 +26,9 @@ from disc_model.figures.draw import (
     strip,
     threshold,
 )
-from disc_model.figures.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED
+from disc_model.figures.looks import BLACK, BLUE, GREY, LOOKS, OF_PHASE, ORANGE, RED, Options
 from disc_model.figures.schema import NOTHING, Role, grid_figure
-from disc_model.figures.shown import label, placed, value_text
+from disc_model.figures.shown import label, placed
 from disc_model.figures.stability import stable_between, thicken
 from disc_model.units import Finite, Unit
 
@@ -35,7 +36,7 @@ Named = Annotated[dict[str, Finite], Unit(of="x")]
 """Values of x by names."""
 
 
-def _places(along: xr.DataArray, values: dict[str, float]) -> dict[str, float]:
+def _places(along: DataArray, values: dict[str, float]) -> dict[str, float]:
     """Named values in the unit of an axis."""
     return {name: placed(along, value) for name, value in values.items()}
 
@@ -52,72 +53,53 @@ ERRORS = 4  # half length of bars of exponents, in standard errors
 
 @grid_figure("bifurcation")
 def bifurcation(
-    study: xr.Dataset,
+    study: Dataset,
     x: str,
     paper_cases: Named = NOTHING,
-    lyapunov: Annotated[xr.Dataset | None, Role("lyapunov_exponents")] = None,
+    lyapunov: Annotated[Dataset | None, Role("lyapunov_exponents")] = None,
 ) -> Figure:
     """Samples of motions over a parameter, their classes and periods, and exponents.
 
     paper_cases : values of x by the paper's names of cases
     """
-    heights = {"samples": 2.4, "period": 1.0, "exponents": 1.4}
-    if lyapunov is None:
-        del heights["exponents"]
-    ratios = [*heights.values()]
-    figure, axes = panels([[n] for n in heights], PAGE, 1.7, sharex=True, height_ratios=ratios)
-    _samples(axes["samples"], study, x)
-    lines(
-        axes["period"],
-        study["period_events"].where(study["period_events"] > 0),
-        x,
-        missing="not shown to repeat",
-        color=BLACK,
-        ls="",
-        ms=1.5,
-    )
-    axes["period"].set(yscale="log", ylabel="Events in a period")
-    axes["period"].label_outer()
+    heights = (2.4, 1.0, 1.4)[: 2 if lyapunov is None else 3]
+    layout = [[i] for i, _ in enumerate(heights)]
+    figure, axes = panels(layout, PAGE, 1.7, sharex=True, height_ratios=heights)
+    above, below, *others = axes.values()
+    _samples(above, study, x)
+    events = study["period_events"].where(study["period_events"] > 0)
+    lines(below, events, x, missing="not shown to repeat", color=BLACK, ls="", ms=1.5)
+    below.set(yscale="log", ylabel="Events in a period")
+    below.label_outer()
     if lyapunov is not None:
-        _exponents(axes["exponents"], lyapunov, x)
-    first, *others = axes.values()
-    threshold(first, _places(study[x], paper_cases), others)
+        _exponents(others[0], lyapunov, x)
+    threshold(above, _places(study[x], paper_cases), [below, *others])
     return figure
 
 
-def _samples(ax: Axes, study: xr.Dataset, x: str) -> None:
+def _samples(ax: Axes, study: Dataset, x: str) -> None:
     """Samples by phase, hollow where motions have not settled, below the classes of motion."""
     options = stated_in(study, "options")
+    psi, late = study["psi"].transpose(x, ...), study["settled"] != "settled"
     names = EVENTS
-    said = ""
     if options["section"] != "event":
         names = {}
-        said = ", once per turn of the drive"
-    samples = study["psi"].transpose(x, ...)
-    late = study["settled"] != "settled"
+        psi.attrs["long_name"] += ", once per turn of the drive"
     for phase, marker in MARKS.items():
-        mark_points(
-            ax,
-            study[x],
-            samples.where((study["phase"] == phase) & ~late),
-            names.get(phase, phase),
-            marker=marker,
-            color=OF_PHASE[phase],
-            mfc=OF_PHASE[phase],
-            ms=2.0,
-            mew=0,
-        )
-    few = samples.where(late & (study["sample"] <= MOST_HOLLOW))
+        look: Options = {"color": OF_PHASE[phase], "mfc": OF_PHASE[phase], "ms": 2.0, "mew": 0}
+        here = psi.where((study["phase"] == phase) & ~late)
+        mark_points(ax, study[x], here, names.get(phase, phase), marker=marker, **look)
+    few = psi.where(late & (study["sample"] <= MOST_HOLLOW))
     doubt = f"hollow: not settled in {options['max_transient']:g} s"
     mark_points(ax, study[x], few, doubt, color=GREY, marker="o", mew=0.5)
-    above = ax.inset_axes((0, 1.03, 1, 0.07), sharex=ax)
+    ax.margins(y=0.12)  # room for the classes
+    above = ax.inset_axes((0, 0.93, 1, 0.07), sharex=ax)
     strip(above, study["kind"])
     above.set_axis_off()
-    study["psi"].attrs["long_name"] += said
-    ax.set_ylabel(label(study["psi"]))
+    ax.set_ylabel(label(psi))
 
 
-def _exponents(ax: Axes, lyapunov: xr.Dataset, x: str) -> None:
+def _exponents(ax: Axes, lyapunov: Dataset, x: str) -> None:
     """Exponents with their errors; points of different motions are not joined, so none are."""
     numbers = lyapunov["exponent_number"]
     numbers.attrs["names"] = {f"{i}": f"exponent {i + 1}" for i in range(numbers.size)}
@@ -137,7 +119,7 @@ REST = 1e-3  # range up to which the axis is linear, mm
 
 
 @grid_figure("branches")
-def branches(study: xr.Dataset, paper_cases: dict[str, Finite] = NOTHING) -> Figure:
+def branches(study: Dataset, paper_cases: dict[str, Finite] = NOTHING) -> Figure:
     """Ranges of cycles along branches, and of sweeps that stay at each value until the motion
     settles.
 
@@ -167,9 +149,7 @@ def branches(study: xr.Dataset, paper_cases: dict[str, Finite] = NOTHING) -> Fig
     return figure
 
 
-def _branch(
-    ax: Axes, x: xr.DataArray, y: xr.DataArray, rate: xr.DataArray, name: str, colour: str
-) -> None:
+def _branch(ax: Axes, x: DataArray, y: DataArray, rate: DataArray, name: str, colour: str) -> None:
     """A branch of motions, thick where it is stable.
 
     rate : growth rate of disturbances, 0 where stability changes
@@ -178,7 +158,7 @@ def _branch(
     thicken(ax, x, y, stable_between(rate.values), f"{name}: stable", color=colour)
 
 
-def _sweep(ax: Axes, sweep: xr.Dataset, name: str, marker: str) -> None:
+def _sweep(ax: Axes, sweep: Dataset, name: str, marker: str) -> None:
     """Marks of a sweep, filled where motions have not settled."""
     apart = sweep["sweep_separation_rate"] > 0
     late = sweep["sweep_settled"] != "settled"
@@ -219,7 +199,7 @@ LARGEST = 36.0  # area of the mark of an attractor that all starts reach, square
 
 
 @grid_figure("basins")
-def basins(study: xr.Dataset, x: str) -> Figure:
+def basins(study: Dataset, x: str) -> Figure:
     """Outcomes of random starts of each energy, attractors, and the critical energy of separation over
     a parameter."""
     study["energy"].attrs["long_name"] = "Energy"
@@ -229,20 +209,19 @@ def basins(study: xr.Dataset, x: str) -> Figure:
     below = ["attractors"] * len(parts) + ["critical"] * len(parts)
     figure, axes = panels([names, below], PAGE, 2.2)
     interval = "95 % interval: separating"
-    for i, (_, part) in enumerate(parts):
-        axes[f"{i}"].set_title(value_text(part["energy"]))
+    for i, (title, part) in enumerate(parts):
+        axes[f"{i}"].set_title(title)
         _shares(axes[f"{i}"], part, x, interval)
-    axes["0"].set_ylabel(
-        f"Share of {part.sizes['start']} starts, within {options['horizon']:g}\u00a0s"
-    )
+    within = f"within {options['horizon']:g}\u00a0s"
+    axes["0"].set_ylabel(f"Share of {study.sizes['start']} starts, {within}")
     _attractors(axes["attractors"], study, x)
     _critical(axes["critical"], study, x)
     return figure
 
 
-def _shares(ax: Axes, part: xr.Dataset, x: str, interval: str) -> None:
+def _shares(ax: Axes, part: Dataset, x: str, interval: str) -> None:
     """Stacked shares of what starts come to, with the interval of those that separate."""
-    kinds = xr.DataArray(STACKED, dims="word", coords={"word": STACKED})
+    kinds = DataArray(STACKED, dims="word", coords={"word": STACKED})
     shares(ax, part[x], (part["kind"] == kinds).mean("start"), "word")
     separating = part.sel(attractor_class="separating")
     low = separating["basin_fraction_by_energy_low"]
@@ -250,7 +229,7 @@ def _shares(ax: Axes, part: xr.Dataset, x: str, interval: str) -> None:
     ax.vlines(part[x], low, high, color=BLACK, lw=1.2, label=interval)
 
 
-def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
+def _attractors(ax: Axes, study: Dataset, x: str) -> None:
     """Attractors by range, with areas as their shares of all starts; diamonds for classes with a
     pattern."""
     starts = study["attractor_starts"]
@@ -270,7 +249,7 @@ def _attractors(ax: Axes, study: xr.Dataset, x: str) -> None:
     ax.set(xlabel=label(study[x]), ylabel=label(study["attractor_range"]))
 
 
-def _critical(ax: Axes, study: xr.Dataset, x: str) -> None:
+def _critical(ax: Axes, study: Dataset, x: str) -> None:
     """The least energy that leads to separation, sampled and by bisection, from zero on."""
     lines(
         ax,
@@ -303,12 +282,12 @@ APART = 0.04  # least distance of numbers of releases over the width of a panel
 
 @grid_figure("locking")
 def staircase(
-    study: xr.Dataset,
+    study: Dataset,
     x: str,
     zooms: Zooms = (),
     paper_cases: Named = NOTHING,
-    fine: Annotated[xr.Dataset | None, Role("locking")] = None,
-    slipping: Annotated[xr.Dataset | None, Role("locking")] = None,
+    fine: Annotated[Dataset | None, Role("locking")] = None,
+    slipping: Annotated[Dataset | None, Role("locking")] = None,
 ) -> Figure:
     """Separations per release of stick, a step for each period, with its number of releases.
 
@@ -316,38 +295,29 @@ def staircase(
     paper_cases : values of x by the paper's names of cases
     """
     figure, axes = panels([[i] for i in range(1 + len(zooms))], PAGE, 1.9)
-    before, *zoomed = axes.values()
+    whole, *zoomed = axes.values()
     parts = [part for part in (study, fine) if part is not None]
     data = xr.concat(parts, x, combine_attrs="override").sortby(x)
-    _steps(before, data, x)
+    _steps(whole, data, x)
     if slipping is not None:
-        places = slipping[x].where(slipping["motion"] == "without_stick")
-        before.plot(
-            places,
-            0 * places + 1,
-            "D",
-            color=BLUE,
-            transform=before.get_xaxis_transform(),
-            clip_on=False,
-            label="a motion that never sticks exists beside",
-        )
+        places = slipping[x][(slipping["motion"] == "without_stick").values]
+        mark_missing(whole, places, "a motion that never sticks exists beside", BLUE, "D", 1.0)
     cases = {}
     for name, value in _places(study[x], paper_cases).items():
         releases = study["period_releases"].sel({x: value}, method="nearest").item()
         cases[f"{name}: {releases} releases"] = value
-    threshold(before, cases, zoomed)
-    for ax, ends in zip(zoomed, zooms, strict=True):
+    threshold(whole, cases, zoomed)
+    for before, ax, ends in zip(axes.values(), zoomed, zooms, strict=False):
         low, high = (placed(study[x], end) for end in ends)
         _steps(ax, data.sel({x: slice(low, high)}), x)
         ax.set_xlim(low, high)
         before.axvspan(low, high, color="0.9", zorder=-1)
-        before = ax
     return figure
 
 
-def _steps(ax: Axes, data: xr.Dataset, x: str) -> None:
+def _steps(ax: Axes, data: Dataset, x: str) -> None:
     """Steps of separations per release, and their numbers of releases, the longest first."""
-    heights = data["separations_per_release"]
+    along, heights = data[x].values, data["separations_per_release"]
     lines(
         ax,
         heights,
@@ -365,21 +335,19 @@ def _steps(ax: Axes, data: xr.Dataset, x: str) -> None:
     )
     ax.margins(y=0.15)
     ax.locator_params(axis="x", nbins=5)
-    points = zip(data["period_releases"].values, data[x].values, heights.values, strict=True)
-    steps = [[*step] for _, step in groupby(points, itemgetter(0))]
+    releases = data["period_releases"].values
+    steps = np.split(np.arange(releases.size), np.flatnonzero(np.diff(releases)) + 1)
     taken = [np.inf]
     for step in sorted(steps, key=len, reverse=True):
-        number, first, height = step[0]
-        at = (first + step[-1][1]) / 2
-        if number and np.abs(np.subtract(taken, at)).min() > APART * np.ptp(data[x].values):
+        at = along[step[[0, -1]]].mean()
+        if releases[step[0]] and np.abs(np.subtract(taken, at)).min() > APART * np.ptp(along):
             taken.append(at)
-            ax.annotate(
-                number, (at, height), (0, 3), textcoords="offset points", ha="center", fontsize=7
-            )
+            place = at, heights[step[0]]
+            ax.annotate(f"{releases[step[0]]}", place, (0, 3), ha="center", **NOTE)
 
 
 @grid_figure("locking")
-def phase_map(study: xr.Dataset) -> Figure:
+def phase_map(study: Dataset) -> Figure:
     """The phase of a release of stick against that of the one before: of releases for which the
     slider was held once, and near those of the motion itself."""
     figure, axes = panels([["whole", "near"]], PAGE, 3.0)
@@ -388,25 +356,18 @@ def phase_map(study: xr.Dataset) -> Figure:
     if not own.size:
         raise Missing("has no release of stick")
     period = study["period_releases"].item()
-    said = "motion itself"
-    if period:
-        said += f": repeats after {period} releases"
+    said = "motion itself" + f": repeats after {period} releases" * bool(period)
     mark_points(near, own[:-1], own[1:], said, color=BLUE, marker="o", mfc="none")
     near.margins(0.25)
-    window = near.viewLim.bounds
+    whole.indicate_inset(near.viewLim.bounds, edgecolor=BLUE, linewidth=0.8)
     near.autoscale(False)
-    whole.indicate_inset(window, edgecolor=BLUE, linewidth=0.8)
-    separations = study["map_separations"]
-    for i, number in enumerate(np.unique(separations.dropna("probe"))):
-        piece = study.isel(probe=np.flatnonzero(separations == number))
-        at = piece["map_phase"]
-        after = piece["map_next_phase"]
+    pieces = study.dropna("probe", subset=["map_separations"]).groupby("map_separations")
+    for i, (number, piece) in enumerate(pieces):
+        at, after = piece["map_phase"], piece["map_next_phase"]
         for ax in axes.values():
             ax.plot(at, after, ".", color=(BLACK, RED)[i % 2], ms=2, label="slider held once")
         text = f"{number:g} separations,\nslope {piece['map_slope'].mean():.2f}"
-        near.annotate(
-            text, (at[0], after[0]), (4, -2), textcoords="offset points", va="top", fontsize=7
-        )
+        near.annotate(text, (at[0], after[0]), (4, -2), va="top", **NOTE)
     for ax in axes.values():
         ax.axline((1, 1), slope=1, color=GREY, lw=0.6, zorder=0)
         ax.set(xlabel="Phase of a release", ylabel="Phase of the next one")

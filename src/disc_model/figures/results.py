@@ -10,10 +10,10 @@ from contextlib import contextmanager
 from typing import Annotated, Any
 
 import matplotlib.pyplot as plt
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.transforms import Bbox
 from pydantic import AfterValidator, Field
+from xarray import Dataset, DataTree
 
 from disc_model.data.dataset import Missing
 from disc_model.data.swept_branches import is_of_sweep
@@ -24,6 +24,7 @@ from disc_model.figures.draw import bar_of, break_label, colours_of, explain, sh
 from disc_model.figures.modes import draw_campbell
 from disc_model.figures.schema import known_units
 from disc_model.figures.shown import label, shown, shown_case
+from disc_model.figures.shown import window_of as shown_window
 from disc_model.figures.studies import draw_lines, draw_map
 from disc_model.parameters import Parameters, foreign_case
 from disc_model.units import Count, Positive, Strict, Unit
@@ -110,7 +111,7 @@ def branch(ax: Any, found: Any, y: str, units: Any, **look: Any) -> Axes:
 
 def campbell(study: Any, highest: Any, multiples: Any, units: Any) -> Any:
     """Draw a Campbell diagram, as `disc_model.plot_campbell` describes."""
-    is_study = isinstance(study, xr.Dataset) and "crossing_Omega" in study
+    is_study = isinstance(study, Dataset) and "crossing_Omega" in study
     require((is_study, "study", study, "must be a study of the quantity campbell"))
     given = Wishes(highest=highest, multiples=multiples, units=units)
     data = shown(study.squeeze(), given.units)
@@ -155,21 +156,21 @@ def refused(name: str, value: object) -> Iterator[None]:
         raise ParameterError(Fault.of((name,), value, f"the run {reason}")) from None
 
 
-def window_of(case: xr.DataTree, name: Any, which: str = "window", **variables: Any) -> xr.Dataset:
+def window_of(case: DataTree, name: Any, which: str = "window", **variables: Any) -> Dataset:
     """A window of a shown run; raises `ParameterError`.
 
     which : the argument that names the window
     variables : those whose samples it must hold, by the arguments that name them
     """
     with refused(which, name):
-        samples = runs.window_of(case, str(name))
+        samples = shown_window(case, str(name))
     for argument, variable in variables.items():
         held = isinstance(variable, str) and variable in samples
         require((held, argument, variable, f"is not among the samples of the window {name}"))
     return samples
 
 
-def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: Any) -> Any:
+def history(case: DataTree, windows: Sequence[str], variables: Any, units: Any) -> Any:
     """Draw variables of a run, a row each, in windows, a column each."""
     given = Wishes(windows=windows, variables=variables, units=units)
     case = shown_case(case, given.units)
@@ -191,9 +192,7 @@ def history(case: xr.DataTree, windows: Sequence[str], variables: Any, units: An
     return axes.squeeze()[()]
 
 
-def portrait(
-    case: xr.DataTree, name: Any, x: str, y: str, ax: Any, units: Any, **look: Any
-) -> Axes:
+def portrait(case: DataTree, name: Any, x: str, y: str, ax: Any, units: Any, **look: Any) -> Axes:
     """Draw one variable of a run over another, coloured by phase, or in one colour beside others."""
     samples = window_of(shown_case(case, Wishes(units=units).units), name, x=x, y=y)
     ax = axes_for(ax)
@@ -206,7 +205,7 @@ def portrait(
 
 
 def spectrum(
-    case: xr.DataTree, name: Any, variable: str, highest: Any, ax: Any, units: Any, **look: Any
+    case: DataTree, name: Any, variable: str, highest: Any, ax: Any, units: Any, **look: Any
 ) -> Axes:
     """Draw the amplitude of a variable of a run over the frequency."""
     given = Wishes(highest=highest, units=units)
@@ -223,7 +222,7 @@ def spectrum(
     return explained(ax)
 
 
-def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
+def poincare(case: DataTree, name: str, units: Any) -> Any:
     """Draw the Poincaré sections of slider and disc."""
     case = shown_case(case, Wishes(units=units).units)
     figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), layout="constrained")
@@ -234,7 +233,7 @@ def poincare(case: xr.DataTree, name: str, units: Any) -> Any:
     return axes
 
 
-def film(p: Parameters, states: Any, case: xr.DataTree, name: str) -> Any:
+def film(p: Parameters, states: Any, case: DataTree, name: str) -> Any:
     """Make a film of states of a run beside the contact force in a window."""
     return runs.animate(p, states, window_of(shown_case(case), name))
 
@@ -244,10 +243,10 @@ def film(p: Parameters, states: Any, case: xr.DataTree, name: str) -> Any:
 
 def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -> Axes:
     """Draw a variable of a sweep, as `disc_model.plot_sweep` describes."""
-    is_study = isinstance(study, xr.Dataset | xr.DataTree)
+    is_study = isinstance(study, Dataset | DataTree)
     require((is_study, "study", study, "must be an xarray.Dataset"))
     units = Wishes(variable=variable, x=x, units=units).units
-    data = study.to_dataset() if isinstance(study, xr.DataTree) else study
+    data = study.to_dataset() if isinstance(study, DataTree) else study
     if is_of_sweep(data):
         rule = "holds branches: draw one by disc_model.Branch.from_dataset(study.isel(N=0)).plot()"
         raise ParameterError(Fault(("study",), "", rule))
@@ -274,7 +273,7 @@ def sweep(study: Any, variable: Any, x: Any, ax: Any, units: Any, **look: Any) -
     return explained(ax, below)
 
 
-def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
+def swapped(study: Dataset, x: str) -> Dataset:
     """A study along a column of values that vary together, such as paired samples: `x`, or the first of
     numbers along a dimension without values of its own."""
     columns = {name: each.dims[0] for name, each in study.coords.items() if each.ndim == 1}
@@ -289,7 +288,7 @@ def swapped(study: xr.Dataset, x: str) -> xr.Dataset:
     return study
 
 
-def chosen(study: xr.Dataset, variable: str, x: str) -> str:
+def chosen(study: Dataset, variable: str, x: str) -> str:
     """The name of the variable that is drawn; raises `ParameterError`."""
     known = [str(name) for name in study.data_vars]
     plain = [name for name in known if "flag_meanings" not in study[name].attrs]
@@ -316,7 +315,7 @@ def selection(dims: Iterable[Any]) -> str:
     return f"study.sel({', '.join(f'{dim}=...' for dim in dims)})"
 
 
-def number_axes(study: xr.Dataset, name: str) -> list[str]:
+def number_axes(study: Dataset, name: str) -> list[str]:
     """Dimensions of a variable that have numbers, which do not only count values at a point of the grid,
     as those of samples do."""
     dims = [str(dim) for dim in study[name].dims if dim in study.coords]

@@ -8,22 +8,22 @@ from operator import itemgetter
 from typing import Annotated, Any
 
 import numpy as np
-import xarray as xr
 from cmcrameri import cm
 from matplotlib.animation import FuncAnimation
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from pydantic import Field
+from xarray import DataArray, Dataset, DataTree
 
 from disc_model.analysis.classify import FEWEST, first_settled
 from disc_model.analysis.spectra import amplitude_spectrum, lines, time_frequency
 from disc_model.data.dataset import Missing
 from disc_model.disc.plate import radial_range
-from disc_model.figures.draw import COLUMN, PAGE, compare, mark_points, number_map, panels
-from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SKY
-from disc_model.figures.schema import Cases, Either, Sampled, Samples, case_figure
-from disc_model.figures.shown import label, value_text, words
+from disc_model.figures.draw import COLUMN, PAGE, compare, edges, frame, mark_points, panels
+from disc_model.figures.looks import BLACK, GREY, OF_PHASE, OF_VARIABLE, RED, SKY, Options
+from disc_model.figures.schema import Cases, Either, Recorded, Sampled, Samples, case_figure
+from disc_model.figures.shown import label, value_text, window_of, words
 from disc_model.parameters import Parameters
 from disc_model.units import Positive, Unit
 
@@ -33,27 +33,12 @@ Hertz = Annotated[Positive, Unit("Hz")]
 # ---- Windows of a case
 
 
-def window_of(case: xr.DataTree, name: str) -> xr.Dataset:
-    """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
-    if it has fewer than two samples."""
-    if name not in case.children:
-        why = {"failed": "failed"}
-        raise Missing(why.get(case["status"].item(), f"did not record {name}"))
-    window: xr.Dataset = case.children[name].to_dataset(inherit=False).copy()
-    if window.sizes["time"] < 2:
-        raise Missing(f"has too few samples in {name}")
-    for variable, x in window.items():
-        if "w_point" in str(variable):
-            x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
-    return window
-
-
-def number_of(case: xr.DataTree, name: str) -> float:
+def number_of(case: DataTree, name: str) -> float:
     """A number of a whole run, nan if it does not have it."""
     return float(case.dataset.get(name, np.nan))
 
 
-def mark_first_separation(axes: Iterable[Axes], case: xr.DataTree) -> None:
+def mark_first_separation(axes: Iterable[Axes], case: DataTree) -> None:
     """Mark the first separation on axes of time that show it."""
     first = number_of(case, "first_separation")
     for ax in axes:
@@ -72,7 +57,7 @@ OPACITY = {"stick": 0.22, "separation": 0.5}  # of phases behind a history
 
 @case_figure()
 def history(
-    case: xr.DataTree,
+    case: DataTree,
     window: Either,
     variables: Annotated[tuple[Sampled, ...], Field(min_length=1)] = ("P", "w"),
 ) -> Figure:
@@ -83,7 +68,7 @@ def history(
     return figure
 
 
-def draw_history(axes: Sequence[Axes], samples: xr.Dataset, variables: Sequence[str]) -> None:
+def draw_history(axes: Sequence[Axes], samples: Dataset, variables: Sequence[str]) -> None:
     """Draw variables against time, a panel for each, or their ranges, over stick and separation.
     Raises `Missing` if the window lacks one."""
     time = samples["time"]
@@ -102,14 +87,14 @@ def draw_history(axes: Sequence[Axes], samples: xr.Dataset, variables: Sequence[
     axes[-1].set_xlabel(label(time))
 
 
-def draw_range(ax: Axes, samples: xr.Dataset, name: str, **look: Any) -> None:
+def draw_range(ax: Axes, samples: Dataset, name: str, **look: Any) -> None:
     """Draw the range of a variable against time, as a band that is seen where it is thin."""
     ax.fill_between(
         samples["time"], samples[f"{name}_min"], samples[f"{name}_max"], linewidth=0.5, **look
     )
 
 
-def shade_phases(ax: Axes, samples: xr.Dataset, phases: Iterable[str] = OPACITY) -> None:
+def shade_phases(ax: Axes, samples: Dataset, phases: Iterable[str] = OPACITY) -> None:
     """Shade stick and separation behind a history of samples, unless they alternate too often; slip
     is left white."""
     if "phase" not in samples:
@@ -142,7 +127,7 @@ WIDTHS = {"slip": 0.5, "stick": 2.5, "separation": 1.2}
 
 @case_figure()
 def portrait(
-    case: xr.DataTree, window: Samples, x: Sampled = "psi", y: Sampled = "psi_velocity"
+    case: DataTree, window: Samples, x: Sampled = "psi", y: Sampled = "psi_velocity"
 ) -> Figure:
     """One variable over another, coloured by phase."""
     figure, axes = panels([["a"]], COLUMN, 2.5)
@@ -150,7 +135,7 @@ def portrait(
     return figure
 
 
-def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
+def draw_portrait(ax: Axes, samples: Dataset, x: str, y: str) -> None:
     """Draw one variable over another, coloured by phase, open where this changes."""
     for phase, width in WIDTHS.items():
         part = samples.where(samples["phase"] == phase)
@@ -168,18 +153,18 @@ def draw_portrait(ax: Axes, samples: xr.Dataset, x: str, y: str) -> None:
 
 # ---- Poincaré sections
 
-POINTS: dict[str, dict[str, Any]] = {
+POINTS: dict[str, Options] = {
     "before the first separation": {"marker": "x", "color": SKY},
     "on the way to the final motion": {"marker": "o", "color": GREY, "mfc": "none"},
     "separated": {"marker": "^", "color": RED, "mfc": RED},
     "in contact": {"marker": ".", "color": BLACK, "mfc": BLACK},
 }
 """Marks of the stages of a run; those of the way are light."""
-SMALL: dict[str, Any] = {"ms": 2.5, "mew": 0.4, "rasterized": True}
+SMALL: Options = {"ms": 2.5, "mew": 0.4, "rasterized": True}
 
 
-@case_figure({"poincare": None})
-def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
+@case_figure({"poincare": Recorded()})
+def poincare(case: DataTree, below: Cases = ()) -> Figure:
     """The Poincaré sections of slider and disc: velocity over displacement, of the disc at r_0.
 
     below : further cases, each in a row of its own on the same axes
@@ -198,7 +183,7 @@ def poincare(case: xr.DataTree, below: Cases = ()) -> Figure:
     return figure
 
 
-def draw_sections(axes: Sequence[Axes], case: xr.DataTree, name: str = "poincare") -> None:
+def draw_sections(axes: Sequence[Axes], case: DataTree, name: str = "poincare") -> None:
     """Draw the section of the slider and that of the disc, in marks of the stages of a run.
 
     Light: before the first separation, and on the way to the final motion, if its start is known.
@@ -223,7 +208,7 @@ def draw_sections(axes: Sequence[Axes], case: xr.DataTree, name: str = "poincare
         ax.set(xlabel=label(x), ylabel=label(y))
 
 
-def final_since(case: xr.DataTree, section: xr.Dataset) -> float:
+def final_since(case: DataTree, section: Dataset) -> float:
     """Time since when all points of a section lie on the motion on which a run ends, s: since when it
     is shown to have settled or, after a first separation, since when they lie on the set of the later
     half of those after it; nan if the last quarter does not cover this set, or nothing is known."""
@@ -239,7 +224,7 @@ def final_since(case: xr.DataTree, section: xr.Dataset) -> float:
     return float(after["time"][first_settled(points)])
 
 
-def fate_of(case: xr.DataTree, name: str = "poincare") -> list[str]:
+def fate_of(case: DataTree, name: str = "poincare") -> list[str]:
     """What a run comes to, in words: its first separation, and since when its section, by its name,
     shows the final motion."""
     first = number_of(case, "first_separation")
@@ -258,7 +243,7 @@ def fate_of(case: xr.DataTree, name: str = "poincare") -> list[str]:
 
 @case_figure()
 def spectrum(
-    case: xr.DataTree, window: Samples, variable: Sampled = "w_point", highest: Hertz | None = None
+    case: DataTree, window: Samples, variable: Sampled = "w_point", highest: Hertz | None = None
 ) -> Figure:
     """Amplitude of a variable over the frequency, in the whole of a window.
 
@@ -269,9 +254,7 @@ def spectrum(
     return figure
 
 
-def draw_spectrum(
-    ax: Axes, samples: xr.Dataset, variable: str, highest: float | None = None
-) -> None:
+def draw_spectrum(ax: Axes, samples: Dataset, variable: str, highest: float | None = None) -> None:
     """Draw amplitudes up to a frequency (Hz), or to where the lines end, with the frequencies of the
     strongest; raises `Missing` if there are none."""
     x = samples[variable]
@@ -299,7 +282,7 @@ def draw_spectrum(
     )
 
 
-def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray]:
+def levels_of(windows: Sequence[Dataset], variable: str) -> list[DataArray]:
     """Power of a variable in windows over frequency (Hz) and time, in dB below the strongest line of
     all; raises `Missing` if one is too short."""
     try:
@@ -308,7 +291,7 @@ def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray
         raise Missing(f"recorded too little: {error}") from None
     strongest = max(float(each.power.max()) for each in found) or 1.0
     return [
-        xr.DataArray(
+        DataArray(
             10 * np.log10(each.power / strongest + 1e-30),
             {
                 "frequency": (
@@ -324,16 +307,20 @@ def levels_of(windows: Sequence[xr.Dataset], variable: str) -> list[xr.DataArray
     ]
 
 
-def draw_spectrogram(ax: Axes, level: xr.DataArray, highest: float) -> Any:
+def draw_spectrogram(ax: Axes, level: DataArray, highest: float) -> Any:
     """Draw levels of power up to a frequency, Hz; returns the mesh, for a bar."""
     part = level.sel(frequency=slice(0, highest))
-    return number_map(ax, part, cmap=cm.lipari, norm=Normalize(-100, 0))
+    ends = [*edges(part["time"])[[0, -1]], *edges(part["frequency"])[[0, -1]]]
+    look: Options = {"extent": ends, "origin": "lower", "interpolation": "nearest"}
+    mesh = ax.imshow(part, cm.lipari, Normalize(-100, 0), aspect="auto", **look)
+    frame(ax, part)
+    return mesh
 
 
 # ---- The whole disc
 
 
-def draw_disc(ax: Any, w: xr.DataArray, norm: Any) -> Any:
+def draw_disc(ax: Any, w: DataArray, norm: Any) -> Any:
     """Draw the disc from above on polar axes: blue below its plane at rest, where lines of equal
     deflection are dashed, and red above it. Returns the mesh, for a bar.
 
@@ -360,7 +347,7 @@ def mark_slider(ax: Axes, x: float, y: float, phase: str) -> None:
     )
 
 
-def animate(case: Parameters, states: Sequence[Any], samples: xr.Dataset) -> FuncAnimation:
+def animate(case: Parameters, states: Sequence[Any], samples: Dataset) -> FuncAnimation:
     """A film of the disc from above, in mm, and of the contact force.
 
     states : of the pictures, in time

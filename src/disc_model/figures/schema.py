@@ -5,18 +5,19 @@ the keys of a figure in a study file.
 """
 
 import inspect
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_args, get_type_hints
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any, ClassVar, Literal, NamedTuple, cast, get_type_hints
 
 from pydantic import AfterValidator, BeforeValidator, Field, create_model
 
-from disc_model.errors import Fault, as_text, raise_faults, suggestion
+from disc_model.errors import Fault, as_text, raise_faults, suggestion, violations
+from disc_model.figures.looks import Options
 from disc_model.figures.shown import key_of, si_unit
-from disc_model.simulation.case import Poincare, Window
+from disc_model.simulation.case import Window
 from disc_model.units import UNITS, Finite, Strict, Unit, in_si
 
 NORM = "normalization"
-NOTHING: dict[str, Any] = {}
+NOTHING: Options = {}
 """The default of a key that is a mapping."""
 Function = Callable[..., Any]
 Values = Mapping[str, Sequence[Any]]
@@ -38,6 +39,17 @@ class Role(NamedTuple):
     required: bool = False
 
 
+class Recorded(NamedTuple):
+    """The rule of a window that a parameter names; "" for any window or section."""
+
+    rule: str = ""
+    holds: Callable[[Any], object] = bool
+
+    def broken(self, window: Any) -> str:
+        """The rule if a window, or a section, breaks it, else ""."""
+        return "" if isinstance(window, Window) and self.holds(window) else self.rule
+
+
 class Shows(NamedTuple):
     """What a function draws.
 
@@ -48,74 +60,59 @@ class Shows(NamedTuple):
     """
 
     quantities: tuple[str, ...] = ()
-    needs: tuple[str, ...] = ()
+    needs: Sequence[str] = ()
     takes: bool = False
     windows: Mapping[str, Any] = {}
 
-
-def grid_figure(
-    *quantities: str, needs: Sequence[str] = (), takes: bool = False
-) -> Callable[[Function], Function]:
-    """Mark a function that draws a study, its first argument.
-
-    Parameters with the type ``Annotated[xr.Dataset | None, Role(...)]`` take further studies; `x`, `y`,
-    `by` and `starts` name dimensions.
-    """
-    return _marked(Shows(quantities, tuple(needs), takes))
-
-
-def case_figure(windows: Mapping[str, Any] | None = None) -> Callable[[Function], Function]:
-    """Mark a function that draws a case, its first argument.
-
-    Parameters of the types `Case` and `Cases` take further cases; those with a rule, such as `Samples`,
-    name a window.
-    """
-    return _marked(Shows(windows=windows or {}))
-
-
-def _marked(shows: Shows) -> Callable[[Function], Function]:
-    def mark(function: Function) -> Function:
-        function.shows = shows  # type: ignore[attr-defined]
+    def __call__(self, function: Function) -> Function:
+        """Mark a function."""
+        function.shows = self  # type: ignore[attr-defined]
         return function
 
-    return mark
+
+def grid_figure(*quantities: str, needs: Sequence[str] = (), takes: bool = False) -> Shows:
+    """Mark a function that draws a study, its first argument.
+
+    Parameters with the type ``Annotated[Dataset | None, Role(...)]`` take further studies; `x`, `y`,
+    `by` and `starts` name dimensions.
+    """
+    return Shows(quantities, needs, takes)
 
 
-Case = Annotated[Any, "case"]
-Cases = Annotated[Any, "cases"]
+def case_figure(windows: Mapping[str, Any] = NOTHING) -> Shows:
+    """Mark a function that draws a case, its first argument.
+
+    Parameters of the types `Case` and `Cases` take further cases; those of a type with a rule, such as
+    `Samples`, name a window.
+    """
+    return Shows(windows=windows)
 
 
-# ---- Rules of windows: each returns the rule that a window breaks, or ""
+# what study files have in place of cases
+Case = Annotated[Any, str]
+Cases = Annotated[Any, tuple[str, ...]]
 
-
-def as_samples(window: Any) -> str:
-    """The rule of a window that is drawn sample by sample."""
-    is_plain = isinstance(window, Window) and window.envelope is None
-    return "" if is_plain else "must be a window without an envelope"
-
-
-def as_ranges(window: Any) -> str:
-    """The rule of a window that is drawn as ranges."""
-    has_ranges = isinstance(window, Window) and window.envelope is not None
-    return as_either(window) if has_ranges else "must be a window that has an envelope"
-
-
-def as_either(window: Any) -> str:
-    """The rule of a window that is drawn as samples or as ranges."""
-    enough = isinstance(window, Window) and window.count >= 2 * (window.envelope or 1)
-    return "" if enough else "must be a window of two samples, or two envelopes, or more"
-
-
-def as_spectrum(window: Any) -> str:
-    """The rule of a window whose spectrum in time is drawn."""
-    long_enough = as_samples(window) or window.stop - window.start >= 1.1
-    return as_samples(window) if long_enough else "must be 1.1 s long or more"
-
-
-Samples = Annotated[str, as_samples]
-Ranges = Annotated[str, as_ranges]
-Either = Annotated[str, as_either]
-InTime = Annotated[str, as_spectrum]
+IN_FULL = Recorded("must be a window without an envelope", lambda w: w.envelope is None)
+IN_TIME = Recorded(
+    "must be a window without an envelope, of 1.1 s or more",
+    lambda w: w.envelope is None and w.stop - w.start >= 1.1,
+)
+Samples = Annotated[str, IN_FULL]
+InTime = Annotated[str, IN_TIME]
+Ranges = Annotated[
+    str,
+    Recorded(
+        "must be a window that has an envelope, and two envelopes or more",
+        lambda w: w.envelope is not None and w.count >= 2 * w.envelope,
+    ),
+]
+Either = Annotated[
+    str,
+    Recorded(
+        "must be a window of two samples, or two envelopes, or more",
+        lambda w: w.count >= 2 * (w.envelope or 1),
+    ),
+]
 
 
 # ---- Figures
@@ -153,6 +150,7 @@ class Kind(Strict):
 
     function: ClassVar[Function]
     shows: ClassVar[Shows]
+    keys: ClassVar[Sequence[str]]
 
     kind: str
     title: str = ""
@@ -162,11 +160,9 @@ class Kind(Strict):
     width: Literal["column", "page"] | None = None
 
     @property
-    def options(self) -> dict[str, Any]:
+    def options(self) -> Options:
         """Arguments of the drawing function, without studies and cases."""
-        _, *names = inspect.signature(type(self).function).parameters
-        fields = type(self).model_fields
-        return {name: getattr(self, name) for name in names if name in fields}
+        return {key: getattr(self, key) for key in self.keys}
 
 
 class Plot(Kind):
@@ -191,77 +187,71 @@ class Plot(Kind):
         chosen = {key: getattr(self, key, None) for key in ("x", "y", "by", "starts")}
         return {key: name for key, name in chosen.items() if name}
 
-    def faults(
-        self, dims: Values, variables: Mapping[str, Values], classes: Sequence[str] = ()
-    ) -> Iterator[Fault]:
-        """What keeps it from showing a study.
+    def faults(self, dims: Values, variables: Mapping[str, Values]) -> list[Any]:
+        """What keeps it from showing a study, each a `Fault`.
 
         dims : values along the dimensions of the study
         variables : the same of each of its variables, with the dimensions of its own
-        classes : variables that are words
         """
-        own = dims
-        variable = getattr(self, "variable", None)
-        if variable is not None:
-            if variable not in variables:
-                rule = f"unknown variable{suggestion(variable, variables)}"
-                yield Fault.of(("variable",), variable, rule)
-                return
-            own = variables[variable]
-            if variable in classes and getattr(self, "log", False):
-                yield Fault.of(("log",), True, f"is for numbers: {variable} has classes")
-        wrong = [*self._wrong_axes(own)]
-        yield from wrong or self._wrong_rest(own)
+        own, name = dims, getattr(self, "variable", None)
+        if name is not None:
+            rule = f"unknown variable{suggestion(name, variables)}"
+            faults = violations((name in variables, "variable", name, rule))
+            if faults:
+                return faults
+            own = variables[name]
+        faults = self._wrong_axes(own) or self._wrong_rest(own)
         for role, wanted in self.roles.items():
-            if wanted.required and role not in self.overlays:
-                rule = f"is required: a study of the quantity {wanted.quantity}"
-                yield Fault(("overlays", role), "", rule)
-        for role in self.overlays.keys() - self.roles.keys():
+            given = role in self.overlays or not wanted.required
+            rule = f"is required: a study of the quantity {wanted.quantity}"
+            faults += violations((given, f"overlays.{role}", "", rule))
+        for role, study in self.overlays.items():
             rule = f"unknown role{suggestion(role, self.roles)}"
-            yield Fault.of(("overlays", role), self.overlays[role], rule)
+            faults += violations((role in self.roles, f"overlays.{role}", study, rule))
+        return faults
 
-    def _wrong_axes(self, own: Values) -> Iterator[Fault]:
+    def _wrong_axes(self, own: Values) -> list[Any]:
         """Dimensions that the study lacks, or that cannot be axes."""
-        needed = [("kind", name) for name in self.shows.needs]
-        seen: set[str] = set()
-        for key, name in (*needed, *self.axes.items()):
+        faults: list[Any] = []
+        taken: list[str] = []
+        for key, name in (*(("kind", name) for name in self.shows.needs), *self.axes.items()):
             along = own.get(name, ())
-            rule = ""
-            if name not in own:
-                if (key, name) != ("by", NORM):
-                    rule = f"needs the dimension {name}{suggestion(name, own)}"
-            elif name in seen:
-                rule = "must differ from the other dimensions"
-            elif key in ("x", "y") and any(isinstance(value, str | tuple) for value in along):
-                rule = "must be one parameter, and a number"
-            elif key == "by" and len(along) > MOST_VALUES:
-                rule = f"has {len(along)} values, and there is room for {MOST_VALUES}"
-            seen.add(name)
-            if rule:
-                yield Fault.of((key,), name, rule)
-        by = own.get(self.axes.get("by", ""), ())
-        for value in self.names if by else ():
-            if value not in map(key_of, by):
-                yield Fault.of(("names",), value, f"must be one of {as_text([*by])}")
+            number = not any(isinstance(value, str | tuple) for value in along)
+            lacking = f"needs the dimension {name}{suggestion(name, own)}"
+            many = f"has {len(along)} values, and there is room for {MOST_VALUES}"
+            faults += violations(
+                (name in {NORM, *own}, key, name, lacking),
+                (name not in taken, key, name, "must differ from the other dimensions"),
+                (number or key not in ("x", "y"), key, name, "must be one parameter, and a number"),
+                (len(along) <= MOST_VALUES or key != "by", key, name, many),
+            )
+            taken.append(name)
+        named = [*own.get(self.axes.get("by", ""), ())]
+        for value in self.names if named else ():
+            known = value in map(key_of, named)
+            faults += violations((known, "names", value, f"must be one of {as_text(named)}"))
+        return faults
 
-    def _wrong_rest(self, own: Values) -> Iterator[Fault]:
+    def _wrong_rest(self, own: Values) -> list[Any]:
         """Dimensions that are left over must have one value, or be chosen by `at` or `by`."""
-        shown = {*self.axes.values(), *self.shows.needs}
-        free = {name: along for name, along in own.items() if name not in shown}
-        for name in {**free, **self.at}:
-            along = free.get(name, ())
-            several = len(along) > 1 and not self.shows.takes
-            if name not in free:
-                rule = f"is no dimension that remains{suggestion(name, free)}"
-                yield Fault.of(("at", name), self.at[name], rule)
-            elif name not in self.at:
-                rule = f"is required, one of {as_text([*along])}"
-                if "by" in type(self).model_fields:
-                    rule += f"; or by: {name}"
-                if several:
-                    yield Fault(("at", name), "", rule)
-            elif along and key_of(self.at[name]) not in map(key_of, along):
-                yield Fault.of(("at", name), self.at[name], f"must be one of {as_text([*along])}")
+        taken = {*self.axes.values(), *self.shows.needs}
+        free = {name: along for name, along in own.items() if name not in taken}
+        faults: list[Any] = []
+        for name, value in self.at.items():
+            values = [*free.get(name, ())]
+            known = not values or key_of(value) in map(key_of, values)
+            none = f"is no dimension that remains{suggestion(name, free)}"
+            faults += violations(
+                (name in free, f"at.{name}", value, none),
+                (known, f"at.{name}", value, f"must be one of {as_text(values)}"),
+            )
+        for name, along in free.items():
+            chosen = len(along) < 2 or name in self.at or self.shows.takes
+            rule = f"is required, one of {as_text([*along])}" + f"; or by: {name}" * (
+                "by" in self.keys
+            )
+            faults += violations((chosen, f"at.{name}", "", rule))
+        return faults
 
 
 class CasePlot(Kind):
@@ -270,7 +260,7 @@ class CasePlot(Kind):
     case : the first one if there are several
     """
 
-    further: ClassVar[tuple[str, ...]] = ()
+    further: ClassVar[Sequence[str]] = ()
     rules: ClassVar[Mapping[str, Any]] = {}
 
     case: str
@@ -284,25 +274,21 @@ class CasePlot(Kind):
             found += [named] if isinstance(named, str) else named
         return tuple(filter(None, found))
 
-    def faults(
-        self, cases: Mapping[str, Mapping[str, Window | Poincare] | None]
-    ) -> Iterator[Fault]:
+    def faults(self, cases: Mapping[str, Any]) -> list[Any]:
         """What keeps it from being drawn, by the windows of each case; those of a case that has faults
         of its own are None."""
         windows = [(key, getattr(self, key), rule) for key, rule in self.rules.items()]
         windows += [("case", name, rule) for name, rule in self.shows.windows.items()]
+        none = f"no such case (known: {', '.join(cases) or 'none'})"
+        faults: list[Any] = []
         for case in self.cases:
-            recorded = cases.get(case, {})
-            if case not in cases:
-                rule = f"no such case (known: {', '.join(cases) or 'none'})"
-                yield Fault.of(("case",), case, rule)
-            elif recorded is not None:
-                for key, name, broken in windows:
-                    rule = f"is not recorded by case {case}{suggestion(name, recorded)}"
-                    if name in recorded:
-                        rule = broken(recorded[name]) if broken else ""
-                    if rule:
-                        yield Fault.of((key,), name, rule)
+            faults += violations((case in cases, "case", case, none))
+            recorded: Any = cases.get(case)
+            for key, name, wanted in windows if recorded is not None else ():
+                lacking = f"is not recorded by case {case}{suggestion(name, recorded)}"
+                rule = wanted.broken(recorded[name]) if name in recorded else lacking
+                faults += violations((not rule, key, name, rule))
+        return faults
 
 
 # ---- From signatures to models
@@ -312,30 +298,26 @@ def kind_of_function(function: Function, name: str) -> type[Kind]:
     """The model of the figures that a marked function draws."""
     hints = get_type_hints(function, include_extras=True)
     first, *parameters = inspect.signature(function).parameters.values()
-    fields: dict[str, Any] = {"kind": (Literal[name], name)}
-    roles: dict[str, Role] = {}
-    further: list[str] = []
-    rules: dict[str, Any] = {}
+    fields: Options = {"kind": (Literal[name], name)}
+    roles, rules, further = {}, {}, []
     for parameter in parameters:
         key, hint, default = parameter.name, hints[parameter.name], parameter.default
-        given: Any = ... if default is inspect.Parameter.empty else default
-        marks = get_args(hint)[1:] if hasattr(hint, "__metadata__") else ()
-        mark = marks[0] if marks else None
+        mark = next(iter(getattr(hint, "__metadata__", ())), None)
         if isinstance(mark, Role):
             roles[key] = mark
-        elif mark in ("case", "cases"):
+            continue
+        if isinstance(mark, Recorded):
+            rules[key] = mark
+        elif mark in (str, tuple[str, ...]):
+            hint, default = mark, default or mark()
             further.append(key)
-            one = mark == "case"
-            fields[key] = (str, given or "") if one else (tuple[str, ...], given or ())
-        else:
-            fields[key] = (hint, given)
-            rules.update((key, mark) for mark in marks if inspect.isfunction(mark))
+        fields[key] = (hint, ... if default is parameter.empty else default)
     base: Any = Plot if first.name == "study" else CasePlot
     doc = inspect.getdoc(function)
     created = create_model(name, __base__=base, __doc__=doc, __module__=__name__, **fields)
     model = cast(Any, created)
     model.function, model.shows = staticmethod(function), vars(function)["shows"]
-    model.roles, model.further, model.rules = roles, tuple(further), rules
+    model.keys, model.roles, model.rules, model.further = [*fields][1:], roles, rules, further
     return cast(type[Kind], model)
 
 
@@ -345,6 +327,6 @@ def kinds_in(module: Any, part: str = "") -> dict[str, type[Kind]]:
     found = {}
     for name, function in vars(module).items():
         if hasattr(function, "shows") and function.__module__ == module.__name__:
-            whole = f"{part}.{name}" if part else name
+            whole = f"{part}.{name}".removeprefix(".")
             found[whole] = kind_of_function(function, whole)
     return found

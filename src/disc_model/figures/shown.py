@@ -7,8 +7,9 @@ from contextlib import suppress
 from typing import Any
 
 import numpy as np
-import xarray as xr
+from xarray import DataArray, Dataset, DataTree
 
+from disc_model.data.dataset import Missing
 from disc_model.data.variables import SERIES, SHOWN, flag_names, ranged_variable, typeset
 from disc_model.data.variables import attributes as attributes_in_files
 from disc_model.parameters import Parameters
@@ -28,7 +29,7 @@ IN_WORDS = {
 """Words along a dimension that need a noun."""
 
 
-def shown(data: xr.Dataset, units: Mapping[str, str] | None = None) -> xr.Dataset:
+def shown(data: Dataset, units: Mapping[str, str] | None = None) -> Dataset:
     """A dataset in the units of all figures, or in those of a reader, such as ``{"Omega": "rpm"}``.
 
     Each variable has the attributes `long_name` and `units` of its label, and `factor`, which turns a
@@ -40,12 +41,26 @@ def shown(data: xr.Dataset, units: Mapping[str, str] | None = None) -> xr.Datase
     return data.assign(changed).assign_coords(coordinates)
 
 
-def shown_case(case: xr.DataTree, units: Mapping[str, str] | None = None) -> xr.DataTree:
-    """The tree of a case, with all of its groups as readers see them."""
-    groups = {node.path: node.to_dataset(inherit=False) for node in case.subtree}
-    tree = xr.DataTree.from_dict({path: shown(each, units) for path, each in groups.items()})
-    tree.attrs = case.attrs
+def shown_case(case: DataTree, units: Mapping[str, str] | None = None) -> DataTree:
+    """The tree of a case, with its numbers as readers see them; `window_of` shows one of its windows."""
+    tree = DataTree(shown(case.to_dataset(inherit=False), units), children=dict(case.children))
+    tree.attrs["shown_in"] = units
     return tree
+
+
+def window_of(case: DataTree, name: str) -> Dataset:
+    """A window of a shown case, with the place of the disc's point in its labels; raises `Missing`
+    if it has fewer than two samples."""
+    if name not in case.children:
+        why = {"failed": "failed"}
+        raise Missing(why.get(case["status"].item(), f"did not record {name}"))
+    window = shown(case.children[name].to_dataset(inherit=False), case.attrs.get("shown_in"))
+    if window.sizes["time"] < 2:
+        raise Missing(f"has too few samples in {name}")
+    for variable, x in window.items():
+        if "w_point" in str(variable):
+            x.attrs["long_name"] += f", θ\u00a0=\u00a0{window.attrs['theta']:g}\u00a0rad"
+    return window
 
 
 def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
@@ -53,7 +68,7 @@ def factors_of(units: Mapping[str, str]) -> dict[str, tuple[str, float]]:
     return {name: (unit, 1 / size_of_unit(unit, si_unit(name))) for name, unit in units.items()}
 
 
-def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataArray:
+def _shown(x: DataArray, units: Mapping[str, tuple[str, float]]) -> DataArray:
     """A variable with values, name and unit for readers."""
     attributes = {**x.attrs, "long_name": name_of(x), "units": "", "factor": 1.0}
     if "flag_meanings" in x.attrs:
@@ -71,12 +86,12 @@ def _shown(x: xr.DataArray, units: Mapping[str, tuple[str, float]]) -> xr.DataAr
     unit, factor = units.get(known, (unit, factor))
     attributes.update(units=unit, factor=factor)
     values = x.values if factor == 1.0 else x.values * factor
-    plain = xr.DataArray(values, dims=x.dims, name=x.name)
+    plain = DataArray(values, dims=x.dims, name=x.name)
     plain.attrs = attributes
     return plain
 
 
-def parameter_of(x: xr.DataArray) -> str:
+def parameter_of(x: DataArray) -> str:
     """The parameter or sampled variable that an array has values of, "" if it has a meaning or a unit
     of its own."""
     stated = x.attrs.get("parameter", "")
@@ -113,7 +128,7 @@ def readable(units: str) -> str:
     return (above + below).strip()
 
 
-def name_of(x: xr.DataArray) -> str:
+def name_of(x: DataArray) -> str:
     """What labels call an array: name and symbol of a parameter, else its long name."""
     known = parameter_of(x)
     if known:
@@ -122,14 +137,14 @@ def name_of(x: xr.DataArray) -> str:
     return said if len(said) == 1 else said[:1].upper() + said[1:]
 
 
-def label(x: xr.DataArray) -> str:
+def label(x: DataArray) -> str:
     """The label of an axis or of a bar of colours, of an array as it is shown."""
     unit = x.attrs.get("units", "").replace(" ", "\u00a0")  # no line ends within it
     name = str(x.attrs.get("long_name", x.name))
     return f"{name} ({unit})" if unit else name
 
 
-def value_text(x: xr.DataArray) -> str:
+def value_text(x: DataArray) -> str:
     """One shown value along a dimension, ``N = 385 N``, or its word; by the attribute `names` of its
     coordinate, if that has it."""
     value = x.item()
@@ -175,11 +190,11 @@ def key_of(value: Any) -> str:
         return str(value)
 
 
-def placed(x: xr.DataArray, value: float) -> float:
+def placed(x: DataArray, value: float) -> float:
     """A value in SI units, such as a study file has, in the unit in which an array is shown."""
     return value * float(x.attrs["factor"])
 
 
-def words(x: xr.DataArray) -> np.ndarray:
+def words(x: DataArray) -> np.ndarray:
     """Words of a shown flag as texts; "" where there is none."""
     return np.where(x.isnull(), "", x.values).astype(str)

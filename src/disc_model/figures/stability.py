@@ -6,12 +6,12 @@ from textwrap import fill
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from cmcrameri import cm
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
+from xarray import DataArray, Dataset
 
 from disc_model.data.variables import OF_RESULTS, attributes_of_number, typeset, values_text
 from disc_model.disc.plate import mode_arrays, mode_shapes, radial_range
@@ -24,7 +24,7 @@ from disc_model.figures.draw import (
     rate_axis,
     wished,
 )
-from disc_model.figures.looks import BLACK, GREY, ORANGE, RED
+from disc_model.figures.looks import BLACK, GREY, ORANGE, RED, Options
 from disc_model.figures.shown import label, placed, shown
 from disc_model.parameters import Parameters
 
@@ -53,10 +53,10 @@ def case_text(case: Parameters | None, *varied: str) -> str:
     return fill(values_text(values), 40)
 
 
-def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> xr.DataArray:
+def column(name: str, values: Any, attributes: Any = None, units: Any = None) -> DataArray:
     """Values of a number of a case, or of what has these attributes, SI units, as readers see them,
     shape (point,)."""
-    held = xr.Dataset({name: ("point", values, attributes or attributes_of_number(name))})
+    held = Dataset({name: ("point", values, attributes or attributes_of_number(name))})
     return shown(held, units)[name]
 
 
@@ -140,7 +140,7 @@ def draw_exponents(ax: Axes, found: Any, **look: Any) -> None:
     """Draw Lyapunov exponents with their errors, hollow where they have not converged."""
     attributes = {"long_name": "Lyapunov exponent", "units": "1/s"}
     number = {"Number": np.arange(1, len(found.exponents) + 1)}
-    values = xr.DataArray(found.exponents, number, attrs=attributes)
+    values = DataArray(found.exponents, number, attrs=attributes)
     own = wished(look, linestyle="", label=case_text(found.parameters))
     unsure = values.copy(data=~found.converged)
     lines(ax, values, "Number", doubtful=unsure, doubt="not converged", **own)
@@ -186,7 +186,7 @@ def draw_curves(ax: Axes, curves: Any, **look: Any) -> None:
     ax.set(xlabel=label(x), ylabel=label(y))
 
 
-def _name_curve(ax: Axes, x: xr.DataArray, y: xr.DataArray, name: str) -> None:
+def _name_curve(ax: Axes, x: DataArray, y: DataArray, name: str) -> None:
     """Write a name beside the middle of a curve, unless the axes have it already."""
     if name not in [text.get_text() for text in ax.texts]:
         middle = (x[x.size // 2], y[x.size // 2])
@@ -204,7 +204,7 @@ def draw_modes(axes: Iterable[Any], case: Parameters) -> None:
     for ax, i in zip(axes, np.argsort(modes.omega), strict=False):
         w = np.outer(shapes[i], np.cos(modes.diameters[i] * theta))
         end = 1.6 * float(np.abs(w).max())  # so that lines stay visible
-        colours: dict[str, Any] = {"cmap": cm.vik, "vmin": -end, "vmax": end}
+        colours: Options = {"cmap": cm.vik, "vmin": -end, "vmax": end}
         ax.pcolormesh(theta, r, w, shading="gouraud", rasterized=True, **colours)
         ax.contour(theta, r, w, [0], colors=BLACK, linewidths=1)
         ax.plot(0, case.r_0, "o", ms=3.5, mfc=ORANGE, mec=BLACK, mew=0.5)

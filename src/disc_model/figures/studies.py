@@ -1,5 +1,6 @@
 """Figures of studies over parameters: each a few lines over `draw`."""
 
+from collections.abc import Sequence
 from itertools import product
 from typing import Annotated, Any, Literal
 
@@ -8,7 +9,9 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
+from xarray import DataArray, Dataset
 
+from disc_model.analysis.classify import share
 from disc_model.analysis.contact_loss import excess_of_flights, pinned_range
 from disc_model.data.variables import presentation_of, stated_in, typeset
 from disc_model.figures.draw import (
@@ -29,11 +32,11 @@ from disc_model.figures.draw import (
     mark_missing,
     mark_points,
     number_map,
+    one_line,
     panels,
     rate_axis,
     sign_changes,
     unresolved,
-    wilson,
     wished,
 )
 from disc_model.figures.looks import (
@@ -48,13 +51,14 @@ from disc_model.figures.looks import (
     RED,
     STABLE,
     Look,
+    Options,
 )
 from disc_model.figures.schema import MOST_VALUES, NORM, NOTHING, Role, grid_figure
 from disc_model.figures.shown import label, parameter_of, placed, value_text
 from disc_model.parameters import Parameters
 from disc_model.units import Finite, Positive, Strict
 
-Curves = Annotated[xr.Dataset | None, Role("neutral_curves")]
+Curves = Annotated[Dataset | None, Role("neutral_curves")]
 BORDERS = {"neutral": ("cycle loses stability", "-"), "fold": ("stable cycle ends (fold)", "--")}
 """What curves are, and their lines."""
 OF_CYCLES = ("growth_rate", "cycle_growth_rate")  # whose neighbours may be of another cycle
@@ -70,8 +74,8 @@ LIMIT = "Range at which contact is lost, R = 2N/|k − mω²|"
 HOLLOW = "hollow: no frequency carries 95 % of height and contact force"
 BAND = 0.05  # excess of a range up to which a motion counts as limited by loss of contact
 ENLARGED = (-0.25, 0.35)  # excess that the enlarged panel shows; what is beyond stands at its edge
-RING: dict[str, Any] = {"marker": "o", "ms": 7, "mew": 0.6, "mfc": "none", "color": BLACK}
-BOX: dict[str, Any] = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}  # behind names
+RING: Options = {"marker": "o", "ms": 7, "mew": 0.6, "mfc": "none", "color": BLACK}
+BOX: Options = {"fc": "white", "alpha": 0.8, "lw": 0, "pad": 0.5}  # behind names
 SHADE = "#e4e4e4"
 
 
@@ -87,13 +91,11 @@ def row(count: int, height: float) -> tuple[Figure, list[Axes]]:
 
 
 @grid_figure()
-def heat_map(
-    study: xr.Dataset, variable: str, x: str, y: str, by: str = NORM, log: bool = False
-) -> Figure:
+def heat_map(study: Dataset, variable: str, x: str, y: str, by: str = NORM) -> Figure:
     """Any variable in colour over two dimensions, with a panel for each value of a third."""
     parts = each_value(study, by)
     figure, axes = row(len(parts), 2.4)
-    scale = colours_of(study[variable], log=log)
+    scale = colours_of(study[variable])
     for ax, (title, part) in zip(axes, parts, strict=True):
         ax.set_title(title)
         mesh = draw_map(ax, part.transpose(y, x, ...), variable, **scale)
@@ -102,7 +104,7 @@ def heat_map(
     return figure
 
 
-def draw_map(ax: Axes, data: xr.Dataset, variable: str, **colours: Any) -> Any:
+def draw_map(ax: Axes, data: Dataset, variable: str, **colours: Any) -> Any:
     """Draw classes, or numbers in colours, over two dimensions (up, across), with circles where they
     are in doubt; returns the mesh of numbers, for a bar."""
     plane, doubt = data[variable], in_doubt(data, variable)
@@ -110,43 +112,32 @@ def draw_map(ax: Axes, data: xr.Dataset, variable: str, **colours: Any) -> Any:
         class_map(ax, plane)
         unresolved(ax, plane)
         return None
-    paint = rate_map if is_rate(plane) else number_map
-    mesh = paint(ax, plane, why_missing(data, variable), **colours)
+    why = why_missing(data, variable)
+    mesh = number_map(ax, plane, why, **colours)
+    if is_rate(plane):
+        mark_stable(ax, plane, why)
+        borders([ax], None, plane)
     if doubt is not None:
         cells(ax, plane, doubt, Look(f"circles: {doubt.attrs['long_name']}", "none", "oo"))
     return mesh
 
 
-def rate_map(
-    ax: Axes, rate: xr.DataArray, why: xr.DataArray | None, contour: bool = True, **colours: Any
-) -> Any:
-    """Paint growth rates, of dimensions (up, across), with dots where they are negative; single cells
-    that differ from those beside them are hatched. Returns the mesh.
+def mark_stable(ax: Axes, rate: DataArray, why: DataArray | None) -> None:
+    """Dots where growth rates, of dimensions (up, across), are negative; single cells that differ from
+    those beside them are hatched.
 
-    contour : whether a line is drawn where the sign changes, between areas of some width
+    why : classes of the points without a rate
     """
-    mesh = number_map(ax, rate, why, **colours)
-    negative = (rate < 0).values
+    negative = rate < 0
     cells(ax, rate, negative, AROUND_DOTS)
     cells(ax, rate, negative, STABLE)
-
-    stability = rate.copy(data=np.where(negative, "stable", "unstable").astype(object))
-    if why is not None:
-        stability = stability.where(rate.notnull(), why)
-    unresolved(ax, stability)
-    if contour:
-        borders(ax, None, rate)
-    return mesh
+    signs = rate.copy(data=np.where(negative, "stable", "unstable").astype(object))
+    unresolved(ax, signs if why is None else signs.where(rate.notnull(), why))
 
 
 @grid_figure()
 def curve(
-    study: xr.Dataset,
-    variable: str,
-    x: str,
-    by: str = NORM,
-    log: bool = False,
-    highest: Finite | None = None,
+    study: Dataset, variable: str, x: str, by: str = NORM, highest: Finite | None = None
 ) -> Figure:
     """Any variable against one dimension, with a line for each value of another.
 
@@ -154,14 +145,12 @@ def curve(
     """
     figure, [ax] = row(1, 2.6)
     draw_lines(ax, study, variable, x)
-    if log:
-        ax.set_yscale("log")
     ax.set_ylim(top=highest)
     return figure
 
 
 def draw_lines(
-    ax: Axes, data: xr.Dataset, variable: str, x: str, *, joined: bool = True, **look: Any
+    ax: Axes, data: Dataset, variable: str, x: str, *, joined: bool = True, **look: Any
 ) -> None:
     """Draw a line for each value of a second dimension, or points where there are many of these.
 
@@ -169,7 +158,7 @@ def draw_lines(
     """
     array, doubt = data[variable], in_doubt(data, variable)
     by = next((str(dim) for dim in array.dims if dim != x), "")
-    usual: dict[str, Any] = {} if joined else {"linestyle": ""}
+    usual: Options = {} if joined else {"linestyle": ""}
     if not by:
         chosen = [each for each in array.coords.values() if each.ndim == 0 and parameter_of(each)]
         usual["label"] = ", ".join(map(value_text, chosen))
@@ -188,15 +177,15 @@ def draw_lines(
         ax.axhline(0, color=GREY, lw=0.5, zorder=0)
 
 
-def flattened(array: xr.DataArray, x: str) -> xr.DataArray:
+def flattened(array: DataArray, x: str) -> DataArray:
     """All values at each place along a dimension, in one line."""
     points = array.stack(point=array.dims, create_index=False)
     places = points[x].variable.values
-    along = xr.DataArray(places, dims=x, attrs=array[x].attrs)
-    return xr.DataArray(points.values, {x: along}, name=array.name, attrs=array.attrs)
+    along = DataArray(places, dims=x, attrs=array[x].attrs)
+    return DataArray(points.values, {x: along}, name=array.name, attrs=array.attrs)
 
 
-def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+def why_missing(data: Dataset, variable: str) -> DataArray | None:
     """Words for the points of a variable without a number: what there is in place of a cycle, or a
     status that is not "ok"."""
     x = data[variable]
@@ -211,7 +200,7 @@ def why_missing(data: xr.Dataset, variable: str) -> xr.DataArray | None:
 LATE = ("_min", "_max", "_fraction", "separation_rate", "surface_speed")
 """Ends of names of what `outcome` says of the late motion."""
 NO = ("undecided", "changing", "unknown", "no", "growing", "False", "0.0")
-DOUBTS: dict[str, Any] = {
+DOUBTS: Options = {
     "settled": ("", NO, "not settled"),
     "sweep_settled": ("", NO, "not settled"),
     "converged": ("", NO, "not converged"),
@@ -222,14 +211,14 @@ DOUBTS: dict[str, Any] = {
 reason."""
 
 
-def in_doubt(data: xr.Dataset, variable: str) -> xr.DataArray | None:
+def in_doubt(data: Dataset, variable: str) -> DataArray | None:
     """Where a value is not known to be final, with the reason as `long_name`."""
     x = data[variable]
     for name, (ends, doubts, why) in DOUBTS.items():
         if name in data and name != variable and variable.endswith(ends):
             unsure = data[name].astype(str).isin(doubts)
             if {*unsure.dims} <= {*x.dims}:
-                whole: xr.DataArray = unsure.broadcast_like(x).transpose(*x.dims)
+                whole: DataArray = unsure.broadcast_like(x).transpose(*x.dims)
                 return whole.assign_attrs(long_name=why)
     return None
 
@@ -245,7 +234,7 @@ class Mark(Strict):
     paper_outcome: Literal["stick_slip", "growing", "separation"]
 
 
-SHAPES: dict[str, Any] = {
+SHAPES: Options = {
     "stick_slip": ("o", 4, -6, "top"),
     "growing": ("^", 6, -6, "top"),
     "separation": ("s", 8, 6, "bottom"),
@@ -255,7 +244,7 @@ SHAPES: dict[str, Any] = {
 
 @grid_figure("regions")
 def region_map(
-    study: xr.Dataset,
+    study: Dataset,
     x: str,
     y: str,
     by: str = NORM,
@@ -265,36 +254,35 @@ def region_map(
     """Outcomes over two parameters, with cases of the paper, and the growth rate of the cycle below,
     for each value of a third one."""
     parts = each_value(study, by)
-    above = [f"outcome {i}" for i in range(len(parts))]
-    below = [f"rate {i}" for i in range(len(parts))]
+    above, below = ([f"{name} {i}" for i in range(len(parts))] for name in ("outcome", "rate"))
     layout = [above, below] if len(parts) > 1 else [above + below]
     figure, axes = panels(layout, PAGE, 2.4, sharex=True, sharey=True)
     scale = growth_colours(study["growth_rate"])
     for i, (title, part) in enumerate(parts):
+        outcome, growth = axes[above[i]], axes[below[i]]
         plane = part.transpose(y, x, ...)
-        class_map(axes[above[i]], plane["outcome"])
-        unresolved(axes[above[i]], plane["outcome"])
-        axes[above[i]].set_title(titled(title, study))
         rate = plane["growth_rate"]
-        mesh = rate_map(axes[below[i]], rate, plane["cycle"], curves is None, **scale)
+        draw_map(outcome, plane, "outcome")
+        outcome.set_title(titled(title, study))
+        mesh = number_map(growth, rate, plane["cycle"], **scale)
+        mark_stable(growth, rate, plane["cycle"])
         beside = curves
         if curves is not None and by in curves.dims:
             beside = curves.sel({by: part[by].item()})
-        for panel in (axes[above[i]], axes[below[i]]):
-            borders(panel, beside, rate)
+        borders([outcome, growth], beside, rate)
     for name, mark in marks.items():
         draw_mark(axes[above[0]], name, mark, study[x], study[y])
     bar_of(figure, [axes[name] for name in below], mesh, study["growth_rate"])
     return figure
 
 
-def titled(title: str, study: xr.Dataset) -> str:
+def titled(title: str, study: Dataset) -> str:
     """A title of outcomes, with their horizon."""
     horizon = stated_in(study, "options")["horizon"]
     return f"{title}: outcome within {horizon:g} s".removeprefix(": ")
 
 
-def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
+def borders(axes: Sequence[Axes], curves: Dataset | None, rate: DataArray) -> None:
     """Continued curves beside a stable cycle: thin where they do not pass between an area in which the
     cycle of a map is stable and one beyond, both two cells wide or more, but are of another cycle, or
     finer than the cells. Without curves, the line at which the rate changes its sign.
@@ -302,7 +290,9 @@ def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
     rate : of dimensions (up, across)
     """
     if curves is None:
-        sign_changes(ax, rate.where(around(rate < 0) & around(rate >= 0)), SIGN)
+        known = rate.where(around(rate < 0) & around(rate >= 0))
+        for ax in axes:
+            sign_changes(ax, known, SIGN)
         return
     up, across = (along(curves)[str(dim)] for dim in rate.dims)
     known = up.notnull() & (curves["adjoins_stable_cycle"] == "yes")
@@ -310,13 +300,14 @@ def borders(ax: Axes, curves: xr.Dataset | None, rate: xr.DataArray) -> None:
     beside = (around(rate < 0) & around(~(rate < 0))).sel(dict(filled), method="nearest")
     for (kind, (name, style)), wide in product(BORDERS.items(), (True, False)):
         chosen = known & (beside == wide) & (curves["kind"] == kind)
-        part = up.where(chosen).transpose("curve_point", ...)
+        part = up.where(chosen).transpose(..., "curve_point")
         text = name if wide else "thin: narrow, or of another cycle"
-        if part.notnull().any():
-            ax.plot(across.T, part, style, color=BLACK, lw=1 if wide else 0.4, label=text)
+        for ax in axes if part.notnull().any() else ():
+            line = one_line(across, part)
+            ax.plot(*line, style, color=BLACK, lw=1 if wide else 0.4, label=text)
 
 
-def around(area: xr.DataArray) -> xr.DataArray:
+def around(area: DataArray) -> DataArray:
     """An area of a map with the cells beside it, without parts that are one cell wide."""
     from scipy.ndimage import binary_dilation, binary_opening
 
@@ -324,18 +315,18 @@ def around(area: xr.DataArray) -> xr.DataArray:
     return area.copy(data=binary_dilation(wide, np.ones((3, 3))))
 
 
-def along(curves: xr.Dataset) -> dict[str, xr.DataArray]:
+def along(curves: Dataset) -> dict[str, DataArray]:
     """Places on curves by their parameters."""
     return {curves[axis].attrs["parameter"]: curves[axis] for axis in "xy"}
 
 
-def draw_mark(ax: Axes, name: str, mark: Mark, x: xr.DataArray, y: xr.DataArray) -> None:
+def draw_mark(ax: Axes, name: str, mark: Mark, x: DataArray, y: DataArray) -> None:
     """A case of the paper, in the colour and the shape of what the paper says."""
-    at = (placed(x, mark.x), placed(y, mark.y))
+    at = placed(x, mark.x), placed(y, mark.y)
     shape, size, up, end = SHAPES[mark.paper_outcome]
-    said = LOOKS[mark.paper_outcome]
-    look: dict[str, Any] = {"mfc": said.face, "mec": BLACK, "clip_on": False}
-    ax.plot(*at, shape, ms=size, zorder=20 - size, label=f"paper: {said.label}", **look)
+    look = LOOKS[mark.paper_outcome]
+    said: Options = {"mfc": look.face, "mec": BLACK, "clip_on": False}
+    ax.plot(*at, shape, ms=size, zorder=20 - size, label=f"paper: {look.label}", **said)
     side, right = ("right", -6) if at[0] > x.mean() else ("left", 6)
     if at[1] < y.min() + 0.1 * np.ptp(y.values):
         up, end = 6, "bottom"
@@ -348,15 +339,17 @@ FATES = {
     "separating": ("separation",),
 }
 """Motions, and outcomes that are these; the first has their colour."""
+STABILITIES = {"stable": STABLE.hatch, "unstable": ""}
+"""What linear analysis says, and its hatching."""
 NEUTRAL = 1e-9  # growth rate of steady sliding that is zero but for rounding, 1/s
 
 
 @grid_figure("regions", "outcome")
 def sliding_outcome(
-    study: xr.Dataset,
+    study: Dataset,
     x: str,
     y: str,
-    sliding: Annotated[xr.Dataset, Role("sliding_modes", required=True)],
+    sliding: Annotated[Dataset, Role("sliding_modes", required=True)],
     by: str = NORM,
 ) -> Figure:
     """What linear analysis of steady sliding says, and what the motion does, over two parameters; the
@@ -366,13 +359,13 @@ def sliding_outcome(
     stable = linear["largest_growth_rate"] <= NEUTRAL
     both = outcome.where(outcome == "excluded", "undecided")
     looks = {}
-    for (fate, outcomes), stability in product(FATES.items(), ("stable", "unstable")):
-        word = f"sliding {stability}, {fate}"
-        here = outcome.isin(outcomes) & (stable == (stability == "stable"))
-        both = both.where(~here, word)
+    for (fate, outcomes), (word, hatch) in product(FATES.items(), STABILITIES.items()):
+        here = outcome.isin(outcomes) & (stable == (word == "stable"))
+        said = f"sliding {word}, {fate}"
+        both = both.where(~here, said)
         shares = [f"{100 * float(part.mean()):.0f} %" for _, part in each_value(here, by)]
-        look = LOOKS[outcomes[0]]._replace(label=f"{word}: {', '.join(shares)}", hatch="")
-        looks[word] = look._replace(hatch=STABLE.hatch) if stability == "stable" else look
+        label = f"{said}: {', '.join(shares)}"
+        looks[said] = LOOKS[outcomes[0]]._replace(label=label, hatch=hatch)
     parts = each_value(both, by)
     figure, axes = row(len(parts), 2.6)
     for ax, (title, part) in zip(axes, parts, strict=True):
@@ -391,12 +384,12 @@ def counted(chosen: Any) -> str:
 
 @grid_figure("critical_speed", needs=("N",))
 def critical_speed(
-    study: xr.Dataset,
+    study: Dataset,
     paper_points: dict[str, tuple[Finite, Finite]] = NOTHING,
-    hysteresis: Annotated[xr.Dataset | None, Role("hysteresis")] = None,
-    cycle: Annotated[xr.Dataset | None, Role("regions")] = None,
+    hysteresis: Annotated[Dataset | None, Role("hysteresis")] = None,
+    cycle: Annotated[Dataset | None, Role("regions")] = None,
     curves: Curves = None,
-    basins: Annotated[xr.Dataset | None, Role("basins")] = None,
+    basins: Annotated[Dataset | None, Role("basins")] = None,
 ) -> Figure:
     """Speeds at which separation begins, against the preload: from the static start, over a map of
     outcomes with its borders, and in sweeps, over the map's stable cycles.
@@ -407,59 +400,59 @@ def critical_speed(
         study = study.sel(horizon=study["horizon"].max())
     speeds, loads = study["scan_Omega"], study["N"]
     figure, axes = row(1 if hysteresis is None else 2, 3.0)
+    first, last = axes[0], axes[-1]
     if cycle is not None:
-        behind(axes, cycle.sel(Omega=slice(*speeds[[0, -1]].values)), curves)
+        plane = cycle.sel(Omega=slice(*speeds[[0, -1]].values)).transpose("N", "Omega", ...)
+        behind(first, plane, curves)
+        stable = plane["growth_rate"] < 0
+        for ax in axes[1:]:
+            cells(ax, stable, stable, Look("cycle stable", LOOKS["stable"].face))
     for ax in axes:
         onsets(ax, study)
         ax.set(xlabel=label(speeds), ylabel=label(loads), xlim=speeds[[0, -1]])
         ax.label_outer()
-    axes[0].set_title(f"from the static start, within {study['horizon']:g} s")
+    first.set_title(f"from the static start, within {study['horizon']:g} s")
     for load, speed in paper_points.values():
-        at = (placed(speeds, speed), placed(loads, load))
-        axes[0].plot(*at, "*", ms=9, zorder=5, label="paper's critical speed", **PAPER)
+        at = placed(speeds, speed), placed(loads, load)
+        first.plot(*at, "*", ms=9, zorder=5, label="paper's critical speed", **PAPER)
     if hysteresis is not None:
         step = float(hysteresis["sweep_Omega"].diff("sweep_Omega")[0])
-        axes[1].set_title(f"sweeps in steps of {step:g} {speeds.units}")
-        sweeps(axes[1], hysteresis)
+        last.set_title(f"sweeps in steps of {step:g} {speeds.units}")
+        sweeps(last, hysteresis)
     if basins is not None:
-        load = stated_in(basins, "base")["N"]
-        coexistence(axes[-1], basins, placed(loads, load))
+        load = placed(loads, stated_in(basins, "base")["N"])
+        coexistence(last, basins, load)
     return figure
 
 
-def behind(axes: list[Axes], cycle: xr.Dataset, curves: xr.Dataset | None) -> None:
-    """Outcomes of a map and the borders of its cycle, and where this is stable."""
-    plane = cycle.transpose("N", "Omega", ...)
+def behind(ax: Axes, plane: Dataset, curves: Dataset | None) -> None:
+    """Outcomes of a map and the borders of its cycle, with the multiples of the stick-slip frequency of
+    folds of a stable cycle that leave the panel through its upper edge."""
     merged = plane["outcome"].where(plane["outcome"] != "other_cycle", "growing")
-    class_map(axes[0], merged, {"growing": LOOKS["growing"]._replace(label=MERGED)})
-    borders(axes[0], curves, plane["growth_rate"])
-    if curves is not None:
-        name_folds(axes[0], curves)
-    stable = plane["growth_rate"] < 0
-    for ax in axes[1:]:
-        cells(ax, stable, stable, Look("cycle stable", LOOKS["stable"].face))
-
-
-def name_folds(ax: Axes, curves: xr.Dataset) -> None:
-    """The multiples of the stick-slip frequency of folds of a stable cycle that leave a panel through
-    its upper edge."""
-    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
-    up, top = along(curves)["N"].where(beside), ax.get_ylim()[1]
-    for i in np.flatnonzero(up.max("curve_point") > 0.98 * top):
-        place = {"curve": i, "curve_point": int(np.nanargmax(up[i]))}
-        at = along(curves)["Omega"][place], top
+    class_map(ax, merged, {"growing": LOOKS["growing"]._replace(label=MERGED)})
+    borders([ax], curves, plane["growth_rate"])
+    if curves is None:
+        return
+    speeds, loads = folds(curves)
+    top = ax.get_ylim()[1]
+    for i in np.flatnonzero(loads.max("curve_point") > 0.98 * top):
+        at = speeds[i, int(np.nanargmax(loads[i]))], top
         name = f"{curves['resonance_harmonic'][i]:g} $f_s$"
         ax.annotate(name, at, (-2, -2), ha="right", va="top", bbox=BOX, **NOTE)
 
 
-def onsets(ax: Axes, study: xr.Dataset) -> None:
+def folds(curves: Dataset) -> tuple[DataArray, DataArray]:
+    """Speeds and preloads of folds of a stable cycle, nan at other points."""
+    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
+    places = along(curves)
+    return places["Omega"].where(beside), places["N"].where(beside)
+
+
+def onsets(ax: Axes, study: Dataset) -> None:
     """All speeds of a scan at which separation begins, and crosses beyond the right edge without one."""
-    found = study["crossing"].where(study["crossing_kind"] == "begins")
-    at, loads = xr.broadcast(found, study["N"])
-    look: dict[str, Any] = {"color": BLACK, "mew": 0.6}
-    mark_points(
-        ax, at.values.ravel(), loads.values.ravel(), "separation begins", marker="o", **look
-    )
+    found = study["crossing"].where(study["crossing_kind"] == "begins").transpose("N", ...)
+    look: Options = {"color": BLACK, "mew": 0.6}
+    mark_points(ax, *xr.broadcast(found, study["N"]), "separation begins", marker="o", **look)
     none = study["N"][study["critical_speed"].isnull().values]
     edge = {"transform": ax.get_yaxis_transform(), "clip_on": False, "marker": "x"}
     low, high = study["scan_Omega"].values[[0, -1]]
@@ -467,7 +460,7 @@ def onsets(ax: Axes, study: xr.Dataset) -> None:
     mark_points(ax, 0 * none + 1.02, none, name, **edge, **look)
 
 
-def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
+def sweeps(ax: Axes, sweep: Dataset) -> None:
     """Speeds at which separation begins on the way up and ends on the way down, at each preload; hollow
     where a stay in contact ended before the motion had settled, so that the speed is in doubt."""
     along, up, down = sweep["sweep_Omega"], sweep["onset_speed"], sweep["offset_speed"]
@@ -480,13 +473,13 @@ def sweeps(ax: Axes, sweep: xr.Dataset) -> None:
         ("up", up, along < up, "separation begins", "^", RED),
         ("down", down, along == last_kept, "separation ends", "v", BLUE),
     ):
-        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 5}
+        look: Options = {"marker": marker, "color": colour, "ms": 5}
         ax.plot(speeds, sweep["N"], ls="", label=f"going {way}: {name}", **look)
         doubtful = (unsure.sel(direction=way) & before).any("sweep_Omega")
         mark_points(ax, speeds.where(doubtful), sweep["N"], "hollow: not settled", **look)
 
 
-def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
+def coexistence(ax: Axes, basins: Dataset, load: float) -> None:
     """A bar over the speeds at which some random starts come to small stick-slip and others keep
     separating: the intervals of both shares exclude zero."""
     small = basins["basin_fraction_low"].sel(attractor_class="stick_slip") > 0
@@ -496,7 +489,7 @@ def coexistence(ax: Axes, basins: xr.Dataset, load: float) -> None:
 
 
 @grid_figure("ramps")
-def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
+def ramps(study: Dataset, curves: Curves = None) -> Figure:
     """Speeds at which separation begins and ends on ramps of the speed, against their rate; a line where
     the stable cycle ends, the limit of slow ramps."""
     figure, [ax] = row(1, 2.4)
@@ -509,7 +502,7 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
         speeds = study[name].assign_attrs(long_name="Speed Ω")
         why = speeds.attrs.get("missing", "no value")
         missing = f"{way}, {low:g} to {high:g} {speeds.units}: {why}"
-        look: dict[str, Any] = {"marker": marker, "color": colour, "ms": 4, "edge": edge}
+        look: Options = {"marker": marker, "color": colour, "ms": 4, "edge": edge}
         lines(ax, speeds, "rate", label=f"{way}: separation {end}", missing=missing, **look)
     mark_missing(ax, study["rate"][(study["rate_status"] != "ok").values], "failed")
     if curves is not None:
@@ -521,10 +514,9 @@ def ramps(study: xr.Dataset, curves: Curves = None) -> Figure:
     return figure
 
 
-def fold_speeds(curves: xr.Dataset, load: float) -> xr.DataArray:
+def fold_speeds(curves: Dataset, load: float) -> DataArray:
     """Speeds at which folds of the stable cycle cross a preload (N), nan between other points."""
-    beside = (curves["kind"] == "fold") & (curves["adjoins_stable_cycle"] == "yes")
-    speed, loads = along(curves)["Omega"].where(beside), along(curves)["N"]
+    speed, loads = folds(curves)
     above = loads - placed(loads, load)
     ahead = above.shift(curve_point=-1)
     crossing = speed + above / (above - ahead) * (speed.shift(curve_point=-1) - speed)
@@ -535,7 +527,7 @@ def fold_speeds(curves: xr.Dataset, load: float) -> xr.DataArray:
 
 
 @grid_figure("outcome")
-def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> Figure:
+def escape(study: Dataset, starts: str = "perturbation_u", by: str = "N") -> Figure:
     """Share of starts that have separated, against time, with a line for each value of a parameter, and
     bars of 95 % confidence at its end."""
     horizon = stated_in(study, "options")["horizon"]
@@ -553,9 +545,9 @@ def escape(study: xr.Dataset, starts: str = "perturbation_u", by: str = "N") -> 
             label=name,
             where="post",
         )
-        middle, half = wilson(times.size, max(1, known.size))
         end = horizon * (1.02 + 0.02 * i)
-        ax.vlines(end, middle - half, middle + half, colour, lw=3, label="95 % confidence")
+        _, low, high = share(times.size, known.size)
+        ax.vlines(end, low, high, colour, lw=3, label="95 % confidence")
     ax.set(xlabel="Time (s)", ylabel="Share of starts that separated", ylim=(-0.02, 1.02))
     ax.set_xlim(0, None)
     return figure
@@ -567,7 +559,7 @@ SURE = ("stick_slip", "other_cycle", "steady_sliding", "at_rest", "separation")
 
 
 @grid_figure("outcome", needs=("Omega", "N", "contact"))
-def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
+def late_range(study: Dataset, thickness: Positive) -> Figure:
     """Late range of the slider's height, and speed of the disc's surface under it, against the speed,
     with separation and with it ignored.
 
@@ -602,12 +594,12 @@ def late_range(study: xr.Dataset, thickness: Positive) -> Figure:
     return figure
 
 
-def extent(ratios: xr.DataArray) -> str:
+def extent(ratios: DataArray) -> str:
     """Least and greatest of some ratios, in two digits."""
     return f"{float(ratios.min()):.2g} to {float(ratios.max()):.2g}"
 
 
-def lost_contact(study: xr.Dataset) -> xr.DataArray:
+def lost_contact(study: Dataset) -> DataArray:
     """Range at which vibration loses contact at the frequency of the mode with the largest tangential
     motion, which friction feeds, along the preload, in the unit of heights; nan for another disc."""
     name = study["disc"].item() if "disc" in study else ""
@@ -622,7 +614,7 @@ def lost_contact(study: xr.Dataset) -> xr.DataArray:
 
 
 @grid_figure("range_law", takes=True)
-def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
+def range_law(study: Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figure:
     """Excess of the range of motions with separation over the range R at which vibration at their
     frequency loses contact, against R, and enlarged against the share of time apart; hollow where no
     frequency carries most of the motion.
@@ -635,7 +627,7 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
     single = np.minimum(data["vibration_share"], data["force_share"]) >= 0.95
     inside = abs(excess) <= BAND
     band = f"within 5 %: {counted(inside[single])} filled, {counted(inside[~single])} hollow"
-    model = data.coords.get(NORM, xr.DataArray("motions")).broadcast_like(excess)
+    model = data.coords.get(NORM, DataArray("motions")).broadcast_like(excess)
     group = model.copy(data=np.array([*map(value_text, model)], dtype=object))
     for name, value in set_apart.items():
         chosen = np.isclose(data[name], placed(data[name], value))
@@ -663,7 +655,7 @@ def range_law(study: xr.Dataset, set_apart: dict[str, Finite] = NOTHING) -> Figu
 
 
 @grid_figure("sensitivity", takes=True)
-def sensitivity(study: xr.Dataset) -> Figure:
+def sensitivity(study: Dataset) -> Figure:
     """Probability of instability in the lowest and the highest third of each parameter's values, with
     intervals of 95 %, for each point of the study; the parameters that change it most stand above."""
     points = [str(dim) for dim in study["status"].dims if dim != "sample"]
@@ -688,7 +680,7 @@ def sensitivity(study: xr.Dataset) -> Figure:
     return figure
 
 
-def thirds_of(cases: xr.Dataset) -> xr.Dataset:
+def thirds_of(cases: Dataset) -> Dataset:
     """Shares of unstable samples with a parameter in its lowest and in its highest third, and the ends of
     their intervals, shape (third, case, parameter)."""
     values = cases["parameter_values"]
@@ -696,14 +688,12 @@ def thirds_of(cases: xr.Dataset) -> xr.Dataset:
     inside = xr.concat([values <= low, values >= high], "third")
     inside &= (cases["cycle"] != "failed") & (cases["status"] != "excluded")
     stable = cases["cycle"].isin(["stable", "steady_sliding", "at_rest"])
-    count = inside.sum("sample")
-    count = count.where(count > 0)
-    share = (inside & ~stable).sum("sample") / count
-    middle, half = wilson(share * count, count)
-    return xr.Dataset({"share": share, "low": middle - half, "high": middle + half})
+    counts = (inside & ~stable).sum("sample"), inside.sum("sample")
+    ends = xr.apply_ufunc(np.vectorize(share), *counts, output_core_dims=[()] * 3)
+    return Dataset(dict(zip(("share", "low", "high"), ends, strict=True)))
 
 
-def draw_thirds(ax: Axes, thirds: xr.Dataset, rows: Any) -> None:
+def draw_thirds(ax: Axes, thirds: Dataset, rows: Any) -> None:
     """A row for each parameter, with both shares, their intervals, and a line between them."""
     ax.hlines(rows, *thirds["share"].values, color=GREY, lw=0.8)
     for i, (name, face) in enumerate((("lowest", "white"), ("highest", BLUE))):

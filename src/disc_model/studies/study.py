@@ -430,8 +430,7 @@ class Study(Strict):
         columns = self.of.columns
         for name, column in columns.items():
             variables[name] = {dim: along.get(dim, []) for dim in (*along, *column.dims)}
-        classes = [name for name, column in columns.items() if column.flags]
-        return plot.faults(along, variables, classes)
+        return plot.faults(along, variables)
 
     def entries(self, grids: Mapping[str, Study]) -> dict[tuple[str, str], FigureEntry]:
         """All figures of the file and of grids, by the study in whose folder they are and their names."""
