@@ -8,7 +8,7 @@ import pytest
 from disc_model import Parameters, Status, floquet, plate_modes, simulate, steady_sliding
 from disc_model.engine import columns
 from disc_model.simulation.states import perturb, static_start
-from disc_model.stability.lyapunov import _averaged, lyapunov_exponents
+from disc_model.stability.lyapunov import averaged, lyapunov_exponents
 from tests.refusals import refusal
 from tests.stability.test_attractor import paradox
 from tests.stability.test_sliding import state_of
@@ -130,7 +130,7 @@ def test_errors_are_standard_errors_of_16_segments_unless_both_halves_differ_by_
     alternating = 1 + 0.4 * (-1.0) ** segment
     rising = np.where(segment < 8, 0.5, 1.5)
     logs = np.repeat(np.column_stack([alternating, rising]), 5, axis=0) * 0.01
-    found = _averaged(Status.OK, logs, 0.01, 2, np.zeros(16), start, False)
+    found = averaged(Status.OK, logs, 0.01, 2, np.zeros(16), start, False)
     assert found.exponents == pytest.approx([1.0, 1.0], rel=1e-12)
     # the standard error of a mean of n values is their deviation over the root of n
     standard_error = np.std(alternating, ddof=1) / np.sqrt(16)
@@ -153,7 +153,7 @@ def test_halves_agree_within_a_share_or_within_a_rate(
     halves: tuple[float, float], converged: bool
 ) -> None:
     logs = np.repeat(halves, 80)[:, None] * 0.01
-    found = _averaged(Status.OK, logs, 0.01, 1, np.zeros(16), static_start(STICK), False)
+    found = averaged(Status.OK, logs, 0.01, 1, np.zeros(16), static_start(STICK), False)
     first, second = halves
     assert found.exponents == pytest.approx([(first + second) / 2], abs=1e-12)
     assert found.duration == pytest.approx(1.6)
@@ -180,7 +180,7 @@ def test_the_exponent_along_the_motion_is_left_out_wherever_it_is(
     log[columns.RELEASES] = releases
     log[columns.SEPARATIONS] = 0
     end = static_start(STICK)
-    found = _averaged(Status.OK, logs_of(*rates), 0.5, 2, log, end, True)
+    found = averaged(Status.OK, logs_of(*rates), 0.5, 2, log, end, True)
     assert found.exponents == pytest.approx(exponents)
     assert found.trivial_exponent == pytest.approx(trivial, nan_ok=True)
     assert found.duration == 16.0
@@ -194,7 +194,7 @@ def test_a_motion_with_events_of_any_kind_has_an_exponent_along_it(event: int) -
     log[event] = 3
     logs = logs_of(0.01, -2.0)
     end = static_start(STICK)
-    found = _averaged(Status.OK, logs, 0.5, 1, log, end, True)
+    found = averaged(Status.OK, logs, 0.5, 1, log, end, True)
     assert found.trivial_exponent == pytest.approx(0.01)
     [exponent] = found.exponents
     assert exponent == pytest.approx(-2.0)

@@ -169,7 +169,7 @@ def lyapunov_exponents(
             done = i + 1
     end = read_state(computed, state)
     log = frame.tangent.log
-    found = _averaged(status, logs[:done], length, count, log, end, leave_out_trivial)
+    found = averaged(status, logs[:done], length, count, log, end, leave_out_trivial)
     return replace(found, parameters=case)
 
 
@@ -256,7 +256,7 @@ class _Frame:
             self.remaining = np.delete(self.remaining, first)
 
 
-def _averaged(
+def averaged(
     status: Status,
     logs: Array,
     interval: float,
