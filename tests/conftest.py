@@ -1,13 +1,15 @@
 """What all tests share."""
 
 import gc
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-# The quick suite draws the same values in every clone. `make test-long` searches at random, by a
+# The quick suite draws the same values in every clone. `make nightly` searches at random, by a
 # seed that it prints.
 settings.register_profile(
     "quick",
@@ -24,7 +26,19 @@ settings.load_profile("quick")
 # Hypothesis also draws constants of the modules that are loaded. A test by itself would draw other
 # values.
 providers._get_local_constants = lambda: providers._local_constants
+IMPORT = re.compile(r"^\s*(?:from|import) (disc_model[\w.]*)(?: import (\([^)]*\)|.*))?", re.M)
 ALLOCATIONS = 20_000  # after which garbage is looked for: closed figures are thousands of objects
+
+
+def pytest_sessionstart() -> None:
+    """End where tests import a private name, or a module below the package's second level."""
+    wrong = []
+    for path in Path(__file__).parent.rglob("*.py"):
+        for module, names in IMPORT.findall(path.read_text(encoding="utf-8")):
+            if module.count(".") > 2 or re.search(r"\b_[a-z]", f"{module} {names}"):
+                wrong.append(f"{path}: {module}")
+    if wrong:
+        pytest.exit("tests use public names only:\n" + "\n".join(sorted(wrong)), returncode=1)
 
 
 def pytest_collection_finish() -> None:

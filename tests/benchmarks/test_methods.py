@@ -16,25 +16,20 @@ from tests.contact_laws import ALL_LAWS
 from tests.references.printed import MOTIONS, P, Printed, lively
 from tests.refusals import refusal
 
-QUICK_TO_COMPILE = ("RK4", "RK45", "DOP853", "heyoka", "CVODE")
-SHORT = [
-    pytest.param(name, marks=[pytest.mark.compiled] * (name == "CVODE"))
-    for name in QUICK_TO_COMPILE
-    if not METHODS[name].absent()
-]
+RIVALS = ("RK4", "RK45", "DOP853", "heyoka", "CVODE")
+SHORT = [name for name in RIVALS if not METHODS[name].absent()]
 FINE = {"step": 2e-6, "tol": 1e-9}
 """Settings at which a method is accurate on short motions."""
 STATE = ("a", "b", "alpha", "beta", "psi", "f", "u", "u_velocity")
 
 
-@pytest.mark.compiled
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "scene", "value", "allowed"),
     [
         ("series", "stick_slip", 1e-15, 2e-14),
         ("series", "separating", 1e-15, 2e-14),
-        # compiles for a minute
-        pytest.param("series", "many_modes", 1e-15, 2e-14, marks=pytest.mark.slow),
+        ("series", "many_modes", 1e-15, 2e-14),
         ("RK4", "stick_slip", 1e-5, 1e-10),
         ("RK45", "stick_slip", 1e-6, 1e-6),
         ("DOP853", "stick_slip", 1e-8, 1e-8),
@@ -61,6 +56,7 @@ def test_every_method_finds_all_switches(
     assert off.event_time < allowed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHORT)
 @pytest.mark.parametrize(("phase", "direction"), MOTIONS)
 def test_a_short_motion_is_the_printed_one(name: str, phase: str, direction: int) -> None:
@@ -77,6 +73,7 @@ def test_a_short_motion_is_the_printed_one(name: str, phase: str, direction: int
         np.testing.assert_allclose(found, end[quantity], rtol=0, atol=1e-6 * size)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SHORT)
 @pytest.mark.parametrize(
     ("f", "budget", "outcomes"),
@@ -105,7 +102,7 @@ def test_rivals_refuse_other_laws_of_contact(law: str) -> None:
         METHODS["RK4"].solve(motion, 1e-3)
 
 
-@pytest.mark.compiled
+@pytest.mark.slow
 def test_fixed_steps_fail_at_the_limit_of_stability() -> None:
     """Above h omega_max = 2 sqrt(2) the disc's highest mode grows until the slider leaves it."""
     limit = failure_map("RK4", "stick_slip", (2,), (1e-5,))["step_limit"][0]

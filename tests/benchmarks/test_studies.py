@@ -71,7 +71,6 @@ def test_the_onset_is_enclosed_between_two_speeds() -> None:
         answers.onset(separating_above(15.1), 0.45)
 
 
-@pytest.mark.compiled
 def test_the_engine_gives_the_right_answers() -> None:
     """Those were found by methods that share no code with it."""
     found = answers.answers("series", (1e-12,)).set_index("question")
@@ -81,7 +80,7 @@ def test_the_engine_gives_the_right_answers() -> None:
     assert {*answers.answers("cycle", (1e-10,))["verdict"]} == {"right"}
 
 
-@pytest.mark.compiled
+@pytest.mark.slow
 def test_a_run_makes_figures_and_pages() -> None:
     settings = {
         "stick_slip": {"series": (1e-8, 1e-10), "RK4": (2e-5, 1e-5)},

@@ -67,6 +67,7 @@ def test_every_example_is_in_a_block_that_is_run(page: Path) -> None:
     assert text.count(">>> ") == sum(block.count(">>> ") for block in blocks(page))
 
 
+@pytest.mark.slow
 def test_the_script_from_a_universal_file_to_a_file_runs(tmp_path: Path) -> None:
     """It is what a laboratory with the modes of a disc writes, in at most 25 lines."""
     page = DOCS / "howto" / "sweep.md"

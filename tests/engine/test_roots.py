@@ -10,9 +10,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from disc_model.engine import roots
-from disc_model.engine.jit.simd import aligned
 from disc_model.engine.model import ROWS
 from disc_model.engine.roots import NO_ROOT, dot, first_root, set_powers
+from disc_model.engine.state import aligned
 
 DEGREE = 24
 

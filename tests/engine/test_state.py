@@ -1,24 +1,13 @@
 """Where the numbers of a state and of columns stand: each has a place of its own, and is found
 there again."""
 
-import math
-
 import numpy as np
 import pytest
 
 from disc_model import Parameters
 from disc_model.engine import columns, state
-from disc_model.engine.jit.simd import WIDTH
-from disc_model.engine.model import ROWS, Model, build_state, on_ramp
-from disc_model.engine.series import (
-    ORDER,
-    build_series,
-    displacement_at,
-    displacement_of_lane,
-    load_at_start,
-    load_state,
-    velocity_at,
-)
+from disc_model.engine.model import Model, build_state, on_ramp
+from disc_model.engine.series import build_series, load_at_start, load_state
 from disc_model.simulation.states import engine_case
 
 SIZES = [(0, 0), (2, 1), (5, 0)]  # diameters, circles: no pairs; several single modes; two blocks
@@ -64,42 +53,6 @@ def test_every_component_of_a_mode_has_a_place_of_its_own(size: tuple[int, int])
     assert model.shift[of_a].tolist() == diameters[diameters > 0].tolist()
 
 
-@pytest.mark.parametrize("size", SIZES)
-def test_kernels_look_for_entries_of_a_column_where_the_state_has_them(
-    size: tuple[int, int],
-) -> None:
-    model = model_of(*size)
-    here = build_state(model)
-    here.disc[:] = np.arange(float(len(here.disc)))
-    of_kernels = {
-        state.velocity_place: here.e,
-        state.displacement0_place: here.y,
-        state.velocity0_place: here.g,
-    }
-    for place, entries in of_kernels.items():
-        assert [in_python(place)(model, j) for j in range(len(entries))] == entries.tolist()
-    behind = columns.n_rows(model) - state.SLIDER
-    scalars = (state.PSI, state.PHI_RATE, state.U, state.U_VELOCITY)
-    places = [in_python(state.slider_place)(model, scalar) for scalar in scalars]
-    assert places == [behind, behind + 1, behind + 2, behind + 3]
-
-
-@pytest.mark.parametrize("size", SIZES)
-def test_coefficients_of_pairs_stand_by_block_row_and_lane(size: tuple[int, int]) -> None:
-    model = model_of(*size)
-    modes = build_series(model, 20).modes
-    lanes = len(model.shift)
-    blocks = lanes // WIDTH
-    places = np.arange(len(modes)).reshape(blocks, -1, WIDTH)
-    for k in (0, 1, 20):
-        of_lanes = [displacement_of_lane(k, j) for j in range(lanes)]
-        assert of_lanes == places[:, 2 * k].ravel().tolist()
-        starts = range(0, lanes, WIDTH)
-        assert [displacement_at(k, b) for b in starts] == places[:, 2 * k, 0].tolist()
-        assert [velocity_at(k, b) for b in starts] == places[:, 2 * k + 1, 0].tolist()
-    assert displacement_at(1, 0) - displacement_at(0, 0) == ORDER
-
-
 def test_a_series_begins_with_its_state_under_drive_and_load() -> None:
     model = model_of(2, 1)
     here = build_state(model)
@@ -127,23 +80,6 @@ def test_a_series_begins_with_its_state_under_drive_and_load() -> None:
     preload = pytest.approx(310.0 - model.k * model.u_0, rel=1e-15)
     assert series.preload[:2].tolist() == [preload, 5.0 * model.unit]
     assert load_at_start(model, series) == pytest.approx(310.0, rel=1e-15)
-
-
-def test_tables_of_a_series_integrate_and_differentiate() -> None:
-    model = model_of(1, 0)
-    series = build_series(model, 20)
-    orders = np.arange(1, ROWS + 1)
-    np.testing.assert_allclose(series.up, model.unit / orders, rtol=1e-15)
-    np.testing.assert_allclose(series.down, orders / model.unit, rtol=1e-15)
-
-
-@pytest.mark.parametrize("order", [20, 23, 24])
-def test_the_root_finder_has_room_for_all_coefficients(order: int) -> None:
-    """In whole blocks of lanes, with two numbers behind them, in each of 54 rows."""
-    rows, columns_of_row = build_series(model_of(1, 0), order).roots.shape
-    blocks = math.ceil((order + 1) / WIDTH)
-    assert rows >= 54
-    assert columns_of_row >= blocks * WIDTH + 2
 
 
 def test_scalars_come_back_under_their_names() -> None:
@@ -177,51 +113,6 @@ def test_a_column_of_a_state_gives_the_state_back(size: tuple[int, int]) -> None
     np.testing.assert_array_equal(there.x, here.x)
 
 
-def test_columns_stand_side_by_side_in_blocks_of_eight() -> None:
-    model = model_of(2, 1)
-    tangent = columns.build_tangent(model, 11, 20, inputs=3)
-    assert tangent.plain == 16
-    assert tangent.columns == 24
-    place = in_python(columns.column_entry)
-    places = [place(tangent, c, r) for c in range(24) for r in range(tangent.rows)]
-    assert sorted(places) == list(range(len(tangent.now)))
-    for column, row in ((0, 0), (7, 3), (8, 5), (23, tangent.rows - 1)):
-        tangent.now[:] = 0.0
-        tangent.now[place(tangent, column, row)] = 1.0
-        block = columns.block_of_columns(tangent, column // 8)
-        assert np.argwhere(block).tolist() == [[row, column % 8]]
-
-
-def test_orders_of_a_block_of_columns_follow_each_other() -> None:
-    """Two more than the order of the series: the next one's changes, and those of the slope."""
-    tangent = columns.build_tangent(model_of(2, 1), 11, 20, inputs=3)
-    blocks = tangent.columns // WIDTH
-    starts = [(block, k) for block in range(blocks) for k in range(22)]
-    series = np.arange(len(tangent.series)).reshape(len(starts), -1)
-    chain = np.arange(len(tangent.force)).reshape(len(starts), -1)
-    order_at = in_python(columns.order_at)
-    chain_at = in_python(columns.chain_at)
-    assert [order_at(tangent, *start) for start in starts] == series[:, 0].tolist()
-    assert [chain_at(tangent, *start) for start in starts] == chain[:, 0].tolist()
-
-
-def test_a_change_of_a_parameter_stands_in_its_column_only() -> None:
-    model = model_of(2, 1)
-    tangent = columns.build_tangent(model, 11, 20, inputs=9)
-    lanes = len(model.shift)
-    single = len(model.stiffness0)
-    stiffness = np.arange(1.0, lanes + 1), np.arange(-1.0, -single - 1, -1.0)
-    change = columns.input_column(model, {"m": 2.0, "compliance": 3.0}, stiffness)
-    assert change[: columns.N_INPUTS].tolist() == [0, 0, 0, 2, 0, 0, 0, 3]
-    # in the order of a column: displacements, velocities, then those of single modes
-    expected = [*stiffness[0], *np.zeros(lanes), *stiffness[1], *np.zeros(single)]
-    assert change[columns.N_INPUTS :].tolist() == expected
-    columns.put_input_column(tangent, 8, change)
-    inputs = tangent.inputs.reshape(-1, tangent.input_rows, 8)
-    np.testing.assert_array_equal(inputs[3, :, 0], change)
-    assert np.count_nonzero(tangent.inputs) == np.count_nonzero(change)
-
-
 def test_rows_of_a_column_name_its_coordinates() -> None:
     model = model_of(2, 1)
     rows = columns.coordinate_rows(model, ("u",))
@@ -243,13 +134,3 @@ def test_rows_of_a_column_name_its_coordinates() -> None:
     stiffness = model.k + of_contact
     omega = np.sqrt(stiffness / model.m)
     assert of_u / of_v == pytest.approx(omega)
-
-
-def test_the_parts_of_a_series_lie_in_one_array() -> None:
-    """Kernels take them from there, without their own addresses."""
-    series = build_series(model_of(2, 1), 20)
-    for name, part in series._parts.items() if hasattr(series, "_parts") else ():
-        whole = getattr(series, part.whole)
-        getattr(series, name)[0] = 7.0
-        assert whole[part.start] == 7.0
-        assert len(getattr(series, name)) == part.length

@@ -1,7 +1,7 @@
 """The event that ends a step, by series that are given; the clock and its counts."""
 
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
 import pytest
@@ -48,12 +48,26 @@ P = Parameters(N=200, Omega=10, n_diameters=1, c_p=0.5)
 COMPLIANT = P.replace(contact_compliance=1e-6)
 
 
+REST = P.replace(Omega=0)
+SURFACE = REST.replace(friction_offset=0.01)
+Coefficients = dict[str | int, tuple[float, ...]]
+
+
 class Begun(NamedTuple):
     """A phase that begins, on a resting disc; functions of the event have to be set."""
 
     model: Model
     series: Series
     state: EngineState
+
+    def put(self, coefficients: Coefficients) -> Self:
+        """Set coefficients of series, by name, and numbers of the state, by place."""
+        for name, values in coefficients.items():
+            if isinstance(name, int):
+                self.state.x[name] = values[0]
+            else:
+                put(getattr(self.series, name), *values)
+        return self
 
     def first(self) -> tuple[float, int]:
         """Place and cause of the end within a unit of time."""
@@ -62,9 +76,7 @@ class Begun(NamedTuple):
 
     def expect(self, place: float, cause: int) -> None:
         """Compare the end; the smallest coefficients that count as zero move a root a little."""
-        found, by = self.first()
-        assert by == cause
-        assert found == pytest.approx(place, rel=1e-6)
+        assert self.first() == (pytest.approx(place, rel=1e-6), cause)
 
 
 def begun(p: Parameters, phase: int, direction: int = 0) -> Begun:
@@ -83,27 +95,54 @@ def put(function: np.ndarray, *coefficients: float) -> None:
     function[: len(coefficients)] = coefficients
 
 
-def at(place: float, cause: int):
-    """What `first` returns; the smallest coefficients that count as zero move a root a little."""
-    return pytest.approx(place, rel=1e-6), cause
+# ---- the event that is first
+
+UNLOADED: Coefficients = {"P": (1, -4), "switch": (1, -4)}
+"""Force and release function vanish together."""
+EVENTS: list[tuple[Parameters, int, Coefficients, float, int]] = [
+    (P, SLIP, {}, 1, NOTHING),
+    (P, SLIP, {"switch": (1, -2)}, 0.5, AT_REST),
+    (P, SLIP, {"switch": (1, -2), "P": (1, -4)}, 0.25, CONTACT_LOST),
+    (P, SLIP, {"switch": (1, -8), "P": (1, -4)}, 0.125, AT_REST),
+    (P.replace(contact="bilateral"), SLIP, {"P": (1, -4)}, 1, NOTHING),
+    (P, SLIP, {KNOWN: (1,), "switch": (-1, 1e3, -2e3)}, 0.5, AT_REST),
+    (COMPLIANT, SLIP, {KNOWN_FORCE: (1,), "P": (-1e6, 1e9, -2e9)}, 0.5, CONTACT_LOST),
+    (P, SEPARATION, {}, 1, NOTHING),
+    (P, SEPARATION, {"switch": (1, -2), "P": (1, -4)}, 0.5, GAP_CLOSED),
+    (P, SEPARATION, {KNOWN: (3,), "switch": (-1, 0, 0, 1e9, -2e9)}, 0.5, GAP_CLOSED),
+    (P, SEPARATION, {"switch": (0, 0, 0, -1)}, 0, GAP_CLOSED),
+    (P, STICK, {"P": (1, -4)}, 1, NOTHING),  # friction would have ended before
+    (P, STICK, {"P": (1, -4), "switch": (1, -2)}, 0.5, RELEASE_FORWARD),
+    (P, STICK, {"switch": (1,), "switch2": (2, -4)}, 1, NOTHING),  # nothing pulls it backwards
+    (P, STICK, {"switch": (3,), "switch2": (2, -4)}, 0.5, RELEASE_BACKWARD),
+    (P.replace(mu_s=0, mu_k=0), STICK, {"P": (1, -4)}, 0.25, CONTACT_LOST),
+    # the least pull ends stick by slip
+    (P, STICK, UNLOADED, 0.25, RELEASE_FORWARD),
+    (REST, STICK, UNLOADED, 0.25, CONTACT_LOST),
+    (P.replace(k_p=0, c_p=0), STICK, UNLOADED, 0.25, CONTACT_LOST),
+    (REST, STICK, UNLOADED | {PSI: (1e-9,)}, 0.25, RELEASE_FORWARD),
+    (SURFACE, STICK, UNLOADED, 0.25, CONTACT_LOST),
+    (SURFACE, STICK, UNLOADED | {"hold": (1,)}, 0.25, RELEASE_FORWARD),
+    (SURFACE, STICK, UNLOADED | {"hold": (0, 1)}, 0.25, RELEASE_FORWARD),
+]
 
 
-# ------------------------------------------------------------------------------------- slip
-def test_slip_ends_at_rest_or_by_loss_of_contact_whichever_is_first() -> None:
-    case = begun(P, SLIP, 1)
-    assert case.first() == (1.0, NOTHING)
-    put(case.series.switch, 1.0, -2.0)
-    case.expect(0.5, AT_REST)
-    put(case.series.P, 1.0, -4.0)
-    case.expect(0.25, CONTACT_LOST)
-    put(case.series.switch, 1.0, -8.0)
-    case.expect(0.125, AT_REST)
+@pytest.mark.parametrize(("p", "phase", "coefficients", "place", "cause"), EVENTS)
+def test_the_first_event_ends_a_step(
+    p: Parameters, phase: int, coefficients: Coefficients, place: float, cause: int
+) -> None:
+    begun(p, phase, int(phase == SLIP)).put(coefficients).expect(place, cause)
 
 
-def test_bilateral_contact_is_not_lost() -> None:
-    case = begun(P.replace(contact="bilateral"), SLIP, 1)
-    put(case.series.P, 1.0, -4.0)
-    assert case.first() == (1.0, NOTHING)
+@pytest.mark.parametrize("rate", [pytest.param(r, marks=COMPILES) for r in (0.0, 2.0)])
+def test_a_drive_that_begins_to_move_pulls(rate: float) -> None:
+    case = begun(REST.replace(c_p=P.k_p), STICK).put(UNLOADED)
+    ramp = {"Omega": 0.0, "N": REST.N, "Omega_rate": rate, "N_rate": 1.0}
+    case = case._replace(model=on_ramp(case.model, 0.0, 0.0, **ramp))
+    case.expect(0.25, RELEASE_FORWARD if rate else CONTACT_LOST)
+
+
+# ---- errors where a phase begins
 
 
 def test_slip_that_has_just_begun_does_not_end_by_errors_of_its_start() -> None:
@@ -133,34 +172,17 @@ def test_slip_ends_where_it_begins_if_more_than_an_error_says_so() -> None:
     assert case.first() == (0.0, AT_REST)
 
 
-def test_a_known_root_of_slip_is_none() -> None:
-    case = begun(P, SLIP, 1)
-    case.state.x[KNOWN] = 1
-    put(case.series.switch, -1.0, 1e3, -2e3)
-    case.expect(0.5, AT_REST)
-
-
 @pytest.mark.parametrize("p", [P, COMPLIANT])
 def test_compliant_contact_that_has_just_begun_is_not_lost_by_an_error(p: Parameters) -> None:
     """Its force starts at zero; that of rigid contact does not."""
     case = begun(p, SLIP, 1)
     error = TOLERANCE * p.N
     put(case.series.P, -0.5 * error, 1e6, -2e6)
-    expected = (0.0, CONTACT_LOST)
-    if p.contact_compliance:
-        expected = at(0.5, CONTACT_LOST)
-    assert case.first() == expected
+    case.expect(0.5 if p.contact_compliance else 0.0, CONTACT_LOST)
     put(case.series.P, -2.0 * error, 1e6, -2e6)
     assert case.first() == (0.0, CONTACT_LOST)
     put(case.series.P, -0.5 * error, -1e6, 2e6)
     assert case.first() == (0.0, CONTACT_LOST)
-
-
-def test_a_known_root_of_the_force_is_none() -> None:
-    case = begun(COMPLIANT, SLIP, 1)
-    case.state.x[KNOWN_FORCE] = 1
-    put(case.series.P, -1e6, 1e9, -2e9)
-    case.expect(0.5, CONTACT_LOST)
 
 
 @pytest.mark.parametrize(
@@ -184,15 +206,6 @@ def test_small_changes_go_in_steps_that_their_growth_allows(phase: int, limited:
 
 
 # ------------------------------------------------------------------------------------- separation
-def test_separation_ends_where_the_gap_closes() -> None:
-    case = begun(P, SEPARATION)
-    assert case.first() == (1.0, NOTHING)
-    put(case.series.switch, 1.0, -2.0)
-    put(case.series.P, 1.0, -4.0)
-    case.expect(0.5, GAP_CLOSED)
-    case.state.x[KNOWN] = 3
-    put(case.series.switch, -1.0, 0.0, 0.0, 1e9, -2e9)
-    case.expect(0.5, GAP_CLOSED)
 
 
 CLOSING = 0.1
@@ -215,80 +228,7 @@ def test_a_gap_that_has_just_opened_does_not_close_by_errors_of_its_start(order:
     assert case.first() == (0.0, GAP_CLOSED)
 
 
-def test_a_gap_that_does_not_open_closes_at_once() -> None:
-    case = begun(P, SEPARATION)
-    put(case.series.switch, 0.0, 0.0, 0.0, -1.0)
-    assert case.first() == (0.0, GAP_CLOSED)
-
-
 # ------------------------------------------------------------------------------------- stick
-def test_stick_ends_where_friction_is_overcome() -> None:
-    case = begun(P, STICK)
-    put(case.series.P, 1.0, -4.0)
-    assert case.first() == (1.0, NOTHING)  # friction would have ended before
-    put(case.series.switch, 1.0, -2.0)
-    case.expect(0.5, RELEASE_FORWARD)
-
-
-def test_stick_is_released_backwards_only_if_it_is_pulled_backwards() -> None:
-    case = begun(P, STICK)
-    put(case.series.switch, 1.0)
-    put(case.series.switch2, 2.0, -4.0)
-    assert case.first() == (1.0, NOTHING)
-    put(case.series.switch, 3.0)
-    case.expect(0.5, RELEASE_BACKWARD)
-
-
-def test_a_slider_without_friction_loses_contact_in_stick() -> None:
-    case = begun(P.replace(mu_s=0, mu_k=0), STICK)
-    put(case.series.P, 1.0, -4.0)
-    case.expect(0.25, CONTACT_LOST)
-
-
-def unloaded(p: Parameters) -> Begun:
-    """Stick whose force and release function vanish together."""
-    case = begun(p, STICK)
-    put(case.series.P, 1.0, -4.0)
-    put(case.series.switch, 1.0, -4.0)
-    return case
-
-
-REST = P.replace(Omega=0)
-
-
-@pytest.mark.parametrize("p", [REST, P.replace(k_p=0, c_p=0)])
-def test_stick_without_any_pull_ends_by_loss_of_contact(p: Parameters) -> None:
-    case = unloaded(p)
-    case.expect(0.25, CONTACT_LOST)
-
-
-def test_the_least_pull_ends_stick_by_slip() -> None:
-    assert unloaded(P).first() == at(0.25, RELEASE_FORWARD)
-    case = unloaded(REST)
-    case.state.x[PSI] = 1e-9
-    case.expect(0.25, RELEASE_FORWARD)
-
-
-@pytest.mark.parametrize("order", [0, 1], ids=["now", "soon"])
-@pytest.mark.parametrize("hold", [0.0, 1.0])
-def test_a_surface_that_moves_pulls(order: int, hold: float) -> None:
-    case = unloaded(REST.replace(friction_offset=0.01))
-    case.series.hold[order] = hold
-    cause = CONTACT_LOST
-    if hold:
-        cause = RELEASE_FORWARD
-    case.expect(0.25, cause)
-
-
-@pytest.mark.parametrize("rate", [pytest.param(r, marks=COMPILES) for r in (0.0, 2.0)])
-def test_a_drive_that_begins_to_move_pulls(rate: float) -> None:
-    case = unloaded(REST.replace(c_p=P.k_p))
-    ramp = {"Omega": 0.0, "N": REST.N, "Omega_rate": rate, "N_rate": 1.0}
-    case = case._replace(model=on_ramp(case.model, 0.0, 0.0, **ramp))
-    cause = CONTACT_LOST
-    if rate:
-        cause = RELEASE_FORWARD
-    case.expect(0.25, cause)
 
 
 # ------------------------------------------------------------------------------------- the clock

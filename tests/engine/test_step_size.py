@@ -1,18 +1,16 @@
 """The length of a step by the last terms of its series, each of them alone."""
 
 import math
-from collections.abc import Callable
 
+import numpy as np
 import pytest
 
 from disc_model import Parameters
 from disc_model.engine import step_size
-from disc_model.engine.jit.simd import WIDTH
 from disc_model.engine.model import Model
-from disc_model.engine.series import Series, build_series, displacement_at
-from disc_model.engine.state import SEPARATION, SLIP, STICK
+from disc_model.engine.series import Series, build_series, velocity_at
+from disc_model.engine.state import SEPARATION, SLIP, STICK, WIDTH
 from disc_model.simulation.states import engine_case
-from tests.engine.test_state import in_python
 
 ORDER = 20
 TOLERANCE = 1e-13
@@ -20,16 +18,19 @@ SMALL = 1e-16
 """Of a last term, over what it is compared with: the step is then about 1.4 units of time."""
 ROOT = 0.01
 """The root of the engine is right to 0.8 %, a factor of two in an error is 3.5 %."""
-LAST_OF_FORCE = SMALL * step_size.TYPICAL_STEP
-"""The force is known to an order less than the rest."""
+LONGEST = step_size.LONGEST_STEP
 
 P = Parameters(N=200, Omega=10)
 COMPLIANT = P.replace(contact_compliance=1e-7)
+NORMAL = P.replace(contact_force="normal")
 FALLING = P.replace(friction_law="exponential", friction_decay=2.0)
+RESTING = P.replace(Omega=0)
+ORDERS_LESS = {"P": 1, "switch": 1, "switch2": 1}
+"""To which series of forces are known."""
 
 
 def at_rest(p: Parameters) -> tuple[Model, Series]:
-    """A case, and a series whose coefficients are zero but for drive and load."""
+    """Return a case, and a series whose coefficients are zero but for drive and load."""
     model = engine_case(p).model
     series = build_series(model, ORDER)
     series.drive[0] = p.Omega
@@ -37,192 +38,126 @@ def at_rest(p: Parameters) -> tuple[Model, Series]:
     return model, series
 
 
-def length(model: Model, series: Series, phase: float = SLIP, tolerance: float = TOLERANCE):
-    return step_size.step_size(model, series, ORDER, tolerance, float(phase))
+def scale_of(model: Model, name: str) -> float:
+    """Return what a series is compared with at rest: static deflection, drive or preload."""
+    modal = model.velocity_scale
+    scales = {"pairs": modal, "g": modal, "v": model.slider_scale, "f": P.Omega}
+    return scales.get(name, P.N)
 
 
-def wanted(*errors: float) -> float:
-    """The step at which these relative last terms, as if of the full order, meet the tolerance."""
-    return (TOLERANCE / sum(errors)) ** (1 / ORDER)
+def coefficient(series: Series, name: str, k: int) -> np.ndarray:
+    """Return the place of a coefficient; of pairs of modes, a whole block."""
+    if name == "pairs":
+        place = velocity_at(k, 0)
+        return series.modes[place : place + WIDTH]
+    return getattr(series, name)[k : k + 1]
 
 
-def expect(found: float, *errors: float) -> None:
-    """Compare a step with that which these relative last terms allow."""
-    assert found == pytest.approx(wanted(*errors), rel=ROOT)
+def put(model: Model, series: Series, name: str, relative: float, before: int = 0) -> None:
+    """Set a series' last term, or one before, to as much as counts like this over its scale."""
+    k = ORDER - ORDERS_LESS.get(name, 0) - before
+    unit = scale_of(model, name) * step_size.TYPICAL_STEP ** (ORDER - k)
+    coefficient(series, name, k)[:] = relative * unit
 
 
-def put_pairs(series: Series, k: int, value: float) -> None:
-    """Set the velocities of a block of pairs, of order k."""
-    start = in_python(displacement_at)(k, 0) + WIDTH
-    series.modes[start : start + WIDTH] = value
+def length(model: Model, series: Series, phase: float = SLIP) -> float:
+    return step_size.step_size(model, series, ORDER, TOLERANCE, float(phase))
 
 
-def test_nothing_that_changes_allows_the_longest_step() -> None:
-    assert length(*at_rest(P)) == step_size.LONGEST_STEP
+def allowed(error: float) -> object:
+    """Return the step at which such an error, as if of the full order, meets the tolerance."""
+    if error == 0:
+        return LONGEST
+    return pytest.approx((TOLERANCE / error) ** (1 / ORDER), rel=ROOT)
 
 
-@pytest.mark.parametrize("k", [ORDER, ORDER - 1])
-def test_modal_velocities_are_compared_with_those_of_static_deflection(k: int) -> None:
-    model, series = at_rest(P)
-    last = SMALL * model.velocity_scale * step_size.TYPICAL_STEP ** (ORDER - k)
-    series.g[k] = -last
-    found = length(model, series)
-    expect(found, SMALL)
-    series.g[0] = 100 * model.velocity_scale
-    found = length(model, series)
-    expect(found, SMALL / 100)
-
-
-@pytest.mark.parametrize("k", [ORDER, ORDER - 1])
-def test_slip_is_compared_with_the_drive_or_with_itself(k: int) -> None:
-    model, series = at_rest(P)
-    series.f[k] = SMALL * P.Omega * step_size.TYPICAL_STEP ** (ORDER - k)
-    found = length(model, series)
-    expect(found, SMALL)
-    series.f[0] = -50 * P.Omega
-    found = length(model, series)
-    expect(found, SMALL / 50)
-
-
-@pytest.mark.parametrize("k", [ORDER - 1, ORDER - 2])
-def test_the_force_is_compared_with_the_preload_but_in_separation(k: int) -> None:
-    model, series = at_rest(P)
-    series.P[k] = SMALL * P.N * step_size.TYPICAL_STEP ** (ORDER - k)
-    for phase in (SLIP, STICK):
-        found = length(model, series, phase)
-        expect(found, SMALL)
-    assert length(model, series, SEPARATION) == step_size.LONGEST_STEP
-
-
-@pytest.mark.parametrize(("p", "phase"), [(P, SEPARATION), (COMPLIANT, SLIP)])
-def test_the_slider_counts_where_the_disc_does_not_carry_it(p: Parameters, phase: int) -> None:
+@pytest.mark.parametrize("before", [0, 1])
+@pytest.mark.parametrize(
+    ("name", "p", "phase", "start", "counts"),
+    [
+        ("pairs", P, SLIP, 0, 1),
+        ("g", P, SLIP, 0, 1),
+        ("g", P, SLIP, 100, 0.01),
+        ("f", P, SLIP, 0, 1),
+        ("f", P, SLIP, -50, 0.02),
+        ("f", FALLING, SLIP, 1, 10),
+        ("f", RESTING, SLIP, 0, P.Omega),  # nothing to compare with
+        ("P", P, SLIP, 0, 1),
+        ("P", P, STICK, 0, 1),
+        ("P", P, SEPARATION, 0, 0),
+        ("v", P, SLIP, 0, 0),
+        ("v", P, SEPARATION, 0, 1),
+        ("v", COMPLIANT, SLIP, 0, 1),
+        ("switch", NORMAL, STICK, 0, 1),
+        ("switch2", NORMAL, STICK, 0, 1),
+        ("switch2", NORMAL, SLIP, 0, 0),
+    ],
+)
+def test_a_last_term_is_compared_with_its_scale_or_the_present_size(
+    name: str, p: Parameters, phase: int, start: float, counts: float, before: int
+) -> None:
     model, series = at_rest(p)
-    series.v[ORDER] = SMALL * model.slider_scale
-    found = length(model, series, phase)
-    expect(found, SMALL)
-
-
-def test_the_slider_on_a_rigid_disc_does_not_count() -> None:
-    model, series = at_rest(P)
-    series.v[ORDER] = SMALL * model.slider_scale
-    assert length(model, series) == step_size.LONGEST_STEP
-
-
-def test_a_step_out_of_compliant_contact_is_measured_by_its_own_motion() -> None:
-    model, series = at_rest(COMPLIANT)
-    assert length(model, series, SEPARATION) == pytest.approx(
-        step_size.LONGEST_STEP * model.free_unit
-    )
-    last = SMALL * model.slider_scale
-    series.v[ORDER - 1] = last * step_size.TYPICAL_STEP * model.free_unit
-    found = length(model, series, SEPARATION)
-    expect(found, SMALL)
+    coefficient(series, name, 0)[:] = start * scale_of(model, name)
+    put(model, series, name, SMALL, before)
+    assert length(model, series, phase) == allowed(counts * SMALL)
 
 
 def test_errors_add_up() -> None:
     model, series = at_rest(P)
-    put_pairs(series, ORDER, SMALL * model.velocity_scale)
-    series.f[ORDER] = 2 * SMALL * P.Omega
-    series.P[ORDER - 1] = 4 * LAST_OF_FORCE * P.N
-    found = length(model, series)
-    expect(found, SMALL, 2 * SMALL, 4 * SMALL)
-    series.v[ORDER] = 8 * SMALL * model.slider_scale
-    four = wanted(SMALL, 2 * SMALL, 8 * SMALL)
-    assert length(model, series, SEPARATION) == pytest.approx(four, rel=ROOT)
+    for relative, name in ((1, "g"), (2, "f"), (4, "P"), (8, "v")):
+        put(model, series, name, relative * SMALL)
+    assert length(model, series) == allowed(7 * SMALL)
+    assert length(model, series, SEPARATION) == allowed(11 * SMALL)
 
 
-def too_large_pairs(series: Series) -> None:
-    put_pairs(series, 0, math.inf)
-
-
-def too_large_slip(series: Series) -> None:
-    series.f[0] = -math.inf
-
-
-def too_large_term(series: Series) -> None:
-    series.f[ORDER] = math.inf
-
-
-@pytest.mark.parametrize("spoil", [too_large_pairs, too_large_slip, too_large_term])
-def test_a_number_that_overflows_leaves_no_step(spoil: Callable[[Series], None]) -> None:
+@pytest.mark.parametrize(("name", "k"), [("pairs", 0), ("f", 0), ("f", ORDER)])
+def test_a_number_that_overflows_leaves_no_step(name: str, k: int) -> None:
     model, series = at_rest(P)
-    spoil(series)
+    coefficient(series, name, k)[:] = -math.inf
     assert math.isnan(length(model, series))
 
 
-def test_the_longest_step_holds_where_the_terms_allow_more() -> None:
+@pytest.mark.parametrize(("share", "longest"), [(0.5, True), (2.0, False)])
+def test_the_longest_step_holds_where_the_terms_allow_more(share: float, longest: bool) -> None:
     model, series = at_rest(P)
-    just = TOLERANCE / step_size.LONGEST_STEP**ORDER
-    series.f[ORDER] = 0.5 * just * P.Omega
-    assert length(model, series) == step_size.LONGEST_STEP
-    series.f[ORDER] = 2.0 * just * P.Omega
-    found = length(model, series)
-    expect(found, 2.0 * just)
+    error = share * TOLERANCE / LONGEST**ORDER
+    put(model, series, "f", error)
+    assert length(model, series) == allowed(0 if longest else error)
+
+
+def test_a_step_out_of_compliant_contact_is_measured_by_its_own_motion() -> None:
+    model, series = at_rest(COMPLIANT)
+    assert length(model, series, SEPARATION) == pytest.approx(LONGEST * model.free_unit)
 
 
 def test_without_drive_a_start_is_compared_with_its_growth() -> None:
-    model, series = at_rest(P.replace(Omega=0.0))
+    model, series = at_rest(RESTING)
     series.f[1] = 3.0
     series.f[ORDER] = 3.0 * SMALL
-    found = length(model, series)
-    expect(found, SMALL)
+    assert length(model, series) == allowed(SMALL)
 
 
-def test_without_anything_to_compare_with_a_term_is_its_own_error() -> None:
-    model, series = at_rest(P.replace(Omega=0.0))
-    series.f[ORDER] = SMALL
-    found = length(model, series)
-    expect(found, SMALL)
+# ---- falling friction
 
 
-@pytest.mark.parametrize("order", [14, 20, 28])
-@pytest.mark.parametrize("ratio", [1e-30, 3.7e-4, 1.0, 2.9, 1e17])
-def test_the_root_is_right_to_a_percent(ratio: float, order: int) -> None:
-    root = in_python(step_size._root)(ratio, order)
-    assert root == pytest.approx(ratio ** (1 / order), rel=0.0085)
-
-
-# ------------------------------------------------------------------------ falling friction
-def test_slow_slip_counts_ten_times_by_its_own_speed_where_friction_falls() -> None:
+@pytest.mark.parametrize(("phase", "weight"), [(SLIP, 10 / 1.5), (STICK, None)])
+def test_slow_slip_counts_ten_times_by_its_own_speed(phase: int, weight: float | None) -> None:
     """It grows by itself, on the scale of the fall: 1 / (r_0 friction_decay)."""
     model, series = at_rest(FALLING)
     slow = 1.0 / model.decay
     series.f[0] = 0.5 * slow
-    series.f[ORDER] = SMALL * 1.5 * slow
-    found = length(model, series)
-    expect(found, 10.0 * SMALL)
-    relative = SMALL * 1.5 * slow / P.Omega
-    found = length(model, series, STICK)
-    expect(found, relative)
-    # not slower than usual
-    series.f[0] = P.Omega
-    series.f[ORDER] = SMALL * P.Omega
-    found = length(model, series)
-    expect(found, 10.0 * SMALL)
+    series.f[ORDER] = SMALL * slow
+    assert length(model, series, phase) == allowed(SMALL * (weight or slow / P.Omega))
 
 
 @pytest.mark.parametrize("sense", [1.0, -1.0])
-def test_a_step_of_fallen_friction_ends_before_half_of_the_speed_is_lost(sense: float) -> None:
+@pytest.mark.parametrize(("speed", "power"), [(2.0, 5), (0.5, 0)])
+def test_a_step_of_fallen_friction_ends_before_half_of_the_speed_is_lost(
+    sense: float, speed: float, power: int
+) -> None:
     """The loss counts terms that slow down alone, at the end of the step."""
     model, series = at_rest(FALLING)
-    speed = 2.0 * step_size.FALLEN / model.decay
-    series.f[0] = sense * speed
-    series.f[1] = -sense * speed / 4.0
-    series.f[2] = sense * speed
-    half = length(model, series)
-    assert half == pytest.approx(step_size.LONGEST_STEP * 0.75**5)
-    assert 0.75 * 2.0 < half <= 2.0
-    # slow slip, of which friction has not fallen
-    series.f[0] /= 4.0
-    assert length(model, series) == step_size.LONGEST_STEP
-    assert length(model, series, STICK) == step_size.LONGEST_STEP
-
-
-def test_release_functions_count_in_stick_under_the_normal_force() -> None:
-    model, series = at_rest(P.replace(contact_force="normal"))
-    for function in (series.switch, series.switch2):
-        function[ORDER - 1] = LAST_OF_FORCE * P.N
-        found = length(model, series, STICK)
-        expect(found, SMALL)
-        assert length(model, series, SLIP) == step_size.LONGEST_STEP
-        function[ORDER - 1] = 0.0
+    fallen = sense * step_size.FALLEN / model.decay
+    series.f[:3] = [speed * fallen, -fallen / 2.0, 2.0 * fallen]
+    assert length(model, series) == pytest.approx(LONGEST * 0.75**power)
+    assert length(model, series, STICK) == LONGEST

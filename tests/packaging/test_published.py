@@ -1,5 +1,4 @@
-"""What a public host is told: addresses, locked packages, definitions for actions; and the parts of
-`make test`."""
+"""What a public host is told: addresses and definitions for actions."""
 
 import re
 import tomllib
@@ -79,23 +78,3 @@ def test_a_placeholder_and_an_address_of_another_owner_are_recognised() -> None:
 @needs.ACTIONLINT.mark
 def test_definitions_for_actions_have_no_faults() -> None:
     assert run(needs.program("actionlint"), *WORKFLOWS.values()).stdout == ""
-
-
-def test_every_file_of_quick_tests_is_in_one_part() -> None:
-    """Those of the workflow are not quick."""
-    phrase = run("make", "-n", "test-parts").stdout
-    parts = [
-        ROOT / path
-        for line in re.findall(r"pytest .*", phrase)
-        for path in re.findall(r"tests/\S*", line)
-    ]
-    files = {
-        path
-        for path in (ROOT / "tests").rglob("test_*.py")
-        if "workflow" not in path.relative_to(ROOT).parts
-    }
-    assert len(files) > 50
-    for part in parts:
-        assert part.exists()
-    for file in files:
-        assert sum(file == part or part in file.parents for part in parts) == 1, file

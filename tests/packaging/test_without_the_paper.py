@@ -12,7 +12,6 @@ from tests.workflow.conftest import ROOT
 
 
 @pytest.mark.slow
-@pytest.mark.workflow
 def test_a_study_is_computed(tmp_path: Path) -> None:
     """One that asks for verdicts is refused before anything runs."""
     for folder in ("src/disc_model", "workflow"):

@@ -21,7 +21,7 @@ from workflow.paper import growth, ledger, paper_tables, section2, section44
 from workflow.paper.measures import CaseView, Range, views
 from workflow.paper.model import FALSE, NOT_COMPUTED, VERDICTS, Row
 
-pytestmark = pytest.mark.compiled
+pytestmark = [pytest.mark.compiled, pytest.mark.slow]
 BY_NAME = {row.id: row for row in ledger.ROWS if not row.verdict}
 
 

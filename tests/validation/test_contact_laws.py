@@ -9,10 +9,9 @@ import pytest
 from disc_model import Execution, Parameters, Window, plate_modes, simulate
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.engine import laws, transitions
-from disc_model.engine.jit.simd import WIDTH
 from disc_model.engine.model import ROWS, build_state, on_ramp, set_course
 from disc_model.engine.series import build_series
-from disc_model.engine.state import STICK
+from disc_model.engine.state import STICK, WIDTH
 from disc_model.engine.step import expand
 from disc_model.simulation.states import engine_case, static_start, write_state
 from tests.contact_laws import ALL_LAWS, COMPILES, COUPLE, LAWS

@@ -7,6 +7,7 @@ import pytest
 from disc_model import Disc, Parameters, plate_modes, simulate, steady_sliding
 from disc_model.disc.flexibility import contact_compliance
 from disc_model.disc.plate import modal_damping
+from disc_model.simulation.states import static_start
 from tests.contact_laws import LAWS
 from tests.references import taylor
 from tests.references.fixed_step import first_separation
@@ -38,10 +39,10 @@ SLIDER = {"k": 1e6, "k_p": 1e6, "m": 0.5, "mu_s": 0.45, "mu_k": 0.35, "r_0": 0.1
 
 # ------------------------------------------------------------------------ the package
 @pytest.mark.parametrize("law", EACH_LAW)
-@pytest.mark.parametrize("N", [50.0, 385.0, 600.0])
+@pytest.mark.parametrize("N", [50.0, 600.0])
 def test_growth_rates_of_the_paper_s_disc(law, N):
-    """All eigenvalues of nine modes at six speeds, to 1e-8 of a growth rate of 1/s."""
-    for Omega in (2.0, 10.0, 15.1, 20.0, 50.0, 100.0):
+    """All eigenvalues of nine modes at three speeds, to 1e-8 of a growth rate of 1/s."""
+    for Omega in (2.0, 15.1, 50.0):
         p = Parameters(N=N, Omega=Omega, **ORTHONORMAL, **EACH_LAW[law])
         compare_sliding(p)
 
@@ -78,3 +79,16 @@ def test_first_separations_are_those_of_fixed_steps(N, Omega):
     assert simulate(p, 80, stop_at="first_separation").first_separation == pytest.approx(
         wanted, rel=1e-3
     )
+
+
+@pytest.mark.slow
+def test_the_surface_s_speed_is_that_over_the_drive_s():
+    p = Parameters(N=200, Omega=10, n_diameters=1, friction_offset=0.02)
+    q = taylor.problem_of(p)
+    start = static_start(p)
+    beta = start.beta.copy()
+    beta[-1] = -3.0 / q.t[-1]
+    start = start.replace(beta=beta, f=-3.0 / p.r_0)
+    result = simulate(p, 1e-9, initial_state=start)
+    assert q.surface_speed(beta) == pytest.approx(-3.0)
+    assert result.statistics["surface_speed"] == pytest.approx(3.0 / (p.r_0 * p.Omega), rel=1e-14)

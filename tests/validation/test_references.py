@@ -112,13 +112,13 @@ def releases(events):
     return np.diff(events["time"][events["kind"] == "stick_to_slip"])
 
 
-@pytest.mark.compiled
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("case", "t_end", "period", "length"),
     [
         ({"N": 300, "Omega": 20}, 480, 45, 5),
-        pytest.param({"N": 200, "Omega": 20}, 800, 180, 30, marks=pytest.mark.slow),
-        pytest.param({"N": 300, "Omega": 50, "k_p": 2e3}, 400, 280, 28, marks=pytest.mark.slow),
+        ({"N": 200, "Omega": 20}, 800, 180, 30),
+        ({"N": 300, "Omega": 50, "k_p": 2e3}, 400, 280, 28),
     ],
 )
 def test_the_papers_method_finds_the_same_period(case, t_end, period, length):

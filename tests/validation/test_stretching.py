@@ -117,7 +117,9 @@ def compare(p, kick, span, tol=1e-14, ramps=()):
 
 
 @pytest.mark.compiled
-@pytest.mark.parametrize("name", OWN)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=() if "free" in name else pytest.mark.slow) for name in OWN]
+)
 def test_own_scenes(name):
     case = dict(OWN[name])
     kick = case.pop("kick")

@@ -12,7 +12,7 @@ from tests.processes import run
 from tests.workflow.conftest import BRACES as STUDY
 from tests.workflow.conftest import ROOT
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 SNAKEFILE = ROOT / "workflow" / "Snakefile"
 MODULE = f"""\

@@ -17,7 +17,7 @@ from tests import THREADS, instruction_sets
 from tests.processes import python
 from tests.workflow.conftest import TEXTS, Project, copy_repository
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 
 def test_one_and_two_cores(project: Project, finished: Project) -> None:

@@ -11,7 +11,7 @@ import pytest
 
 from tests.workflow.conftest import SMALL, Project
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 
 def assert_recovered(project: Project, finished: Project) -> None:

@@ -22,7 +22,7 @@ from tests import instruction_sets
 from tests.processes import python, run
 from tests.workflow.conftest import copy_repository
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 NUMBERS = ("tests/engine", "tests/simulation", "tests/stability", "tests/validation")
 DATASETS = (
@@ -76,7 +76,7 @@ def test_code_is_compiled_for_the_set(
 
 
 def test_the_numbers_pass(name: str, environment: Callable[[str], dict[str, str]]) -> None:
-    options = ("-q", "-p", "no:cacheprovider", "-m", "not slow and not workflow")
+    options = ("-q", "-p", "no:cacheprovider", "-m", "not slow")
     done = run(
         sys.executable, "-m", "pytest", *options, *NUMBERS, PYTEST_ADDOPTS="", **environment(name)
     )

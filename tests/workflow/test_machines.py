@@ -11,7 +11,7 @@ import xarray as xr
 from tests.processes import run
 from tests.workflow.conftest import ROOT
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 STUDY = """\
 study: s

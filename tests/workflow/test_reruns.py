@@ -9,7 +9,7 @@ import xarray as xr
 
 from tests.workflow.conftest import MAP, SMALL, STUDIES, Project
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 SIMULATIONS = {f"simulate_case:{case}" for case in ("F11", "F13", "X")}
 FIGURES = {"draw_figure:small:fig11", "draw_figure:small:fig13"}

@@ -14,7 +14,7 @@ import pytest
 from tests import processes
 from tests.workflow.conftest import TEXTS
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 PROGRAM = str(Path(sys.executable).with_name("disc-model"))
 

@@ -16,7 +16,7 @@ from snakemake.resources import GroupResources
 from tests import needs
 from tests.workflow.conftest import ROOT, Project
 
-pytestmark = [pytest.mark.workflow, pytest.mark.slow]
+pytestmark = pytest.mark.slow
 
 PROFILE = "workflow/profiles/slurm"
 BATCH = "compute_part"

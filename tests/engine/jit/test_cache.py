@@ -63,6 +63,7 @@ def test_what_is_in_the_cache_is_found_again_and_what_is_gone_is_compiled(tmp_pa
     assert second == ["42 1", "6.875 7.875"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("damaged", ["*.twice*.nbc", "*.twice*.nbi"])
 def test_a_damaged_file_is_compiled_again_and_replaced(tmp_path: Path, damaged: str) -> None:
     ask_for_a_kernel(tmp_path)
@@ -71,11 +72,13 @@ def test_a_damaged_file_is_compiled_again_and_replaced(tmp_path: Path, damaged: 
     assert [ask_for_a_kernel(tmp_path).stdout for _ in range(2)] == ["42 0\n", "42 1\n"]
 
 
+@pytest.mark.slow
 def test_a_comment_leaves_the_files_as_they_are(tmp_path: Path) -> None:
     ask_for_a_kernel(tmp_path)
     assert ask_for_a_kernel(tmp_path, "# a comment\n" + KERNEL).stdout == "42 1\n"
 
 
+@pytest.mark.slow
 def test_a_folder_that_cannot_be_written_costs_time_not_the_result(tmp_path: Path) -> None:
     path = tmp_path / "cache"
     path.write_text("no folder")

@@ -13,7 +13,7 @@ from tests.processes import run
 KERNELS = """
 from typing import NamedTuple
 from disc_model.engine.jit import RULES, helper, inlined, kernel
-from disc_model.engine.jit.packing import packed
+from disc_model.engine.state import packed
 class Pair(NamedTuple):
     first: float
     second: float
@@ -35,7 +35,7 @@ run = dm.simulate(dm.Parameters(N=385, Omega=15.1, n_diameters=1), 0.05)
 print(*run.events["kind"])
 print(*run.events["time"])
 """
-pytestmark = pytest.mark.compiled
+pytestmark = [pytest.mark.compiled, pytest.mark.slow]
 
 
 def answer(tmp_path: Path, code: str, **environment: str) -> subprocess.CompletedProcess[str]:
@@ -64,7 +64,6 @@ def test_without_the_parts_of_numba_that_it_needs_kernels_work_and_it_is_said_on
     assert done.stderr.count("otherwise than expected") == bool(missing)
 
 
-@pytest.mark.slow
 def test_plain_numba_gives_the_same_motion(tmp_path: Path) -> None:
     if os.environ.get("NUMBA_DISABLE_JIT"):
         pytest.skip("nothing is compiled")

@@ -12,7 +12,7 @@ COMPILE = """
 import gc, json, re, sys
 import llvmlite.binding as llvm
 import disc_model as dm
-from disc_model.engine.jit.cache import KernelCache
+from disc_model.engine.jit import cache
 from numba.core.dispatcher import Dispatcher
 
 dm.simulate(dm.Parameters(N=385, Omega=15), 0.05)
@@ -22,7 +22,7 @@ llvm.initialize_all_asmprinters()
 machine = llvm.Target.from_triple("aarch64-unknown-linux-gnu").create_target_machine(opt=2)
 report = {}
 for thing in gc.get_objects():
-    if not isinstance(thing, Dispatcher) or not isinstance(thing._cache, KernelCache):
+    if not isinstance(thing, Dispatcher) or not isinstance(thing._cache, cache.KernelCache):
         continue
     for text in thing.inspect_llvm().values():
         declared = re.findall(r"^declare [^@]*@\\"?([\\w.]+)", text, re.M)
