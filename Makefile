@@ -19,7 +19,7 @@ TESTED_engine := tests/engine tests/benchmarks tests/analysis
 TESTED_studies := tests/studies
 TESTED_others := tests/paper tests/data tests/disc tests/docs tests/packaging $(wildcard tests/test_*.py)
 
-.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck drawings env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
+.PHONY: measurements compile-times schema report explore orthonormal survival gallery docs linkcheck env reproduce test test-parts $(PARTS) test-portable test-long coverage test-study lint format bench bench-pages lock clean
 
 env: $(STAMP)
 
@@ -53,9 +53,8 @@ orthonormal: reproduce
 survival: env
 	$(BIN)/snakemake -j$(CORES) --configfile config/survival.yaml
 	$(BIN)/snakemake -j$(CORES) results/paper/survival.html
-	cp results/paper/survival.md docs/model_sensitivity.md
 
-# Comparisons with measurements: tables of docs/measurements.md.
+# Comparisons with measurements: the tables behind docs/measurements.md.
 measurements: env
 	$(BIN)/python -m docs.measurements.report
 
@@ -76,14 +75,9 @@ docs: $(VENV)/.docs
 linkcheck: $(VENV)/.docs
 	$(BIN)/sphinx-build -q -W --keep-going -b linkcheck docs docs/_build/linkcheck
 
-# The pictures that docs/ draws by itself.
-drawings: env
-	for script in docs/drawings/*.py; do PYTHONPATH=. $(BIN)/python $$script || exit 1; done
-
-# What editors check study files by, and the page of all options, from the models that check them.
+# What editors check study files by, from the models that check them.
 schema: env
 	$(BIN)/python workflow/schemas/write_schema.py > workflow/schemas/study.schema.json
-	$(BIN)/python -m docs.write_options > docs/study_options.md
 
 # All quick tests; each part says what it found when it is done.
 test: env
